@@ -15,10 +15,10 @@ PYBIND11_MODULE(ninedof_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_limits(m);
   ninedof::python::bind_redundancy(m);
   ninedof::python::bind_motion(m);
+  ninedof::python::bind_workspace_question(m);
   ninedof::python::bind_workspace(m);
   ninedof::python::bind_certified_workspace(m);
-  ninedof::python::bind_workspace_field(m);
-  ninedof::python::bind_workspace_surface(m);
+  ninedof::python::bind_workspace_drawing(m);
   ninedof::python::bind_workspace_statistics(m);
   ninedof::python::bind_acceleration(m);
   ninedof::python::bind_conditioning(m);

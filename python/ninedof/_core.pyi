@@ -1,18 +1,20 @@
 """The compiled core. Private: use the names of `ninedof`.
 
-Configurations come as three flat arrays: position (n, 3), rotation (n, 3, 3), internal point (n, 3), C-contiguous
-float64; characteristic lengths as one value or n.
+A stack of configurations comes whole (`Configuration`), or as its three arrays: position (n, 3), rotation (n, 3, 3),
+internal point (n, 3), C-contiguous float64 (`Flat`); characteristic lengths as one value or n.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
-from numpy import float64, int8, int16, int64, intc, uint8
+from numpy import float64, int8, int16, int32, int64, intc, uint8, uint32
 from numpy.typing import ArrayLike, NDArray
+
+from ninedof.robot.configuration import Configuration, Flat
 
 _Floats = NDArray[float64]
 _Out = _Floats | None
-_Nearest = tuple[float, float, _Floats, int, _Floats]
+_Poses = Configuration | Flat
 _Triple = tuple[float, float, float]
 _LimitBreak = tuple[str, float, float, float, float]
 _Range = tuple[str, Sequence[float], Sequence[float], float]
@@ -56,52 +58,90 @@ def moved(
 def neutral(zp: _Floats, zs: _Floats, theta_z: _Floats, is_stack: bool) -> tuple[_Floats, _Floats, _Floats]: ...
 
 # (n, 9), (n, 54), (n, 153), (n, 9), (n, 9)
-def leg_lengths(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, out: _Out, /) -> _Floats: ...
+def leg_lengths(g: Geometry, c: _Poses, threads: int, out: _Out, /) -> _Floats: ...
 def idle_legs(shortest: _Floats, longest: _Floats) -> list[bool]: ...
 
 idle_share: float
 
-def jacobian(g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /) -> _Floats: ...
-def velocity_matrices(g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /) -> _Floats: ...
-def forward_velocity(g: Geometry, p: _Floats, q: _Floats, s: _Floats, rates: _Floats, threads: int, /) -> _Floats: ...
+def jacobian(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def velocity_matrices(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def forward_velocity(g: Geometry, c: _Poses, rates: _Floats, threads: int, /) -> _Floats: ...
 def forward_position(
     g: Geometry, leg_lengths: _Floats, threads: int, /
 ) -> tuple[NDArray[intc], list[str], list[str], NDArray[uint8], _Floats, _Floats, NDArray[intc]]: ...
 def track(
-    g: Geometry, leg_lengths: _Floats, path: int, p: _Floats, q: _Floats, s: _Floats, threads: int, /
+    g: Geometry, leg_lengths: _Floats, path: int, c: _Poses, threads: int, /
 ) -> tuple[_Floats, NDArray[uint8]]: ...
 
 track_statuses: list[str]
 internal_point_statuses: list[str]
 
-# "internal_point" (n, 3), "value", "status", "active" (n,); "active_names" has the words for each key in "active".
-def best_internal_point(
-    g: Geometry, position: _Floats, rotation: _Floats, start: _Floats, problem: dict[str, Any], threads: int, /
-) -> dict[str, Any]: ...
-def best_internal_path(
-    g: Geometry, position: _Floats, rotation: _Floats, start: _Floats, problem: dict[str, Any], smoothness: float, /
-) -> dict[str, Any]: ...
+class LegLimits:
+    low: _Floats
+    high: _Floats
+    def __init__(self, **attributes: Any) -> None: ...
 
-# The same and "audit", "searched" and "followed".
+class InternalPointProblem:
+    criterion: str
+    limits: LegLimits
+    characteristic_length: float
+    clearance: float
+    def __init__(self, **attributes: Any) -> None: ...
+
+class MapSettings:
+    seed_every: int
+    audit_every: int
+    audit_seed: int
+    threads: int
+    def __init__(self, **attributes: Any) -> None: ...
+
+class MapAudit:
+    poses: int
+    missed: int
+    largest: float
+
+class InternalPoints:
+    internal_point: _Floats
+    value: _Floats
+    status: NDArray[uint8]
+    active: NDArray[uint32]
+    active_names: dict[int, tuple[str, ...]]
+
+class InternalPointMap:
+    points: InternalPoints
+    audit: MapAudit
+    searched: int
+    followed: int
+
+def best_internal_point(
+    g: Geometry, position: _Floats, rotation: _Floats, start: _Floats, problem: InternalPointProblem, threads: int, /
+) -> InternalPoints: ...
+def best_internal_path(
+    g: Geometry,
+    position: _Floats,
+    rotation: _Floats,
+    start: _Floats | None,
+    problem: InternalPointProblem,
+    smoothness: float,
+    /,
+) -> InternalPoints: ...
 def best_internal_map(
     g: Geometry,
     position: _Floats,
     rotation: _Floats,
     shape: Sequence[int],
     start: _Floats,
-    problem: dict[str, Any],
-    settings: dict[str, Any],
+    problem: InternalPointProblem,
+    settings: MapSettings,
     progress: _Progress | None,
     /,
-) -> dict[str, Any]: ...
+) -> InternalPointMap: ...
 
 # The fields of `Followed` that are computed; "singularity_margins" (3, n), "leg_forces" (0, 9) without loads, "tracked"
 # the number of poses. The trajectory is `time`, `position` and `rotation`.
 def follow(
     g: Geometry,
-    home_p: _Floats,
-    home_q: _Floats,
-    home_s: _Floats,
+    home: _Poses,
     time: _Floats,
     position: _Floats,
     rotation: _Floats,
@@ -118,123 +158,78 @@ def stretches(
 def limit_breaks(
     time: _Floats, leg_lengths: _Floats, low: _Floats, high: _Floats, determinants: _Floats, /
 ) -> list[_LimitBreak]: ...
-def inverse_velocity(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, threads: int, /
-) -> _Floats: ...
+def inverse_velocity(g: Geometry, c: _Poses, velocity: _Floats, threads: int, /) -> _Floats: ...
 
 # (n, 3), (n, 27)
-def internal_velocity(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, twist: _Floats, weights: _Floats, threads: int, /
-) -> _Floats: ...
-def null_motion(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, /) -> _Floats: ...
+def internal_velocity(g: Geometry, c: _Poses, twist: _Floats, weights: _Floats, threads: int, /) -> _Floats: ...
+def null_motion(g: Geometry, c: _Poses, threads: int, /) -> _Floats: ...
 
 # (n, 9), (n, 9), (n, 54)
 def forward_acceleration(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, rates: _Floats, accelerations: _Floats, threads: int, /
+    g: Geometry, c: _Poses, rates: _Floats, accelerations: _Floats, threads: int, /
 ) -> _Floats: ...
 def inverse_acceleration(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, acceleration: _Floats, threads: int, /
+    g: Geometry, c: _Poses, velocity: _Floats, acceleration: _Floats, threads: int, /
 ) -> _Floats: ...
-def jacobian_rate(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
+def jacobian_rate(g: Geometry, c: _Poses, velocity: _Floats, length: _Floats, threads: int, /) -> _Floats: ...
 
 # (n, 6), (n, 6), and (n, 1) for the indices, which write into `out` if it is not None
-def singular_values(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
-) -> _Floats: ...
+def singular_values(g: Geometry, c: _Poses, length: _Floats, threads: int, out: _Out, /) -> _Floats: ...
 def hexagonal_condition_numbers(designs: _Floats, threads: int, out: _Out, /) -> _Floats: ...
 def simd_level() -> str: ...
 def interval_operations(name: str, operands: _Floats, /) -> _Floats: ...
-def leg_length_bounds(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, /) -> _Floats: ...
-def determinant_bounds(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, /) -> _Floats: ...
-def condition_number_bounds(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
-def axis_condition_number_bounds(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
-def singular_value_bounds(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
-def jacobian_bounds(g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /) -> _Floats: ...
+def leg_length_bounds(g: Geometry, c: _Poses, threads: int, /) -> _Floats: ...
+def determinant_bounds(g: Geometry, c: _Poses, threads: int, /) -> _Floats: ...
+def condition_number_bounds(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def axis_condition_number_bounds(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def singular_value_bounds(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def jacobian_bounds(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
 def hexagonal_condition_number_bounds(designs: _Floats, threads: int, /) -> _Floats: ...
-def axis_singular_values(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
-def condition_number_two(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
-) -> _Floats: ...
-def condition_number_frobenius(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
-) -> _Floats: ...
-def reciprocal_condition_number(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
-) -> _Floats: ...
-def manipulability(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
-) -> _Floats: ...
-def isotropy_residual(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
-) -> _Floats: ...
-def characteristic_length(g: Geometry, p: _Floats, q: _Floats, s: _Floats, kind: str, threads: int, /) -> _Floats: ...
+def axis_singular_values(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def condition_number_two(g: Geometry, c: _Poses, length: _Floats, threads: int, out: _Out, /) -> _Floats: ...
+def condition_number_frobenius(g: Geometry, c: _Poses, length: _Floats, threads: int, out: _Out, /) -> _Floats: ...
+def reciprocal_condition_number(g: Geometry, c: _Poses, length: _Floats, threads: int, out: _Out, /) -> _Floats: ...
+def manipulability(g: Geometry, c: _Poses, length: _Floats, threads: int, out: _Out, /) -> _Floats: ...
+def isotropy_residual(g: Geometry, c: _Poses, length: _Floats, threads: int, out: _Out, /) -> _Floats: ...
+def characteristic_length(g: Geometry, c: _Poses, kind: str, threads: int, /) -> _Floats: ...
 
 # (n, 3), (n, 16), (k, 9), (n, 6)
-def singularity_margins(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, out: _Out, /) -> _Floats: ...
-def singularity(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, /) -> _Floats: ...
-def uncontrolled_motions(g: Geometry, p: _Floats, q: _Floats, s: _Floats, tolerance: float, /) -> _Floats: ...
-def distance_to_singularity(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, direction: _Floats, most: float, threads: int, /
-) -> _Floats: ...
+def singularity_margins(g: Geometry, c: _Poses, threads: int, out: _Out, /) -> _Floats: ...
+def singularity(g: Geometry, c: _Poses, threads: int, /) -> _Floats: ...
+def uncontrolled_motions(g: Geometry, c: _Poses, tolerance: float, /) -> _Floats: ...
+def distance_to_singularity(g: Geometry, c: _Poses, direction: _Floats, most: float, threads: int, /) -> _Floats: ...
 
-# Motions are (9, 3); distance, code of the mechanism, direction (3,), pose, the motion (9,) that leads there.
+class NearestSingularity:
+    distance: float
+    mechanism: int
+    direction: _Floats
+    pose: int
+    configuration: Configuration
+
+# Motions are (9, 3).
 def nearest_singularity(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, motions: _Floats, most: float, directions: int, threads: int, /
-) -> _Nearest: ...
-def nearest_singularities(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, internal_held: bool, /
-) -> tuple[_Nearest, _Nearest, _Nearest]: ...
+    g: Geometry, c: _Poses, motions: _Floats, most: float, directions: int, threads: int, /
+) -> NearestSingularity: ...
+def nearest_singularities(g: Geometry, c: _Poses, internal_held: bool, /) -> list[NearestSingularity]: ...
 
 # (n, 18): forces and what is unbalanced; (9, k); (n, 36); (n, 81)
-def leg_forces(g: Geometry, p: _Floats, q: _Floats, s: _Floats, load: _Floats, threads: int, /) -> _Floats: ...
-def self_stress(g: Geometry, p: _Floats, q: _Floats, s: _Floats, /) -> _Floats: ...
-def stiffness(g: Geometry, p: _Floats, q: _Floats, s: _Floats, legs: _Floats, threads: int, /) -> _Floats: ...
-def stiffness_with_o(g: Geometry, p: _Floats, q: _Floats, s: _Floats, legs: _Floats, threads: int, /) -> _Floats: ...
+def leg_forces(g: Geometry, c: _Poses, load: _Floats, threads: int, /) -> _Floats: ...
+def self_stress(g: Geometry, c: _Poses, /) -> _Floats: ...
+def stiffness(g: Geometry, c: _Poses, legs: _Floats, threads: int, /) -> _Floats: ...
+def stiffness_with_o(g: Geometry, c: _Poses, legs: _Floats, threads: int, /) -> _Floats: ...
 
 # Tolerances are (n, 21): legs, joints. (n, 81); (n, 93): nine components, three distances, covariance; (count, 9)
-def error_map(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, /) -> _Floats: ...
-def error_bounds(g: Geometry, p: _Floats, q: _Floats, s: _Floats, tolerances: _Floats, threads: int, /) -> _Floats: ...
-def error_samples(
-    g: Geometry,
-    p: _Floats,
-    q: _Floats,
-    s: _Floats,
-    tolerances: _Floats,
-    count: int,
-    seed: int,
-    threads: int,
-    /,
-) -> _Floats: ...
+def error_map(g: Geometry, c: _Poses, threads: int, /) -> _Floats: ...
+def error_bounds(g: Geometry, c: _Poses, tolerances: _Floats, threads: int, /) -> _Floats: ...
+def error_samples(g: Geometry, c: _Poses, tolerances: _Floats, count: int, seed: int, threads: int, /) -> _Floats: ...
 
 # (n, 42) for twists, (n, 12) for their parts: directions, semi-axes
-def velocity_ellipsoid_twist(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
-def velocity_ellipsoid_rotation(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
-def velocity_ellipsoid_translation(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
-def force_ellipsoid_twist(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
-def force_ellipsoid_rotation(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
-def force_ellipsoid_translation(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
-) -> _Floats: ...
+def velocity_ellipsoid_twist(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def velocity_ellipsoid_rotation(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def velocity_ellipsoid_translation(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def force_ellipsoid_twist(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def force_ellipsoid_rotation(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
+def force_ellipsoid_translation(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
 def design_family_names() -> list[str]: ...
 
 _Row = tuple[str, str, tuple[str, ...], tuple[str, ...], tuple[str, ...], float | None]
@@ -244,17 +239,63 @@ singularity_free_steps: tuple[int, int]
 
 def family_variables(family: str, /) -> list[tuple[str, str, float, float]]: ...
 
+class Limit:
+    name: str
+    low: float
+    high: float
+    of: str
+    axis: _Floats
+    steps: int
+    at: str
+    def __init__(self, **attributes: Any) -> None: ...
+    @property
+    def label(self) -> str: ...
+
+class Pose:
+    position: Sequence[float] | _Floats
+    rotation: Sequence[float] | _Floats
+    internal: Sequence[float] | _Floats
+    best_internal: bool
+    in_zp: bool
+    weight: float
+    def __init__(self, **attributes: Any) -> None: ...
+
+class Objective:
+    index: str
+    aggregate: str
+    weight: float
+    condition_limit: float
+    neutral_condition_limit: float
+    poses: list[Pose]
+    def __init__(self, **attributes: Any) -> None: ...
+
+class Region:
+    shape: str
+    size: Sequence[float] | _Floats
+    corners: Sequence[Sequence[float]]
+    tilt: float
+    yaw: float
+    shifted: bool
+    placed: bool
+    in_zp: bool
+    def __init__(self, **attributes: Any) -> None: ...
+    @property
+    def reach(self) -> list[float]: ...
+
 class Problem:
     def __init__(
         self,
         family: str,
         bounds: Sequence[tuple[float, float]],
-        limits: Sequence[dict[str, Any]],
+        limits: Sequence[Limit],
         characteristic_length: float | str | tuple[float, float],
-        objective: dict[str, Any],
+        objective: Objective,
     ) -> None: ...
     @property
     def names(self) -> list[str]: ...
+    def with_limits(
+        self, limits: Sequence[Limit], condition_limit: float, neutral_condition_limit: float, /
+    ) -> Problem: ...
     def geometry(self, x: Sequence[float], /) -> Geometry: ...
     def configurations(self, x: Sequence[float], /) -> tuple[_Floats, _Floats, _Floats]: ...
     def characteristic_length(self, x: Sequence[float], /) -> float: ...
@@ -266,18 +307,7 @@ limit_parts: dict[str, tuple[str, ...]]
 limits_over_lengths: tuple[str, ...]
 margin_tolerance: float
 
-def limit_numbers(
-    name: str,
-    axis: Sequence[float],
-    geometry: Geometry,
-    home_position: _Floats,
-    home_rotation: _Floats,
-    home_internal_point: _Floats,
-    position: _Floats,
-    rotation: _Floats,
-    internal_point: _Floats,
-    /,
-) -> _Floats: ...
+def limit_numbers(name: str, axis: ArrayLike, geometry: Geometry, home: _Poses, c: _Poses, /) -> _Floats: ...
 def pairs_sharing_a_joint(geometry: Geometry, /) -> list[bool]: ...
 
 # `optimize` returns the fields of `ninedof.Result` that the core knows, `trace` objectives and those of a `Candidate`.
@@ -294,50 +324,48 @@ class Settings:
     ) -> None: ...
 
 class PointRule:
-    def __init__(
-        self,
-        scale: Sequence[float],
-        powers: Sequence[Sequence[int]],
-        coefficients: Sequence[Sequence[float]],
-        /,
-    ) -> None: ...
-    @property
-    def scale(self) -> list[float]: ...
-    @property
-    def powers(self) -> list[list[int]]: ...
-    @property
-    def coefficients(self) -> list[_Triple]: ...
+    scale: Sequence[float] | _Floats
+    powers: Sequence[Sequence[int]]
+    coefficients: Sequence[Sequence[float] | _Floats]
+    def __init__(self, **attributes: Any) -> None: ...
 
 class PosedRobot:
     def __init__(
         self,
         geometry: Geometry,
-        position: _Floats,
-        rotation: _Floats,
-        internal_point: _Floats,
+        configurations: Configuration,
         characteristic_length: float,
-        region: Mapping[str, Any] | None,
+        region: Region | None,
         rule: PointRule | None,
         /,
     ) -> None: ...
 
 class MetAt:
-    def __init__(self, shift: Sequence[float], tilt: Sequence[float], yaw: float, pose: int, /) -> None: ...
-    @property
-    def shift(self) -> _Triple: ...
-    @property
-    def tilt(self) -> _Triple: ...
-    @property
-    def yaw(self) -> float: ...
-    @property
-    def pose(self) -> int: ...
+    shift: _Triple
+    tilt: _Triple
+    yaw: float
+    pose: int
+    def __init__(self, **attributes: Any) -> None: ...
+
+class LimitOverPoses:
+    name: str
+    kind: str
+    side: str
+    limit: float
+    value: tuple[float, float]
+    answer: str
+    which: str
+    at: list[MetAt]
+    at_neutral: bool
+    boxes: int
+
+class LimitsOverPoses:
+    limits: list[LimitOverPoses]
+    lengths: tuple[tuple[float, float], ...]
 
 def limits_over_poses(
     machine: PosedRobot, problem: Problem, tolerance: float, threads: int, seconds: float, /
-) -> tuple[
-    list[tuple[str, str, str, float, tuple[float, float], str, str, list[MetAt], bool, int]],
-    list[tuple[float, float]],
-]: ...
+) -> LimitsOverPoses: ...
 
 class ConditionSettings:
     def __init__(
@@ -373,15 +401,15 @@ def search_condition(
     progress: _Progress | None,
     /,
 ) -> ConditionState: ...
-def region_pose(region: dict[str, Any], at: Sequence[float], /) -> tuple[_Triple, _Triple, _Triple]: ...
-def region_poses(region: dict[str, Any], at: _Floats, /) -> _Floats: ...
+def region_pose(region: Region, at: Sequence[float], /) -> tuple[_Triple, _Triple, _Triple]: ...
+def region_poses(region: Region, at: _Floats, /) -> _Floats: ...
 def search_region(
-    problem: Problem, region: dict[str, Any], variables: Sequence[float], samples: int, seed: int, threads: int, /
+    problem: Problem, region: Region, variables: Sequence[float], samples: int, seed: int, threads: int, /
 ) -> dict[str, Any]: ...
 def leg_ranges(problem: Problem, zp: float, lengths: _Floats, /) -> list[_Range]: ...
 def search_region_placed(
     problem: Problem,
-    region: dict[str, Any],
+    region: Region,
     variables: Sequence[float],
     log_index: float,
     ranges: Sequence[_Range],
@@ -391,17 +419,14 @@ def search_region_placed(
     threads: int,
     /,
 ) -> dict[str, Any]: ...
-def place_in_region(
-    problem: Problem,
-    region: dict[str, Any],
-    variables: Sequence[float],
-    log_index: float,
-    ranges: Sequence[_Range],
-    known: Sequence[Sequence[float]],
-    at: _Floats,
-    threads: int,
-    /,
-) -> tuple[_Floats, _Floats]: ...
+
+class PlacedDesign:
+    problem: Problem
+    variables: Sequence[float] | _Floats
+    log_index: float
+    ranges: Sequence[_Range]
+    known: Sequence[Sequence[float]]
+    def __init__(self, **attributes: Any) -> None: ...
 
 class OptimumCheck:
     @property
@@ -431,149 +456,277 @@ class RegionCheck:
 
 def check_optimum(problem: Problem, variables: Sequence[float], steps: int, seed: int, /) -> OptimumCheck: ...
 def check_region(
-    problem: Problem,
-    region: dict[str, Any],
-    variables: Sequence[float],
-    leg_ranges: Sequence[Sequence[float]],
-    seed: int,
-    /,
+    problem: Problem, region: Region, variables: Sequence[float], legs: LegLimits | None, seed: int, /
 ) -> RegionCheck: ...
-
-class RuleTask:
-    def __init__(
-        self,
-        machine: PosedRobot,
-        problem: Problem,
-        variables: Sequence[float],
-        log_index: float,
-        ranges: Sequence[_Range],
-        known: Sequence[Sequence[float]],
-        /,
-    ) -> None: ...
-
-def fit_rule(task: RuleTask, threads: int, phase: Callable[[str], object], /) -> PointRule: ...
+def place_in_region(design: PlacedDesign, region: Region, at: _Floats, threads: int, /) -> tuple[_Floats, _Floats]: ...
+def fit_rule(
+    machine: PosedRobot, design: PlacedDesign, threads: int, phase: Callable[[str], object], /
+) -> PointRule: ...
 def optimize(problem: Problem, settings: Settings, progress: _Progress | None, /) -> dict[str, Any]: ...
 def optimize_region(
     problem: Problem,
-    region: dict[str, Any],
+    region: Region,
     settings: Settings,
     progress: _Progress | None,
     phase: Callable[[str], object] | None,
     /,
 ) -> dict[str, Any]: ...
 def trace(problem: Problem, start: Sequence[float], formulation: str, /) -> tuple[list[float], dict[str, Any]]: ...
-def prove_optimum(
-    study: Problem,
-    target: float,
-    threads: int,
-    box_limit: int,
-    time_limit: float,
-    keep_tree: bool,
-    progress: _Progress | None,
-    /,
-) -> dict[str, Any]: ...
-def check_certificate(certificate: bytes, progress: _Progress | None, /) -> tuple[bool, str, int, int, list[str]]: ...
+
+class OptimumSettings:
+    target: float
+    threads: int
+    box_limit: int
+    time_limit: float
+    keep_tree: bool
+    def __init__(self, **attributes: Any) -> None: ...
+
+class OptimumProof:
+    lower_bound: float
+    complete: bool
+    boxes: int
+    open: int
+    better: float | None
+    seconds: float
+    interrupted: bool
+    left_out: tuple[str, ...]
+    certificate: bytes
+
+class Verdict:
+    proved: bool
+    words: str
+    boxes: int
+    recut: int
+    study: tuple[str, ...]
+
+def prove_optimum(study: Problem, settings: OptimumSettings, progress: _Progress | None, /) -> OptimumProof: ...
+def check_certificate(certificate: bytes, progress: _Progress | None, /) -> Verdict: ...
 
 workspace_limits: list[str]
 
+class OrientationRegion:
+    chart: str
+    angle: float
+    torsion_low: float
+    torsion_high: float
+    def __init__(self, **attributes: Any) -> None: ...
+
+class WorkspaceDomain:
+    archetype: str
+    low: _Floats
+    high: _Floats
+    position: _Floats
+    rotations: _Floats
+    region: OrientationRegion
+    def __init__(self, **attributes: Any) -> None: ...
+
+class InternalPointRule:
+    kind: str
+    fraction: float
+    point: _Floats
+    def __init__(self, **attributes: Any) -> None: ...
+
+class WorkspaceCriteria:
+    legs: LegLimits | None
+    limits: list[Limit]
+    exempt: list[bool]
+    condition_number: float | None
+    characteristic_length: float
+    def __init__(self, **attributes: Any) -> None: ...
+
+class WorkspaceQuestion:
+    domain: WorkspaceDomain
+    rule: InternalPointRule
+    criteria: WorkspaceCriteria
+    home: Configuration | None
+    def __init__(self, geometry: Geometry, /, **attributes: Any) -> None: ...
+    @property
+    def geometry(self) -> Geometry: ...
+
+class WorkspaceSettings:
+    method: str
+    tolerance: float
+    resolution: int
+    most_evaluations: int
+    points: int
+    shifts: int
+    seed: int
+    threads: int
+    def __init__(self, **attributes: Any) -> None: ...
+
+class WorkspaceCells:
+    centre: _Floats
+    state: NDArray[uint8]
+    limit: NDArray[int16]
+    fraction: _Floats
+    condition_number: _Floats
+    piece: NDArray[int32]
+
+class WorkspaceMap:
+    status: str
+    volume: float
+    error: float
+    unseen: float
+    chart_volume: float
+    box_limits: bool
+    home_allowed: bool
+    home_limit: str
+    pieces: _Floats
+    ball_centre: _Floats
+    ball_radius: float
+    box_low: _Floats
+    box_high: _Floats
+    conditioning_index: float
+    conditioning_index_error: float
+    worst_condition_number: float
+    worst_at: _Floats
+    percentiles: _Floats
+    boundary_area: float
+    limit_area: _Floats
+    levels: _Floats
+    cells: WorkspaceCells
+    sides: _Floats
+    low: _Floats
+    high: _Floats
+    evaluations: int
+    internal_point_audit: MapAudit
+
 def workspace(
-    g: Geometry,
-    domain: dict[str, Any],
-    kind: str,
-    fraction: float,
-    point: _Floats,
-    criteria: dict[str, Any],
-    settings: dict[str, Any],
-    home: tuple[_Floats, _Floats, _Floats] | None,
-    progress: _Progress | None,
-) -> dict[str, Any]: ...
+    question: WorkspaceQuestion, settings: WorkspaceSettings, progress: _Progress | None, /
+) -> WorkspaceMap: ...
+
+class CertifySettings:
+    gap: float
+    seconds: float
+    threads: int
+    boxes: int
+    def __init__(self, **attributes: Any) -> None: ...
+
+class CertifiedWorkspace:
+    end: str
+    volume: tuple[float, float]
+    home_volume: tuple[float, float]
+    home: str
+    beyond: str
+    box_low: _Floats
+    box_high: _Floats
+    low: _Floats
+    high: _Floats
+    inner_low: _Floats
+    inner_high: _Floats
+    open_low: _Floats
+    open_high: _Floats
+    open_volume: _Floats
+    first_cut: NDArray[int64]
+    cuts: _Floats
+    looked: int
+
 def certified_workspace(
-    g: Geometry,
-    domain: dict[str, Any],
-    kind: str,
-    fraction: float,
-    point: _Floats,
-    criteria: dict[str, Any],
-    settings: dict[str, Any],
-    home: tuple[_Floats, _Floats, _Floats] | None,
-    progress: _Progress | None,
-) -> dict[str, Any]: ...
-def region_share(
-    g: Geometry,
-    home: tuple[_Floats, _Floats, _Floats],
-    criteria: Mapping[str, Any],
-    region: Mapping[str, Any],
-    count: int,
-    /,
-) -> tuple[float, int, tuple[str, ...]]: ...
-def spread_rotations(count: int, angle: float) -> _Floats: ...
-
-class PlatformMotion:
-    def __init__(
-        self,
-        internal: str,
-        linear_speed: float,
-        angular_speed: float,
-        given: tuple[Sequence[float], Sequence[float]] | None,
-    ) -> None: ...
-
-class SheetQuestion:
-    def __init__(
-        self,
-        geometry: Geometry,
-        position: _Floats,
-        rotation: _Floats,
-        internal_point: _Floats,
-        limits: Sequence[tuple[str, Sequence[float]]],
-        exempt: Sequence[bool],
-        motion: PlatformMotion,
-        loads: Sequence[Sequence[float]],
-        weight: tuple[float, Sequence[float], Sequence[float]] | None,
-        errors: tuple[Sequence[float] | _Floats, Sequence[float] | _Floats] | None,
-        leg_stiffness: Sequence[float] | _Floats | None,
-        characteristic_length: float | None,
-    ) -> None: ...
-
-def sheet_numbers(question: SheetQuestion, p: _Floats, q: _Floats, s: _Floats, /) -> list[tuple[str, _Floats]]: ...
-def sheet_over_region(
-    question: SheetQuestion, region: dict[str, Any], samples: int, placing: tuple[Any, ...] | None, /
-) -> tuple[_Floats, int, float, float]: ...
-def leg_lengths_over(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, region: dict[str, Any], samples: int, /
-) -> tuple[_Floats, _Floats]: ...
+    question: WorkspaceQuestion, settings: CertifySettings, progress: _Progress | None, /
+) -> CertifiedWorkspace: ...
 def certified_states(certified: Any, points: _Floats, /) -> NDArray[int8]: ...
 
-_Ends = tuple[_Floats, _Floats]
-_Axes = tuple[_Floats, _Floats, _Floats]
-_Section = tuple[_Floats, _Floats, NDArray[uint8], NDArray[int16], _Floats, _Floats]
+class RegionShare:
+    share: float
+    looked_at: int
+    passed: tuple[str, ...]
 
-# Cells, fields and surfaces are the tuples of ninedof.workspace.
-def workspace_field(cells: Any, ends: _Ends, most: int, /) -> tuple[_Axes, _Floats, _Floats]: ...
-def workspace_surface(field: Any, /) -> tuple[_Floats, NDArray[int64]]: ...
-def cell_section(cells: Any, ends: _Ends, fixed: int, at: float, pixels: int, /) -> _Section: ...
-def field_section(cells: Any, ends: _Ends, field: Any, fixed: int, at: float, /) -> _Section: ...
-def surface_normals(surface: Any, /) -> _Floats: ...
-def enclosed_volume(surface: Any, /) -> float: ...
+def region_share(question: WorkspaceQuestion, region: Region, count: int, /) -> RegionShare: ...
+def spread_rotations(count: int, angle: float) -> _Floats: ...
+
+class TwistMotion:
+    twist: Sequence[float] | _Floats
+    rate: Sequence[float] | _Floats
+    def __init__(self, **attributes: Any) -> None: ...
+
+class PlatformMotion:
+    internal: str
+    linear_speed: float
+    angular_speed: float
+    given: TwistMotion | None
+    def __init__(self, **attributes: Any) -> None: ...
+
+class Weight:
+    mass: float
+    centre: Sequence[float] | _Floats
+    gravity: Sequence[float] | _Floats
+    def __init__(self, **attributes: Any) -> None: ...
+
+class Tolerances:
+    legs: _Floats
+    joints: Sequence[float] | _Floats
+    def __init__(self, **attributes: Any) -> None: ...
+
+class SheetQuestion:
+    limits: Sequence[tuple[str, _Floats]]
+    exempt: Sequence[bool]
+    motion: PlatformMotion | None
+    loads: Any
+    weight: Weight | None
+    errors: Tolerances | None
+    leg_stiffness: _Floats | None
+    characteristic_length: float | None
+    def __init__(self, geometry: Geometry, neutral: Configuration, /, **attributes: Any) -> None: ...
+
+class SheetRegion:
+    worst: _Floats
+    looked_at: int
+    mean: float
+    mean_error: float
+
+def sheet_numbers(question: SheetQuestion, c: _Poses, /) -> dict[str, _Floats]: ...
+def sheet_over_region(
+    question: SheetQuestion, region: Region, samples: int, placed: PlacedDesign | None, /
+) -> SheetRegion: ...
+def leg_lengths_over(
+    g: Geometry, neutral: Configuration, region: Region, samples: int, /
+) -> tuple[_Floats, _Floats]: ...
+
+_Axes = tuple[_Floats, _Floats, _Floats]
+
+class WorkspaceSurface:
+    @property
+    def points(self) -> _Floats: ...
+    @property
+    def faces(self) -> NDArray[int64]: ...
+    @property
+    def normals(self) -> _Floats: ...
+    @property
+    def volume(self) -> float: ...
+
+class WorkspaceField:
+    def __init__(self, axes: Sequence[_Floats], fraction: _Floats, condition_number: _Floats) -> None: ...
+    @property
+    def axes(self) -> _Axes: ...
+    @property
+    def fraction(self) -> _Floats: ...
+    @property
+    def condition_number(self) -> _Floats: ...
+    def surface(self) -> WorkspaceSurface: ...
+
+class WorkspaceSection:
+    horizontal: _Floats
+    vertical: _Floats
+    state: NDArray[uint8]
+    limit: NDArray[int16]
+    condition_number: _Floats
+    fraction: _Floats
+
+# Maps are ninedof.workspace.WorkspaceMap.
+def workspace_field(map: Any, most: int, /) -> WorkspaceField: ...
+def cell_section(map: Any, fixed: int, at: float, pixels: int, /) -> WorkspaceSection: ...
+def field_section(map: Any, field: WorkspaceField, fixed: int, at: float, /) -> WorkspaceSection: ...
+
+class IndexStatistics:
+    mean: float
+    least: float
+    least_at: list[float]
+    greatest: float
+    greatest_at: list[float]
 
 class WorkspacePoses:
     @property
-    def position(self) -> _Floats: ...
-    @property
-    def rotation(self) -> _Floats: ...
-    @property
-    def internal_point(self) -> _Floats: ...
-    def statistics(
-        self, values: _Floats, by_modulus: bool, /
-    ) -> tuple[float, float, list[float], float, list[float]]: ...
+    def configurations(self) -> Configuration: ...
+    def statistics(self, values: _Floats, by_modulus: bool, /) -> IndexStatistics: ...
 
-def workspace_poses(
-    g: Geometry,
-    domain: Mapping[str, Any],
-    kind: str,
-    fraction: float,
-    point: _Floats,
-    cells: Any,
-    ends: _Ends,
-    first_piece_alone: bool,
-    /,
-) -> WorkspacePoses: ...
+def workspace_poses(question: WorkspaceQuestion, map: Any, first_piece_alone: bool, /) -> WorkspacePoses: ...

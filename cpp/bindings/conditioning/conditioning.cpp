@@ -20,9 +20,8 @@ constexpr long block = 1024;
 /// Binds an index over a stack of configurations: fill(geometry, configurations, lengths, out) writes one number each.
 template <class Fill>
 void bind_index(py::module_& m, const char* name, Fill fill) {
-  m.def(name, [fill](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length,
-                     int threads, const py::object& out) {
-    const ConfigurationStack c(p, q, s);
+  m.def(name, [fill](const Geometry& g, const ConfigurationStack& c, const Array& length, int threads,
+                     const py::object& out) {
     const Lengths lc(length, c.count());
     return for_each_block(c.count(), 1, block, threads, out,
                           [&](long first, long last, double* to) { fill(g, c.view(first, last), lc.from(first), to); });
@@ -57,14 +56,13 @@ void bind_conditioning(py::module_& m) {
   bind_index(m, "manipulability", by_singular_values([](const Vec6& sigma) { return manipulability(sigma); }));
   bind_index(m, "isotropy_residual", by_singular_values([](const Vec6& sigma) { return isotropy_residual(sigma); }));
 
-  m.def("singular_values", [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length,
-                              int threads, const py::object& out) {
-    const ConfigurationStack c(p, q, s);
-    const Lengths lc(length, c.count());
-    return for_each_block(c.count(), 6, block, threads, out, [&](long first, long last, double* to) {
-      batch::singular_values(g, c.view(first, last), lc.from(first), to);
-    });
-  });
+  m.def("singular_values",
+        [](const Geometry& g, const ConfigurationStack& c, const Array& length, int threads, const py::object& out) {
+          const Lengths lc(length, c.count());
+          return for_each_block(c.count(), 6, block, threads, out, [&](long first, long last, double* to) {
+            batch::singular_values(g, c.view(first, last), lc.from(first), to);
+          });
+        });
   m.def("hexagonal_condition_numbers", [](const Array& designs, int threads, const py::object& out) {
     const long count = static_cast<long>(designs.size() / 6);
     const double* x = rows("designs", designs, count, 6);
@@ -73,27 +71,24 @@ void bind_conditioning(py::module_& m) {
     });
   });
   m.def("simd_level", &batch::simd_level);
-  m.def("axis_singular_values",
-        [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {
-          const ConfigurationStack c(p, q, s);
-          const Lengths lc(length, c.count());
-          return for_each_row(c.count(), 6, threads, py::none(), [&](long i, double* out) {
-            const Configuration pose = c[i];
-            Vec6 sigma;
-            if (pose.position.hasNaN() || pose.rotation.hasNaN() || pose.internal_point.hasNaN()) {
-              Eigen::Map<Vec6>{out} = sigma.setConstant(std::numeric_limits<double>::quiet_NaN());
-              return;
-            }
-            const AxisSpectrum<double> a = axis_spectrum_of_any_size(axis_design(g, pose), lc[i]);
-            sigma << a.axial_max, a.axial_min, a.transverse_max, a.transverse_max, a.transverse_min, a.transverse_min;
-            sigma = sigma.cwiseInverse().eval();
-            if (!sigma.hasNaN()) std::sort(sigma.begin(), sigma.end(), std::greater<>());
-            Eigen::Map<Vec6>{out} = sigma;
-          });
-        });
+  m.def("axis_singular_values", [](const Geometry& g, const ConfigurationStack& c, const Array& length, int threads) {
+    const Lengths lc(length, c.count());
+    return for_each_row(c.count(), 6, threads, py::none(), [&](long i, double* out) {
+      const Configuration pose = c[i];
+      Vec6 sigma;
+      if (pose.position.hasNaN() || pose.rotation.hasNaN() || pose.internal_point.hasNaN()) {
+        Eigen::Map<Vec6>{out} = sigma.setConstant(std::numeric_limits<double>::quiet_NaN());
+        return;
+      }
+      const AxisSpectrum<double> a = axis_spectrum_of_any_size(axis_design(g, pose), lc[i]);
+      sigma << a.axial_max, a.axial_min, a.transverse_max, a.transverse_max, a.transverse_min, a.transverse_min;
+      sigma = sigma.cwiseInverse().eval();
+      if (!sigma.hasNaN()) std::sort(sigma.begin(), sigma.end(), std::greater<>());
+      Eigen::Map<Vec6>{out} = sigma;
+    });
+  });
   m.def("characteristic_length",
-        [](const Geometry& g, const Array& p, const Array& q, const Array& s, const std::string& kind, int threads) {
-          const ConfigurationStack c(p, q, s);
+        [](const Geometry& g, const ConfigurationStack& c, const std::string& kind, int threads) {
           const LengthKind k = length_kind(kind);
           return for_each_row(c.count(), 1, threads, py::none(),
                               [&](long i, double* out) { *out = characteristic_length(g, c[i], k); });

@@ -56,11 +56,10 @@ py::list tuples_of(const std::vector<LimitBreak>& breaks) {
 }
 
 /// Loads: moment and force for each pose, shape (n, 6); no rows for none.
-py::dict followed(const Geometry& g, const Array& home_p, const Array& home_q, const Array& home_s, const Array& time,
-                  const Array& position, const Array& rotation, const py::object& rule,
-                  const std::pair<Array, Array>& limits, double characteristic_length, const Array& loads) {
+py::dict followed(const Geometry& g, const Configuration& home, const Array& time, const Array& position,
+                  const Array& rotation, const py::object& rule, const std::pair<Array, Array>& limits,
+                  double characteristic_length, const Array& loads) {
   const Trajectory trajectory{{time.data(), time.data() + time.size()}, poses_from(position, rotation)};
-  const Configuration home = ConfigurationStack(home_p, home_q, home_s)[0];
   FollowSettings settings{
       trajectory_rule_from(rule), limits_from(limits.first, limits.second), characteristic_length, {}};
   for (const double* row = loads.data(); row != loads.data() + loads.size(); row += 6)

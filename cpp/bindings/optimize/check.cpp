@@ -5,7 +5,6 @@
 #include "support/arrays.hpp"
 #include "support/interruptible.hpp"
 #include "support/module.hpp"
-#include "support/region.hpp"
 
 namespace ninedof::python {
 namespace {
@@ -16,20 +15,10 @@ OptimumCheck optimum_checked(const Problem& problem, const std::vector<double>& 
   });
 }
 
-/// `leg_ranges`: the shortest and longest length of each leg, or nothing.
-RegionCheck region_checked(const Problem& problem, const py::dict& region, const std::vector<double>& x,
-                           const std::vector<std::array<double, 2>>& leg_ranges, std::uint64_t seed) {
-  std::optional<LegLimits> lengths;
-  if (leg_ranges.size() == 9) {
-    lengths.emplace();
-    for (std::size_t leg = 0; leg < 9; ++leg) {
-      lengths->low[static_cast<Eigen::Index>(leg)] = leg_ranges[leg][0];
-      lengths->high[static_cast<Eigen::Index>(leg)] = leg_ranges[leg][1];
-    }
-  }
-  const Region r = region_from(region);
+RegionCheck region_checked(const Problem& problem, const Region& region, const std::vector<double>& x,
+                           const std::optional<LegLimits>& lengths, std::uint64_t seed) {
   return interruptible(py::none(), [&](const Control& control) {
-    return check_region(problem, r, vector_from(x), lengths, seed, control);
+    return check_region(problem, region, vector_from(x), lengths, seed, control);
   });
 }
 

@@ -1,7 +1,5 @@
 #include "ninedof/optimize/optimize.hpp"
 
-#include <pybind11/stl.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -11,7 +9,7 @@
 #include "support/interruptible.hpp"
 #include "support/module.hpp"
 #include "support/placing.hpp"
-#include "support/region.hpp"
+#include "support/struct.hpp"
 
 namespace ninedof::python {
 namespace {
@@ -110,16 +108,14 @@ std::array<double, 6> numbers(const Vec6& at) {
 }
 
 /// Shift of p, rotation vector and shift of s at given coordinates.
-py::tuple region_pose(const py::dict& region, const std::array<double, 6>& at) {
-  const Region r = region_from(region);
+py::tuple region_pose(const Region& r, const std::array<double, 6>& at) {
   const Pose pose = r.pose(r.nearest(Vec6::Map(at.data())));
   const auto three = [](const Vec3& v) { return py::make_tuple(v[0], v[1], v[2]); };
   return py::make_tuple(three(pose.position), three(pose.rotation), three(pose.internal));
 }
 
 /// For rows of coordinates: those of the nearest poses of the region, then shift of p, rotation vector and shift of s.
-Array region_poses(const py::dict& region, const py::object& at) {
-  const Region r = region_from(region);
+Array region_poses(const Region& r, const py::object& at) {
   const py::ssize_t count = py::len(at);
   const Array given = array_of_shape("at", at, {count, 6});
   Array out({count, py::ssize_t{15}});
@@ -134,9 +130,8 @@ Array region_poses(const py::dict& region, const py::object& at) {
 
 /// Margins as (name, row, margin, coordinates of the pose), logarithms of the index with theirs, and the coordinates
 /// where each leg is longest and shortest.
-py::dict worst_of_region(const Problem& problem, const py::dict& region, const std::vector<double>& x, long samples,
+py::dict worst_of_region(const Problem& problem, const Region& r, const std::vector<double>& x, long samples,
                          std::uint64_t seed, int threads) {
-  const Region r = region_from(region);
   const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
   const RegionWorst found = interruptible(py::none(), [&](const Control& control) {
     return search_region(problem, r, variables, {samples, seed, threads, 1e-5}, control);
@@ -169,19 +164,13 @@ std::vector<RangeEntry> ranges_about(const Problem& problem, double zp, const Ar
 }
 
 /// Coordinates of the poses, shape (n, 6), and the shifts of s in zp that are best there, shape (n, 3).
-py::tuple places_in_region(const Problem& problem, const py::dict& region, const std::vector<double>& x,
-                           double log_index, const std::vector<RangeEntry>& ranges,
-                           const std::vector<std::array<double, 3>>& known, const py::object& at, int threads) {
-  const Region r = region_from(region);
-  const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-  const PlacementGoal goal{log_index, ranges_from(problem, ranges)};
-  const std::vector<Vec3> shifts = shifts_from(known);
+py::tuple places_in_region(const PlacedDesign& design, const Region& r, const py::object& at, int threads) {
   const py::ssize_t count = py::len(at);
   const Array given = array_of_shape("at", at, {count, 6});
   std::vector<Vec6> poses;
   for (py::ssize_t k = 0; k < count; ++k) poses.push_back(Vec6::Map(given.data(k, 0)));
   const std::vector<PlacedEnd> found = interruptible(py::none(), [&](const Control& control) {
-    return place_in_region(problem, r, variables, goal, shifts, poses, threads, control);
+    return place_in_region(design.problem, r, design.variables, design.goal(), design.known, poses, threads, control);
   });
   Array near({count, py::ssize_t{6}}), moved({count, py::ssize_t{3}});
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -194,10 +183,9 @@ py::tuple places_in_region(const Problem& problem, const py::dict& region, const
 /// Ends of the ascents as (coordinates of the pose, shift of s in zp, excess, logarithm of the index, least margin, its
 /// limit).
 /// `ranges`: (limit, low, high, size) of the lengths of the nine legs; `known`: (coordinates, shift).
-py::dict worst_with_placing(const Problem& problem, const py::dict& region, const std::vector<double>& x,
-                            double log_index, const std::vector<RangeEntry>& ranges, const py::sequence& known,
-                            long samples, std::uint64_t seed, int threads) {
-  const Region r = region_from(region);
+py::dict worst_with_placing(const Problem& problem, const Region& r, const std::vector<double>& x, double log_index,
+                            const std::vector<RangeEntry>& ranges, const py::sequence& known, long samples,
+                            std::uint64_t seed, int threads) {
   const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
   const PlacementGoal goal{log_index, ranges_from(problem, ranges)};
   std::vector<Placed> places;
@@ -249,6 +237,12 @@ void bind_optimize(py::module_& m) {
   m.def("search_region", &worst_of_region);
   m.def("leg_ranges", &ranges_about);
   m.def("search_region_placed", &worst_with_placing);
+  request<PlacedDesign>(m, "PlacedDesign", "A design of a problem without poses, with O placed anew at every pose.")
+      .def_readwrite("problem", &PlacedDesign::problem, "Without poses.")
+      .def_readwrite("variables", &PlacedDesign::variables, "A full set.")
+      .def_readwrite("log_index", &PlacedDesign::log_index, "Logarithm of the index that placing is to reach.")
+      .def_readwrite("ranges", &PlacedDesign::ranges, "(limit, low, high, size) of the lengths of the nine legs.")
+      .def_readwrite("known", &PlacedDesign::known, "Places of O to begin at: shifts of s in zp.");
   m.def("place_in_region", &places_in_region);
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {
     const Result result = interruptible(
@@ -256,9 +250,8 @@ void bind_optimize(py::module_& m) {
         [](Result& r) { return r.interrupted = true; });
     return fields_of(problem, result);
   });
-  m.def("optimize_region", [](const Problem& problem, const py::dict& region, const Settings& settings,
+  m.def("optimize_region", [](const Problem& problem, const Region& r, const Settings& settings,
                               const py::object& progress, const py::object& phase) {
-    const Region r = region_from(region);
     RegionStudySettings s{settings};
     const RegionResult found = interruptible(
         progress,

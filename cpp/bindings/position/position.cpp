@@ -4,7 +4,7 @@
 
 #include "ninedof/position/forward_position.hpp"
 #include "ninedof/position/tracking.hpp"
-#include "support/arrays.hpp"
+#include "support/configurations.hpp"
 #include "support/module.hpp"
 
 namespace ninedof::python {
@@ -90,9 +90,8 @@ void write(const Tracked& t, double* to) {
 }
 
 /// A sequence of `path` rows of lengths for each start: (n, path, 9) lengths and n starts.
-py::tuple track_stack(const Geometry& g, const Array& leg_lengths, long path, const Array& p, const Array& q,
-                      const Array& s, int threads) {
-  const ConfigurationStack starts(p, q, s);
+py::tuple track_stack(const Geometry& g, const Array& leg_lengths, long path, const ConfigurationStack& starts,
+                      int threads) {
   const LengthStack lengths(leg_lengths);
   if (lengths.count() != starts.count() * path)
     throw InvalidArgument("leg_lengths", std::to_string(lengths.count()) + " rows",

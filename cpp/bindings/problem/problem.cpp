@@ -1,20 +1,13 @@
-#include <pybind11/stl.h>
-
 #include <memory>
 
+#include "ninedof/domains/region.hpp"
 #include "ninedof/optimize/evaluate.hpp"
 #include "ninedof/optimize/optimize.hpp"
-#include "support/arrays.hpp"
 #include "support/module.hpp"
+#include "support/struct.hpp"
 
 namespace ninedof::python {
 namespace {
-
-using Vector = std::array<double, 3>;
-
-Vec3 vec3(const Vector& v) {
-  return {v[0], v[1], v[2]};
-}
 
 Eigen::VectorXd full(const std::vector<double>& x) {
   return Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
@@ -44,19 +37,6 @@ py::tuple rows_of(const std::vector<ConstraintInfo>& table) {
   return py::tuple(out);
 }
 
-Limit limit_from(const py::dict& d) {
-  Limit out;
-  out.name = d["name"].cast<std::string>();
-  out.low = d["low"].cast<double>();
-  out.high = d["high"].cast<double>();
-  out.of = unit_from(d["of"].cast<std::string>());
-  out.steps = d["steps"].cast<int>();
-  out.at = limit_at_from(d["at"].cast<std::string>());
-  const auto axis = d["axis"].cast<std::vector<double>>();
-  if (axis.size() == 3) out.axis = Vec3(axis[0], axis[1], axis[2]);
-  return out;
-}
-
 StudyLength length_from(const py::object& value) {
   StudyLength out;
   if (py::isinstance<py::str>(value)) {
@@ -72,17 +52,36 @@ StudyLength length_from(const py::object& value) {
   return out;
 }
 
-Objective objective_from(const py::dict& d) {
-  Objective out;
-  out.index = index_from(d["index"].cast<std::string>());
-  out.aggregate = aggregate_from(d["aggregate"].cast<std::string>());
-  out.weight = d["weight"].cast<double>();
-  out.condition_limit = d["condition_limit"].cast<double>();
-  out.neutral_condition_limit = d["neutral_condition_limit"].cast<double>();
-  using Entry = std::tuple<Vector, Vector, Vector, bool, bool, double>;
-  for (const auto& [position, rotation, internal, best, in_zp, weight] : d["poses"].cast<std::vector<Entry>>())
-    out.poses.push_back({vec3(position), vec3(rotation), vec3(internal), best, in_zp, weight});
-  return out;
+void bind_requests(py::module_& m) {
+  request<Pose>(m, "Pose", "A pose of the platform and of O, relative to the neutral one.")
+      .def_readwrite("position", &Pose::position, "Shift of p.")
+      .def_readwrite("rotation", &Pose::rotation, "Rotation vector in base axes, after the neutral rotation.")
+      .def_readwrite("internal", &Pose::internal, "Shift of s.")
+      .def_readwrite("best_internal", &Pose::best_internal, "Whether the shift of s is a variable.")
+      .def_readwrite("in_zp", &Pose::in_zp, "Whether both shifts are in fractions of zp.")
+      .def_readwrite("weight", &Pose::weight, "In a mean over the poses.");
+  auto objective = request<Objective>(m, "Objective", "What a study minimizes.");
+  word_attribute(objective, "index", &Objective::index,
+                 std::array{"condition_number", "frobenius", "speed", "six_legged"}, "What is looked at.");
+  word_attribute(objective, "aggregate", &Objective::aggregate, std::array{"worst", "mean_inverse", "weighted"},
+                 "How the poses are taken together.");
+  objective.def_readwrite("weight", &Objective::weight, "Of the neutral pose in a mean.")
+      .def_readwrite("condition_limit", &Objective::condition_limit, "Greatest condition number, or infinity.")
+      .def_readwrite("neutral_condition_limit", &Objective::neutral_condition_limit, "The same at the neutral pose.")
+      .def_property("poses", copy_of(&Objective::poses), setter_of(&Objective::poses),
+                    "Besides the neutral one, copied.");
+  auto region = request<Region>(m, "Region", "Every tilt and yaw at every position of a box, ball, cylinder or path.");
+  word_attribute(region, "shape", &Region::shape, std::array{"box", "ball", "cylinder", "path"}, "Of the positions.");
+  region.def_readwrite("size", &Region::size, "Half edges; the radius of a ball; radius and half height of a cylinder.")
+      .def_readwrite("corners", &Region::corners, "Of a path.")
+      .def_readwrite("tilt", &Region::tilt, "Greatest angle about a horizontal axis, radians.")
+      .def_readwrite("yaw", &Region::yaw, "Rotations about z go from minus to plus this.")
+      .def_readwrite("shifted", &Region::shifted, "Whether s moves with p, or is held.")
+      .def_readwrite("placed", &Region::placed, "Whether s is placed anew at every pose.")
+      .def_readwrite("in_zp", &Region::in_zp, "Whether positions are in fractions of zp.")
+      .def_property_readonly(
+          "reach", [](const Region& r) { return array_from(r.reach()).attr("tolist")(); },
+          "Greatest moduli of the six coordinates of a pose.");
 }
 
 /// log of the objective with its gradient, condition numbers, and every constraint's smallest margin with its own.
@@ -123,6 +122,7 @@ py::tuple configurations_at(const Problem& problem, const std::vector<double>& x
 }  // namespace
 
 void bind_problem(py::module_& m) {
+  bind_requests(m);
   m.def("design_family_names", &design_family_names);
   m.attr("constraint_table") = rows_of(constraint_table());
   m.attr("criterion_table") = rows_of(criterion_table());
@@ -136,20 +136,26 @@ void bind_problem(py::module_& m) {
 
   py::class_<Problem>(m, "Problem", "A design problem as the core takes it; made by `Study`.")
       .def(py::init([](std::string family, const std::vector<std::pair<double, double>>& bounds,
-                       const std::vector<py::dict>& limits, const py::object& characteristic_length,
-                       const py::dict& objective) {
+                       std::vector<Limit> limits, const py::object& characteristic_length, const Objective& objective) {
              Problem p;
              p.family = std::move(family);
              for (const auto& [low, high] : bounds) p.variables.push_back({low, high});
-             for (const py::dict& limit : limits) p.limits.push_back(limit_from(limit));
+             p.limits = std::move(limits);
              p.characteristic_length = length_from(characteristic_length);
-             p.objective = objective_from(objective);
+             p.objective = objective;
              p.validate();
              return p;
            }),
            py::arg("family"), py::arg("bounds"), py::arg("limits"), py::arg("characteristic_length"),
            py::arg("objective"))
       .def_property_readonly("names", &Problem::names)
+      .def("with_limits",
+           [](Problem p, const std::vector<Limit>& limits, double condition_limit, double neutral_condition_limit) {
+             p.limits = limits;
+             p.objective.condition_limit = condition_limit;
+             p.objective.neutral_condition_limit = neutral_condition_limit;
+             return p;
+           })
       .def("geometry",
            [](const Problem& p, const std::vector<double>& x) { return design_family(p.family).geometry(own(p, x)); })
       .def("configurations", &configurations_at)

@@ -30,25 +30,22 @@ Array rows_of_bounds(const ConfigurationStack& c, py::ssize_t columns, int threa
   });
 }
 
-using Positions = const Array&;
-
 }  // namespace
 
 void bind_bounds(py::module_& m) {
-  m.def("leg_length_bounds", [](const Geometry& g, Positions p, Positions q, Positions s, int threads) {
-    return rows_of_bounds(ConfigurationStack(p, q, s), 9, threads, [&](long, const Configuration& c, auto put) {
-      for (const Interval& x : leg_length_bounds(g, c)) put(x);
+  m.def("leg_length_bounds", [](const Geometry& g, const ConfigurationStack& c, int threads) {
+    return rows_of_bounds(c, 9, threads, [&](long, const Configuration& at, auto put) {
+      for (const Interval& x : leg_length_bounds(g, at)) put(x);
     });
   });
-  m.def("determinant_bounds", [](const Geometry& g, Positions p, Positions q, Positions s, int threads) {
-    return rows_of_bounds(ConfigurationStack(p, q, s), 3, threads, [&](long, const Configuration& c, auto put) {
-      const DeterminantBounds found = determinant_bounds(g, c);
+  m.def("determinant_bounds", [](const Geometry& g, const ConfigurationStack& c, int threads) {
+    return rows_of_bounds(c, 3, threads, [&](long, const Configuration& at, auto put) {
+      const DeterminantBounds found = determinant_bounds(g, at);
       for (const Interval& x : {found.n, found.b, found.c}) put(x);
     });
   });
   const auto with_length = [&](const char* name, py::ssize_t columns, auto each) {
-    m.def(name, [=](const Geometry& g, Positions p, Positions q, Positions s, const Array& length, int threads) {
-      const ConfigurationStack c(p, q, s);
+    m.def(name, [=](const Geometry& g, const ConfigurationStack& c, const Array& length, int threads) {
       const Lengths lc(length, c.count());
       return rows_of_bounds(c, columns, threads,
                             [&](long i, const Configuration& at, auto put) { each(g, at, lc[i], put); });

@@ -1,77 +1,75 @@
 #include "ninedof/proof/machine.hpp"
 
-#include <pybind11/stl.h>
-
 #include <optional>
-#include <tuple>
 
 #include "ninedof/math/interval.hpp"
 #include "ninedof/problem/problem.hpp"
 #include "ninedof/proof/bounds.hpp"
-#include "support/arrays.hpp"
 #include "support/interruptible.hpp"
 #include "support/module.hpp"
-#include "support/region.hpp"
+#include "support/struct.hpp"
 
 namespace ninedof::python {
 namespace {
 
-using Three = std::array<double, 3>;
-
-Vec3 vector(const Three& v) {
-  return Vec3::Map(v.data());
-}
 std::tuple<double, double, double> numbers(const Vec3& v) {
   return {v[0], v[1], v[2]};
 }
 
-PointRule rule_from(const std::array<double, 6>& scale, const std::vector<std::array<int, 6>>& powers,
-                    const std::vector<Three>& coefficients) {
-  PointRule out{Vec6::Map(scale.data()), powers, {}};
-  for (const Three& c : coefficients) out.coefficients.push_back(vector(c));
-  out.validate();
-  return out;
-}
-
 /// The neutral configuration comes first in the stack, then the listed poses.
-PosedRobot robot_from(const Geometry& g, const Array& position, const Array& rotation, const Array& internal_point,
-                      double characteristic_length, const std::optional<py::dict>& region,
-                      const std::optional<PointRule>& rule) {
-  const ConfigurationStack all(position, rotation, internal_point);
+PosedRobot robot_from(const Geometry& g, const ConfigurationStack& all, double characteristic_length,
+                      const std::optional<Region>& region, const std::optional<PointRule>& rule) {
   PosedRobot out{g, all[0], characteristic_length, {}, {}, {}};
   if (region) {
-    out.region.push_back(region_from(*region));
-    out.region.front().validate();
+    region->validate();
+    out.region.push_back(*region);
   }
-  if (rule) out.rule.push_back(*rule);
+  if (rule) {
+    rule->validate();
+    out.rule.push_back(*rule);
+  }
   for (long k = 1; k < all.count(); ++k) out.poses.push_back(all[k]);
   return out;
 }
 
 void bind_structs(py::module_& m) {
-  py::class_<PointRule>(m, "PointRule")
-      .def(py::init(&rule_from))
-      .def_property_readonly("scale",
-                             [](const PointRule& rule) {
-                               std::array<double, 6> out;
-                               Vec6::Map(out.data()) = rule.scale;
-                               return out;
+  request<PointRule>(m, "PointRule", "Where O is in a region: a polynomial in the coordinates of a pose.")
+      .def_readwrite("scale", &PointRule::scale)
+      .def_readwrite("powers", &PointRule::powers)
+      .def_readwrite("coefficients", &PointRule::coefficients);
+  py::class_<PosedRobot>(m, "PosedRobot", "A robot and all poses at which it is looked at.").def(py::init(&robot_from));
+  request<MetAt>(m, "MetAt", "Where a number was met.")
+      .def_property(
+          "shift", [](const MetAt& at) { return numbers(at.shift); }, [](MetAt& at, const Vec3& v) { at.shift = v; },
+          "Of p from its neutral position.")
+      .def_property(
+          "tilt", [](const MetAt& at) { return numbers(at.tilt); }, [](MetAt& at, const Vec3& v) { at.tilt = v; },
+          "Rotation vector about a horizontal axis.")
+      .def_readwrite("yaw", &MetAt::yaw)
+      .def_readwrite("pose", &MetAt::pose, "Index of a listed pose; -1: a pose of the region.");
+  using Proof = LimitOverPoses;
+  py::class_<Proof>(m, "LimitOverPoses", "One side of a limit over all poses.")
+      .def_readonly("name", &Proof::name)
+      .def_property_readonly("kind", [](const Proof& one) { return to_string(one.kind); })
+      .def_property_readonly("side", [](const Proof& one) { return one.side == Side::high ? "max" : "min"; })
+      .def_readonly("limit", &Proof::limit)
+      .def_property_readonly("value", [](const Proof& one) { return std::pair(one.value.lo, one.value.hi); })
+      .def_property_readonly("answer",
+                             [](const Proof& one) {
+                               constexpr std::array words{"proved", "violated", "undecided"};
+                               return words[static_cast<std::size_t>(one.answer)];
                              })
-      .def_readonly("powers", &PointRule::powers)
-      .def_property_readonly("coefficients", [](const PointRule& rule) {
+      .def_readonly("which", &Proof::part)
+      .def_readonly("at", &Proof::at)
+      .def_readonly("at_neutral", &Proof::at_neutral)
+      .def_readonly("boxes", &Proof::boxes);
+  py::class_<LimitsOverPoses>(m, "LimitsOverPoses", "The limits of a machine over all its poses.")
+      .def_readonly("limits", &LimitsOverPoses::limits)
+      .def_property_readonly("lengths", [](const LimitsOverPoses& found) {
         py::list out;
-        for (const Vec3& c : rule.coefficients) out.append(numbers(c));
-        return out;
+        for (const Interval& length : found.lengths) out.append(py::make_tuple(length.lo, length.hi));
+        return py::tuple(out);
       });
-  py::class_<PosedRobot>(m, "PosedRobot").def(py::init(&robot_from));
-  py::class_<MetAt>(m, "MetAt")
-      .def(py::init([](const Three& shift, const Three& tilt, double yaw, int pose) {
-        return MetAt{vector(shift), vector(tilt), yaw, pose};
-      }))
-      .def_property_readonly("shift", [](const MetAt& at) { return numbers(at.shift); })
-      .def_property_readonly("tilt", [](const MetAt& at) { return numbers(at.tilt); })
-      .def_readonly("yaw", &MetAt::yaw)
-      .def_readonly("pose", &MetAt::pose);
 }
 
 }  // namespace
@@ -81,20 +79,10 @@ void bind_machine(py::module_& m) {
   m.def("limits_over_poses",
         [](const PosedRobot& machine, const Problem& problem, double tolerance, int threads, double seconds) {
           require_sound_arithmetic();
-          const LimitsOverPoses found = interruptible(py::none(), [&](const Control& control) {
+          return interruptible(py::none(), [&](const Control& control) {
             return limits_over_poses(machine, problem.limits, exempt_pairs(problem), tolerance,
                                      {.threads = threads, .seconds = seconds}, control);
           });
-          constexpr std::array words{"proved", "violated", "undecided"};
-          py::list limits, lengths;
-          for (const LimitOverPoses& one : found.limits) {
-            const auto ends = [](const Interval& x) { return py::make_tuple(x.lo, x.hi); };
-            limits.append(py::make_tuple(one.name, to_string(one.kind), one.side == Side::high ? "max" : "min",
-                                         one.limit, ends(one.value), words[static_cast<std::size_t>(one.answer)],
-                                         one.part, one.at, one.at_neutral, one.boxes));
-          }
-          for (const Interval& length : found.lengths) lengths.append(py::make_tuple(length.lo, length.hi));
-          return py::make_tuple(limits, lengths);
         });
 }
 

@@ -2,53 +2,60 @@
 
 #include "ninedof/proof/optimum.hpp"
 
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
-
 #include <cmath>
 
 #include "ninedof/proof/checker.hpp"
 #include "support/interruptible.hpp"
 #include "support/module.hpp"
+#include "support/struct.hpp"
 
 namespace ninedof::python {
 namespace {
 
-py::dict proved(const Problem& study, double target, int threads, long box_limit, double time_limit, bool keep_tree,
-                const py::object& progress) {
-  const OptimumSettings settings{target, threads, box_limit, time_limit, keep_tree};
+struct InterruptibleProof : OptimumProof {
   bool interrupted = false;
-  const OptimumProof found = interruptible(
-      progress, [&](const Control& control) { return prove_optimum(study, settings, control); },
-      [&](const OptimumProof&) { return interrupted = true; });
-  py::dict out;
-  out["lower_bound"] = found.lower_bound;
-  out["complete"] = found.complete;
-  out["boxes"] = found.boxes;
-  out["open"] = found.open;
-  out["better"] = std::isfinite(found.better) ? py::object(py::float_(found.better)) : py::none();
-  out["seconds"] = found.seconds;
-  out["interrupted"] = interrupted;
-  out["left_out"] = found.left_out;
-  out["certificate"] = py::bytes(found.certificate);
-  return out;
-}
-
-py::tuple checked(const std::string& certificate, const py::object& progress) {
-  const checker::Verdict found = interruptible(progress, [&](const Control& control) {
-    return checker::check(certificate, [&](std::size_t done, std::size_t total) {
-      if (control.stop.stop_requested()) throw Stopped{};
-      control.progress(static_cast<long>(done), static_cast<long>(total), std::nan(""));
-    });
-  });
-  return py::make_tuple(found.proved, found.words, found.leaves, found.recut, found.study);
-}
+};
 
 }  // namespace
 
 void bind_optimum(py::module_& m) {
-  m.def("prove_optimum", &proved);
-  m.def("check_certificate", &checked);
+  using Proof = InterruptibleProof;
+  py::class_<Proof>(m, "OptimumProof", "A proved lower bound of the condition number; the public class says more.")
+      .def_readonly("lower_bound", &Proof::lower_bound)
+      .def_readonly("complete", &Proof::complete)
+      .def_readonly("boxes", &Proof::boxes)
+      .def_readonly("open", &Proof::open)
+      .def_property_readonly(
+          "better", [](const Proof& p) { return std::isfinite(p.better) ? std::optional(p.better) : std::nullopt; })
+      .def_readonly("seconds", &Proof::seconds)
+      .def_readonly("interrupted", &Proof::interrupted)
+      .def_property_readonly("left_out", [](const Proof& p) { return py::tuple(py::cast(p.left_out)); })
+      .def_property_readonly("certificate", [](const Proof& p) { return py::bytes(p.certificate); });
+  request<OptimumSettings>(m, "OptimumSettings", "What is to be proved, and when the search ends.")
+      .def_readwrite("target", &OptimumSettings::target, "No condition number below it.")
+      .def_readwrite("threads", &OptimumSettings::threads, "0: one for each processor.")
+      .def_readwrite("box_limit", &OptimumSettings::box_limit, "Boxes examined, at most.")
+      .def_readwrite("time_limit", &OptimumSettings::time_limit, "Seconds; 0 for none.")
+      .def_readwrite("keep_tree", &OptimumSettings::keep_tree, "For a certificate.");
+  m.def("prove_optimum", [](const Problem& study, const OptimumSettings& settings, const py::object& progress) {
+    return interruptible(
+        progress, [&](const Control& control) { return Proof{prove_optimum(study, settings, control)}; },
+        [](Proof& found) { return found.interrupted = true; });
+  });
+  py::class_<checker::Verdict>(m, "Verdict", "What the checker of a certificate says.")
+      .def_readonly("proved", &checker::Verdict::proved)
+      .def_readonly("words", &checker::Verdict::words)
+      .def_readonly("boxes", &checker::Verdict::leaves)
+      .def_readonly("recut", &checker::Verdict::recut)
+      .def_property_readonly("study", [](const checker::Verdict& v) { return py::tuple(py::cast(v.study)); });
+  m.def("check_certificate", [](const std::string& certificate, const py::object& progress) {
+    return interruptible(progress, [&](const Control& control) {
+      return checker::check(certificate, [&](std::size_t done, std::size_t total) {
+        if (control.stop.stop_requested()) throw Stopped{};
+        control.progress(static_cast<long>(done), static_cast<long>(total), std::nan(""));
+      });
+    });
+  });
 }
 
 }  // namespace ninedof::python

@@ -1,87 +1,80 @@
-#include <pybind11/stl.h>
-
-#include <array>
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "ninedof/redundancy/redundancy_map.hpp"
 #include "ninedof/redundancy/redundancy_path.hpp"
-#include "support/arrays.hpp"
 #include "support/interruptible.hpp"
-#include "support/map_audit.hpp"
 #include "support/module.hpp"
 #include "support/poses.hpp"
+#include "support/struct.hpp"
 
 namespace ninedof::python {
 namespace {
 
-Criterion criterion_from(const std::string& word) {
-  if (word == "condition_number") return Criterion::condition_number;
-  if (word == "singularity") return Criterion::singularity;
-  if (word == "leg_centring") return Criterion::leg_centring;
-  throw InvalidArgument("criterion", "\"" + word + "\"", "\"condition_number\", \"singularity\" or \"leg_centring\"");
-}
+/// Those of n poses; a class of its own, as Python has the columns.
+struct InternalPoints : std::vector<InternalPoint> {
+  using vector::vector;
+  explicit InternalPoints(std::vector<InternalPoint> points) : vector(std::move(points)) {}
+};
 
-/// What Python has checked; see search_arguments.py.
-InternalPointProblem internal_problem_from(const py::dict& d) {
-  InternalPointProblem problem;
-  problem.criterion = criterion_from(d["criterion"].cast<std::string>());
-  const auto [low, high] = d["limits"].cast<std::pair<Array, Array>>();
-  problem.limits = {Eigen::Map<const Vec9>(low.data()), Eigen::Map<const Vec9>(high.data())};
-  problem.characteristic_length = d["characteristic_length"].cast<double>();
-  problem.clearance = d["clearance"].cast<double>();
-  validate(problem);
-  return problem;
-}
-
-MapSettings map_settings_from(const py::dict& d) {
-  return {d["seed_every"].cast<std::size_t>(), d["audit_every"].cast<std::size_t>(),
-          d["audit_seed"].cast<std::uint64_t>(), d["threads"].cast<int>()};
-}
-
-/// n starts as (n, 3), which Python has checked; no rows mean the default.
-std::vector<Vec3> starts_from(const Array& start) {
-  std::vector<Vec3> out(static_cast<std::size_t>(start.size() / 3));
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = Eigen::Map<const Vec3>(start.data() + 3 * k);
+/// Bits of `active` of each point; few sets of bounds occur.
+py::array_t<std::uint32_t> active_of(const InternalPoints& points) {
+  py::array_t<std::uint32_t> out(std::ssize(points));
+  std::ranges::transform(points, out.mutable_data(), [](const InternalPoint& p) { return p.active.bits(); });
   return out;
 }
 
-/// Columns of n rows. Statuses are indices into internal_point_statuses, `active` keys of `active_names`: few sets of
-/// bounds occur.
-py::dict columns_of(const std::vector<InternalPoint>& points) {
-  const auto n = static_cast<py::ssize_t>(points.size());
-  Array s(std::vector<py::ssize_t>{n, 3}), value(std::vector<py::ssize_t>{n});
-  py::array_t<std::uint8_t> status(n);
-  py::array_t<std::uint32_t> active(n);
+/// Indices into internal_point_statuses.
+py::array_t<std::uint8_t> statuses_of(const InternalPoints& points) {
+  py::array_t<std::uint8_t> out(std::ssize(points));
+  std::ranges::transform(points, out.mutable_data(),
+                         [](const InternalPoint& p) { return static_cast<std::uint8_t>(p.status); });
+  return out;
+}
+
+py::dict names_of(const InternalPoints& points) {
   std::map<std::uint32_t, ActiveBounds> bounds;
-  for (py::ssize_t k = 0; k < n; ++k) {
-    const InternalPoint& p = points[static_cast<std::size_t>(k)];
-    Eigen::Map<Vec3>{s.mutable_data() + 3 * k} = p.s;
-    value.mutable_data()[k] = p.value;
-    status.mutable_data()[k] = static_cast<std::uint8_t>(p.status);
-    active.mutable_data()[k] = p.active.bits();
-    bounds.emplace(p.active.bits(), p.active);
-  }
-  py::dict names, out;
-  for (const auto& [bits, set] : bounds) names[py::int_(bits)] = py::tuple(py::cast(set.names()));
-  out["internal_point"] = s;
-  out["value"] = value;
-  out["status"] = status;
-  out["active"] = active;
-  out["active_names"] = names;
+  for (const InternalPoint& p : points) bounds.emplace(p.active.bits(), p.active);
+  py::dict out;
+  for (const auto& [bits, set] : bounds) out[py::int_(bits)] = py::tuple(py::cast(set.names()));
   return out;
 }
 
-py::dict best_points(const Geometry& g, const Array& position, const Array& rotation, const Array& start,
-                     const py::dict& asked, int threads) {
-  const InternalPointProblem problem = internal_problem_from(asked);
+void bind_points(py::module_& m) {
+  py::class_<InternalPoints>(m, "InternalPoints", "The internal points of n poses, in columns.")
+      .def_property_readonly("internal_point",
+                             [](const InternalPoints& points) {
+                               std::vector<Vec3> out;
+                               for (const InternalPoint& p : points) out.push_back(p.s);
+                               return array_from(out);
+                             })
+      .def_property_readonly("value",
+                             [](const InternalPoints& points) {
+                               std::vector<double> out;
+                               for (const InternalPoint& p : points) out.push_back(p.value);
+                               return column<double>(out);
+                             })
+      .def_property_readonly("status", &statuses_of)
+      .def_property_readonly("active", &active_of)
+      .def_property_readonly("active_names", &names_of, "The words of each number in `active`.");
+  py::class_<InternalPointMap>(m, "InternalPointMap", "The internal points of a grid.")
+      .def_property_readonly("points", [](const InternalPointMap& map) { return InternalPoints(map.points); })
+      .def_readonly("audit", &InternalPointMap::audit)
+      .def_readonly("searched", &InternalPointMap::searched)
+      .def_readonly("followed", &InternalPointMap::followed);
+}
+
+InternalPoints best_points(const Geometry& g, const Array& position, const Array& rotation, const Array& start,
+                           const InternalPointProblem& problem, int threads) {
+  validate(problem);
   const std::vector<PlatformPose> poses = poses_from(position, rotation);
-  const std::vector<Vec3> starts = starts_from(start);
+  const std::vector<Vec3> starts = points_from("start", start);
   if (!starts.empty() && starts.size() != poses.size())
     throw InvalidArgument("start", std::to_string(starts.size()) + " rows", std::to_string(poses.size()));
-  return columns_of(interruptible(py::none(), [&](const Control& control) {
-    std::vector<InternalPoint> points(poses.size());
+  return interruptible(py::none(), [&](const Control& control) {
+    InternalPoints points(poses.size());
     parallel_for(static_cast<long>(poses.size()), 4, threads, [&](long first, long last) {
       for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
         if (control.stop.stop_requested()) throw Stopped{};
@@ -90,44 +83,49 @@ py::dict best_points(const Geometry& g, const Array& position, const Array& rota
       }
     });
     return points;
-  }));
-}
-
-py::dict best_path(const Geometry& g, const Array& position, const Array& rotation, const Array& start,
-                   const py::dict& asked, double smoothness) {
-  const InternalPointProblem problem = internal_problem_from(asked);
-  const std::vector<PlatformPose> poses = poses_from(position, rotation);
-  std::optional<Vec3> from;
-  if (start.size() == 3) from = Eigen::Map<const Vec3>(start.data());
-  return columns_of(interruptible(py::none(), [&](const Control& control) {
-    return best_internal_path(g, poses, problem, smoothness, from, control);
-  }));
-}
-
-py::dict best_map(const Geometry& g, const Array& position, const Array& rotation,
-                  const std::vector<std::size_t>& shape, const Array& start, const py::dict& asked,
-                  const py::dict& settings, const py::object& progress) {
-  const InternalPointProblem problem = internal_problem_from(asked);
-  const MapSettings how = map_settings_from(settings);
-  const std::vector<PlatformPose> poses = poses_from(position, rotation);
-  const std::vector<Vec3> starts = starts_from(start);
-  const InternalPointMap map = interruptible(progress, [&](const Control& control) {
-    return best_internal_map(g, {poses, shape, starts}, problem, how, control);
   });
-  py::dict out = columns_of(map.points);
-  out["audit"] = audit_dict(map.audit);
-  out["searched"] = map.searched;
-  out["followed"] = map.followed;
-  return out;
+}
+
+InternalPoints best_path(const Geometry& g, const Array& position, const Array& rotation,
+                         const std::optional<Vec3>& start, const InternalPointProblem& problem, double smoothness) {
+  validate(problem);
+  const std::vector<PlatformPose> poses = poses_from(position, rotation);
+  return interruptible(py::none(), [&](const Control& control) {
+    return InternalPoints(best_internal_path(g, poses, problem, smoothness, start, control));
+  });
+}
+
+InternalPointMap best_map(const Geometry& g, const Array& position, const Array& rotation,
+                          const std::vector<std::size_t>& shape, const Array& start,
+                          const InternalPointProblem& problem, const MapSettings& settings,
+                          const py::object& progress) {
+  validate(problem);
+  const std::vector<PlatformPose> poses = poses_from(position, rotation);
+  const std::vector<Vec3> starts = points_from("start", start);
+  return interruptible(progress, [&](const Control& control) {
+    return best_internal_map(g, {poses, shape, starts}, problem, settings, control);
+  });
 }
 
 }  // namespace
 
 void bind_redundancy(py::module_& m) {
+  bind_points(m);
   py::list statuses;
   for (int k = 0; k <= static_cast<int>(InternalPointStatus::missing); ++k)
     statuses.append(to_string(static_cast<InternalPointStatus>(k)));
   m.attr("internal_point_statuses") = statuses;
+  auto problem = request<InternalPointProblem>(m, "InternalPointProblem", "What an internal point is best for.");
+  word_attribute(problem, "criterion", &InternalPointProblem::criterion,
+                 std::array{"condition_number", "singularity", "leg_centring"}, "What is optimised over O.");
+  problem.def_readwrite("limits", &InternalPointProblem::limits, "Of the lengths of legs.")
+      .def_readwrite("characteristic_length", &InternalPointProblem::characteristic_length, "Of the condition number.")
+      .def_readwrite("clearance", &InternalPointProblem::clearance, "Lower bound of each determinant.");
+  request<MapSettings>(m, "MapSettings", "How the map of a grid is searched.")
+      .def_readwrite("seed_every", &MapSettings::seed_every, "Poses per seed.")
+      .def_readwrite("audit_every", &MapSettings::audit_every, "Poses per audited pose.")
+      .def_readwrite("audit_seed", &MapSettings::audit_seed, "Selects them.")
+      .def_readwrite("threads", &MapSettings::threads, "0: one for each processor.");
   m.def("best_internal_point", &best_points);
   m.def("best_internal_path", &best_path);
   m.def("best_internal_map", &best_map);

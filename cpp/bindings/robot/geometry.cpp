@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "ninedof/math/rotation.hpp"
-#include "support/arrays.hpp"
+#include "support/configurations.hpp"
 #include "support/module.hpp"
 
 namespace ninedof::python {

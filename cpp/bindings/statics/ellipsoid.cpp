@@ -17,13 +17,11 @@ void write(const Ellipsoid<N>& e, double* out) {
 /// Binds `make(geometry, configuration, characteristic length)` over a stack.
 template <int N, class Make>
 void bind_rows(py::module_& m, const char* name, Make make) {
-  m.def(name,
-        [make](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {
-          const ConfigurationStack c(p, q, s);
-          const Lengths lc(length, c.count());
-          return for_each_row(c.count(), N * N + N, threads, py::none(),
-                              [&](long i, double* out) { write<N>(make(g, c[i], lc[i]), out); });
-        });
+  m.def(name, [make](const Geometry& g, const ConfigurationStack& c, const Array& length, int threads) {
+    const Lengths lc(length, c.count());
+    return for_each_row(c.count(), N * N + N, threads, py::none(),
+                        [&](long i, double* out) { write<N>(make(g, c[i], lc[i]), out); });
+  });
 }
 
 }  // namespace

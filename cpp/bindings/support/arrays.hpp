@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ninedof/batch/batch.hpp"
 #include "ninedof/math/error.hpp"
-#include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"
 #include "support/interruptible.hpp"
 
@@ -109,37 +107,6 @@ inline std::vector<Vec9> lengths_from(const Array& lengths) {
   for (long k = 0; k < count; ++k, row += 9) out.push_back(Vec9::Map(row));
   return out;
 }
-
-/// n configurations as three arrays (n, 3), (n, 3, 3), (n, 3). Python has checked and broadcast them.
-class ConfigurationStack {
- public:
-  ConfigurationStack(Array position, Array rotation, Array internal_point)
-      : position_(std::move(position)), rotation_(std::move(rotation)), internal_point_(std::move(internal_point)) {
-    const py::ssize_t n = position_.ndim() == 2 ? position_.shape(0) : -1;
-    if (n < 0 || position_.size() != 3 * n || rotation_.size() != 9 * n || internal_point_.size() != 3 * n)
-      throw InvalidArgument("configuration", "arrays that do not match", "shapes (n, 3), (n, 3, 3), (n, 3)");
-    p_ = position_.data();
-    q_ = rotation_.data();
-    s_ = internal_point_.data();
-  }
-
-  long count() const { return static_cast<long>(position_.shape(0)); }
-
-  /// Those of [first, last).
-  batch::Configurations view(long first, long last) const {
-    return {p_ + 3 * first, q_ + 9 * first, s_ + 3 * first, last - first};
-  }
-
-  Configuration operator[](long i) const {
-    using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-    return {Eigen::Map<const Vec3>(p_ + 3 * i), Eigen::Map<const RowMajor3>(q_ + 9 * i),
-            Eigen::Map<const Vec3>(s_ + 3 * i)};
-  }
-
- private:
-  Array position_, rotation_, internal_point_;
-  const double *p_, *q_, *s_;
-};
 
 /// Rows of `columns` numbers: those of `out` where one is given, else a new array (count, columns).
 inline Array result_rows(long count, py::ssize_t columns, const py::object& out) {

@@ -4,18 +4,18 @@
 #include <cmath>
 
 #include "ninedof/workspace/workspace.hpp"
-#include "support/columns.hpp"
-#include "support/workspace_question.hpp"
+#include "support/struct.hpp"
 
 namespace ninedof::python {
 
-/// The map of `cells`, a WorkspaceCells, between `ends`: its ends, cells and resolution, that of the largest cells; 0
-/// for the points of a sample. Throws InvalidArgument unless all cells lie in the box: a file may hold anything.
-inline WorkspaceMap map_from(const py::object& cells, const std::pair<Array, Array>& ends) {
+/// Ends, cells and resolution of a map of Python: the resolution is that of the largest cells, 0 for the points of a
+/// sample. Throws InvalidArgument unless all cells lie in the box: a file may hold anything.
+inline WorkspaceMap map_from(const py::object& map) {
   constexpr int deepest = 20;
   WorkspaceMap out;
-  out.low = vec3_of(ends.first);
-  out.high = vec3_of(ends.second);
+  out.low = map.attr("low").cast<Vec3>();
+  out.high = map.attr("high").cast<Vec3>();
+  const py::object cells = map.attr("cells");
   WorkspaceCells& c = out.cells;
   c.centre = points_from("cells", cells.attr("centre"));
   const std::vector<Vec3> sides = points_from("cells", cells.attr("size"));

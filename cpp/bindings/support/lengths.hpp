@@ -2,7 +2,7 @@
 /// One characteristic length for all configurations of a stack, or one for each.
 
 #include "ninedof/math/length_range.hpp"
-#include "support/arrays.hpp"
+#include "support/configurations.hpp"
 
 namespace ninedof::python {
 

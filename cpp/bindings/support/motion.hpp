@@ -3,7 +3,7 @@
 
 #include "ninedof/kinematics/acceleration.hpp"
 #include "ninedof/kinematics/velocity.hpp"
-#include "support/arrays.hpp"
+#include "support/configurations.hpp"
 
 namespace ninedof::python {
 

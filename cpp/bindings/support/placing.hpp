@@ -1,18 +1,15 @@
 #pragma once
 /// What the placing of O has to reach, from the numbers that Python has of it.
 
-#include <pybind11/stl.h>
-
 #include <array>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "ninedof/optimize/region_placement.hpp"
+#include "support/struct.hpp"
 
 namespace ninedof::python {
-
-namespace py = pybind11;
 
 /// Lengths of the nine legs in a range: (limit, low, high, size); size 0 for a range of logarithms.
 using RangeEntry = std::tuple<std::string, std::array<double, 9>, std::array<double, 9>, double>;
@@ -32,11 +29,15 @@ inline std::vector<LegRange> ranges_from(const Problem& problem, const std::vect
   return out;
 }
 
-/// Shifts of s in zp.
-inline std::vector<Vec3> shifts_from(const std::vector<std::array<double, 3>>& rows) {
-  std::vector<Vec3> out;
-  for (const auto& row : rows) out.push_back(Vec3::Map(row.data()));
-  return out;
-}
+/// A design of a problem without poses, and what placing O in a region has to reach for it.
+struct PlacedDesign {
+  Problem problem;
+  Eigen::VectorXd variables;
+  double log_index = 0.0;
+  std::vector<RangeEntry> ranges;
+  std::vector<Vec3> known;  ///< shifts of s in zp
+
+  PlacementGoal goal() const { return {log_index, ranges_from(problem, ranges)}; }
+};
 
 }  // namespace ninedof::python

@@ -1,10 +1,8 @@
 #include "ninedof/workspace/certified.hpp"
 
-#include <pybind11/stl.h>
-
-#include "support/columns.hpp"
 #include "support/interruptible.hpp"
 #include "support/module.hpp"
+#include "support/struct.hpp"
 #include "support/workspace_question.hpp"
 
 namespace ninedof::python {
@@ -12,43 +10,23 @@ namespace {
 
 constexpr std::array beyond{"nothing", "something", "unknown"};
 
-py::tuple ends_of_volume(const VolumeBounds& v) {
-  return py::make_tuple(v.low, v.high);
+std::pair<double, double> ends_of(const VolumeBounds& v) {
+  return {v.low, v.high};
 }
 
-py::dict dict_of_certified(const CertifiedWorkspace& c) {
-  py::dict out;
-  constexpr std::array ends{"gap", "time", "boxes", "stopped", "smallest"};
-  out["end"] = ends[static_cast<std::size_t>(c.end)];
-  out["volume"] = ends_of_volume(c.volume);
-  out["home_volume"] = ends_of_volume(c.home_volume);
-  out["home_inside"] = c.home_inside;
-  out["home_outside"] = c.home_outside;
-  out["beyond"] = beyond[static_cast<std::size_t>(c.beyond)];
-  out["box_low"] = array_from(c.box_low);
-  out["box_high"] = array_from(c.box_high);
-  out["low"] = array_from(c.low);
-  out["high"] = array_from(c.high);
-  out["inner_low"] = array_from(c.inner_low);
-  out["inner_high"] = array_from(c.inner_high);
-  out["open_low"] = array_from(c.open_low);
-  out["open_high"] = array_from(c.open_high);
-  Array volumes(std::vector<py::ssize_t>{static_cast<py::ssize_t>(c.open_volume.size()), 2});
-  for (std::size_t n = 0; n < c.open_volume.size(); ++n) {
-    volumes.mutable_data()[2 * n] = c.open_volume[n].low;
-    volumes.mutable_data()[2 * n + 1] = c.open_volume[n].high;
-  }
-  out["open_volume"] = volumes;
-  out["first_cut"] = column<std::int64_t>(c.first_cut);
-  Array cuts(std::vector<py::ssize_t>{static_cast<py::ssize_t>(c.cuts.size()), 5});
-  for (std::size_t n = 0; n < c.cuts.size(); ++n) {
-    double* to = cuts.mutable_data() + 5 * n;
-    Eigen::Map<Vec3>{to} = c.cuts[n].slope;
-    to[3] = c.cuts[n].allowed;
-    to[4] = c.cuts[n].forbidden;
-  }
-  out["cuts"] = cuts;
-  out["looked"] = c.looked;
+Array open_volumes(const CertifiedWorkspace& c) {
+  Array out(std::vector<py::ssize_t>{std::ssize(c.open_volume), 2});
+  double* to = out.mutable_data();
+  for (const VolumeBounds& v : c.open_volume) to = python::write(Eigen::Vector2d(v.low, v.high), to);
+  return out;
+}
+
+/// Slope, allowed and forbidden of each plane, shape (n, 5).
+Array planes_of(const CertifiedWorkspace& c) {
+  Array out(std::vector<py::ssize_t>{std::ssize(c.cuts), 5});
+  double* to = out.mutable_data();
+  for (const BoxCut& cut : c.cuts)
+    to = python::write(Eigen::Vector2d(cut.allowed, cut.forbidden), python::write(cut.slope, to));
   return out;
 }
 
@@ -57,8 +35,8 @@ CertifiedWorkspace certified_from(const py::object& given) {
   CertifiedWorkspace out;
   const bool nothing = given.attr("beyond").cast<std::string>() == beyond[0];
   out.beyond = nothing ? CertifiedWorkspace::Beyond::nothing : CertifiedWorkspace::Beyond::unknown;
-  out.box_low = vec3_of(given.attr("box_low").cast<Array>());
-  out.box_high = vec3_of(given.attr("box_high").cast<Array>());
+  out.box_low = given.attr("box_low").cast<Vec3>();
+  out.box_high = given.attr("box_high").cast<Vec3>();
   out.inner_low = points_from("inner_low", given.attr("inner_low"));
   out.inner_high = points_from("inner_high", given.attr("inner_high"));
   out.open_low = points_from("open_low", given.attr("open_low"));
@@ -77,22 +55,48 @@ CertifiedWorkspace certified_from(const py::object& given) {
 }  // namespace
 
 void bind_certified_workspace(py::module_& m) {
-  m.def("certified_workspace",
-        [](const Geometry& g, const py::dict& domain, const std::string& kind, double fraction, const Array& point,
-           const py::dict& criteria, const py::dict& settings, const py::object& home, const py::object& progress) {
-          const WorkspaceDomain d = domain_from(domain);
-          const InternalPointRule rule = rule_from(kind, fraction, point);
-          const WorkspaceCriteria c = criteria_from(criteria);
-          const CertifySettings s{settings["gap"].cast<double>(), settings["seconds"].cast<double>(),
-                                  settings["threads"].cast<int>(), settings["boxes"].cast<long>()};
-          const std::optional<Configuration> at_home = home_from(home);
-          return dict_of_certified(interruptible(
-              progress, [&](const Control& control) { return certified_workspace(g, d, rule, c, s, at_home, control); },
-              [](CertifiedWorkspace& found) {
-                found.end = CertifiedWorkspace::End::stopped;
-                return true;
-              }));
+  request<CertifySettings>(m, "CertifySettings", "When the search for the bounds of a volume ends.")
+      .def_readwrite("gap", &CertifySettings::gap, "Of the bounds, relative to the upper one.")
+      .def_readwrite("seconds", &CertifySettings::seconds, "Of wall time.")
+      .def_readwrite("threads", &CertifySettings::threads, "0: one for each processor.")
+      .def_readwrite("boxes", &CertifySettings::boxes, "Looked at, at most.");
+  using C = CertifiedWorkspace;
+  py::class_<C>(m, "CertifiedWorkspace", "A workspace between proved bounds; the public class says what each means.")
+      .def_property_readonly("end",
+                             [](const C& c) {
+                               constexpr std::array ends{"gap", "time", "boxes", "stopped", "smallest"};
+                               return ends[static_cast<std::size_t>(c.end)];
+                             })
+      .def_property_readonly("volume", [](const C& c) { return ends_of(c.volume); })
+      .def_property_readonly("home_volume", [](const C& c) { return ends_of(c.home_volume); })
+      .def_property_readonly("home",
+                             [](const C& c) {
+                               return c.home_inside ? "allowed" : c.home_outside ? "forbidden" : "unknown";
+                             })
+      .def_property_readonly("beyond", [](const C& c) { return beyond[static_cast<std::size_t>(c.beyond)]; })
+      .def_property_readonly("box_low", [](const C& c) { return array_from(c.box_low); })
+      .def_property_readonly("box_high", [](const C& c) { return array_from(c.box_high); })
+      .def_property_readonly("low", [](const C& c) { return array_from(c.low); })
+      .def_property_readonly("high", [](const C& c) { return array_from(c.high); })
+      .def_property_readonly("inner_low", points_of(&C::inner_low))
+      .def_property_readonly("inner_high", points_of(&C::inner_high))
+      .def_property_readonly("open_low", points_of(&C::open_low))
+      .def_property_readonly("open_high", points_of(&C::open_high))
+      .def_property_readonly("open_volume", &open_volumes)
+      .def_property_readonly("first_cut", column_of<std::int64_t>(&C::first_cut))
+      .def_property_readonly("cuts", &planes_of)
+      .def_readonly("looked", &C::looked);
+  m.def("certified_workspace", [](const WorkspaceQuestion& q, const CertifySettings& s, const py::object& progress) {
+    return interruptible(
+        progress,
+        [&](const Control& control) {
+          return certified_workspace(q.geometry, q.domain, q.rule, q.criteria, s, q.home, control);
+        },
+        [](C& found) {
+          found.end = C::End::stopped;
+          return true;
         });
+  });
   m.def("certified_states", [](const py::object& certified, const Array& points) {
     const CertifiedWorkspace found = certified_from(certified);
     const std::vector<Vec3> at = points_from("points", points);

@@ -1,112 +1,116 @@
 #include "ninedof/workspace/workspace.hpp"
 
 #include "ninedof/workspace/region_share.hpp"
-#include "support/columns.hpp"
 #include "support/interruptible.hpp"
-#include "support/map_audit.hpp"
 #include "support/module.hpp"
-#include "support/region.hpp"
+#include "support/struct.hpp"
 #include "support/workspace_question.hpp"
 
 namespace ninedof::python {
 namespace {
 
-WorkspaceSettings workspace_settings_from(const py::dict& d) {
-  using enum WorkspaceSettings::Method;
-  return {word<WorkspaceSettings::Method>("method", d["method"].cast<std::string>(),
-                                          {{"octree", octree}, {"grid", grid}, {"sample", sample}}),
-          d["tolerance"].cast<double>(),
-          d["resolution"].cast<int>(),
-          d["most_evaluations"].cast<long>(),
-          d["points"].cast<long>(),
-          d["shifts"].cast<int>(),
-          d["seed"].cast<std::uint64_t>(),
-          d["threads"].cast<int>()};
+/// The sides of the cells, shape (n, 3); zero for the points of a sample.
+Array sides_of(const WorkspaceMap& map) {
+  std::vector<Vec3> sides;
+  for (const std::uint8_t level : map.cells.level)
+    sides.push_back(map.resolution > 0 ? Vec3((map.high - map.low) / (map.resolution * std::ldexp(1.0, level)))
+                                       : Vec3(Vec3::Zero()));
+  return array_from(sides);
 }
 
-py::dict dict_of(const WorkspaceCells& c) {
-  py::dict out;
-  out["centre"] = array_from(c.centre);
-  out["level"] = column<std::uint8_t>(c.level);
-  out["state"] = column<std::uint8_t>(c.state);
-  out["limit"] = column<std::int16_t>(c.limit);
-  out["fraction"] = column<double>(c.fraction);
-  out["condition_number"] = column<double>(c.condition_number);
-  out["piece"] = column<std::int32_t>(c.piece);
+Array levels_of(const WorkspaceMap& map) {
+  Array out(std::vector<py::ssize_t>{std::ssize(map.levels), 4});
+  double* to = out.mutable_data();
+  for (const WorkspaceLevel& l : map.levels)
+    to = python::write(
+        Eigen::Vector4d(static_cast<double>(l.cells), static_cast<double>(l.evaluations), l.volume, l.error), to);
   return out;
 }
 
-py::dict dict_of(const WorkspaceMap& m) {
-  py::dict out;
-  out["status"] = to_string(m.status);
-  out["volume"] = m.volume;
-  out["error"] = m.error;
-  out["unseen"] = m.unseen;
-  out["chart_volume"] = m.chart_volume;
-  out["box_limits"] = m.box_limits;
-  out["home_allowed"] = m.home_allowed;
-  out["home_limit"] = m.home_limit;
-  out["pieces"] = column<double>(m.pieces);
-  out["ball_centre"] = array_from(m.ball.centre);
-  out["ball_radius"] = m.ball.radius;
-  out["box_low"] = array_from(m.box.low);
-  out["box_high"] = array_from(m.box.high);
-  out["conditioning_index"] = m.conditioning_index;
-  out["conditioning_index_error"] = m.conditioning_index_error;
-  out["worst_condition_number"] = m.worst_condition_number;
-  out["worst_at"] = array_from(m.worst_at);
-  out["percentiles"] = column<double>(m.percentiles);
-  out["boundary_area"] = m.boundary_area;
-  out["limit_area"] = column<double>(m.limit_area);
-  out["cells"] = dict_of(m.cells);
-  Array levels(std::vector<py::ssize_t>{static_cast<py::ssize_t>(m.levels.size()), 4});
-  for (std::size_t n = 0; n < m.levels.size(); ++n) {
-    const WorkspaceLevel& l = m.levels[n];
-    Eigen::Map<Eigen::Vector4d>(levels.mutable_data() + 4 * n) << static_cast<double>(l.cells),
-        static_cast<double>(l.evaluations), l.volume, l.error;
-  }
-  out["levels"] = levels;
-  out["low"] = array_from(m.low);
-  out["high"] = array_from(m.high);
-  out["evaluations"] = m.evaluations;
-  out["internal_point_audit"] = audit_dict(m.internal_points);
-  return out;
+void bind_map(py::module_& m) {
+  py::class_<WorkspaceCells>(m, "WorkspaceCells", "The cells of a map.")
+      .def_property_readonly("centre", points_of(&WorkspaceCells::centre))
+      .def_property_readonly("state", column_of<std::uint8_t>(&WorkspaceCells::state))
+      .def_property_readonly("limit", column_of<std::int16_t>(&WorkspaceCells::limit))
+      .def_property_readonly("fraction", column_of<double>(&WorkspaceCells::fraction))
+      .def_property_readonly("condition_number", column_of<double>(&WorkspaceCells::condition_number))
+      .def_property_readonly("piece", column_of<std::int32_t>(&WorkspaceCells::piece));
+  py::class_<MapAudit>(m, "MapAudit", "How often continuation missed a better O.")
+      .def_readonly("poses", &MapAudit::poses)
+      .def_readonly("missed", &MapAudit::missed)
+      .def_readonly("largest", &MapAudit::largest);
+  py::class_<WorkspaceMap>(m, "WorkspaceMap", "A workspace: what the public class of this name adds to is said there.")
+      .def_property_readonly("status", [](const WorkspaceMap& map) { return to_string(map.status); })
+      .def_readonly("volume", &WorkspaceMap::volume)
+      .def_readonly("error", &WorkspaceMap::error)
+      .def_readonly("unseen", &WorkspaceMap::unseen)
+      .def_readonly("chart_volume", &WorkspaceMap::chart_volume)
+      .def_readonly("box_limits", &WorkspaceMap::box_limits)
+      .def_readonly("home_allowed", &WorkspaceMap::home_allowed)
+      .def_property_readonly("home_limit",
+                             [](const WorkspaceMap& map) {
+                               return map.home_limit < 0 ? std::string()
+                                                         : limit_names()[static_cast<std::size_t>(map.home_limit)];
+                             })
+      .def_property_readonly("pieces", column_of<double>(&WorkspaceMap::pieces))
+      .def_property_readonly("ball_centre", [](const WorkspaceMap& map) { return array_from(map.ball.centre); })
+      .def_property_readonly("ball_radius", [](const WorkspaceMap& map) { return map.ball.radius; })
+      .def_property_readonly("box_low", [](const WorkspaceMap& map) { return array_from(map.box.low); })
+      .def_property_readonly("box_high", [](const WorkspaceMap& map) { return array_from(map.box.high); })
+      .def_readonly("conditioning_index", &WorkspaceMap::conditioning_index)
+      .def_readonly("conditioning_index_error", &WorkspaceMap::conditioning_index_error)
+      .def_readonly("worst_condition_number", &WorkspaceMap::worst_condition_number)
+      .def_property_readonly("worst_at", [](const WorkspaceMap& map) { return array_from(map.worst_at); })
+      .def_property_readonly("percentiles", column_of<double>(&WorkspaceMap::percentiles))
+      .def_readonly("boundary_area", &WorkspaceMap::boundary_area)
+      .def_property_readonly("limit_area", column_of<double>(&WorkspaceMap::limit_area))
+      .def_property_readonly("levels", &levels_of)
+      .def_readonly("cells", &WorkspaceMap::cells)
+      .def_property_readonly("sides", &sides_of)
+      .def_property_readonly("low", [](const WorkspaceMap& map) { return array_from(map.low); })
+      .def_property_readonly("high", [](const WorkspaceMap& map) { return array_from(map.high); })
+      .def_readonly("evaluations", &WorkspaceMap::evaluations)
+      .def_readonly("internal_point_audit", &WorkspaceMap::internal_points);
 }
 
 }  // namespace
 
 void bind_workspace(py::module_& m) {
+  bind_map(m);
   m.attr("workspace_limits") = py::cast(limit_names());
-  m.def("workspace",
-        [](const Geometry& g, const py::dict& domain, const std::string& kind, double fraction, const Array& point,
-           const py::dict& criteria, const py::dict& settings, const py::object& home, const py::object& progress) {
-          const WorkspaceDomain d = domain_from(domain);
-          const InternalPointRule rule = rule_from(kind, fraction, point);
-          const WorkspaceCriteria c = criteria_from(criteria);
-          const WorkspaceSettings s = workspace_settings_from(settings);
-          const std::optional<Configuration> at_home = home_from(home);
-          return dict_of(interruptible(
-              progress, [&](const Control& control) { return workspace(g, d, rule, c, s, at_home, control); },
-              [](WorkspaceMap& map) {
-                map.status = WorkspaceStatus::stopped;
-                return true;
-              }));
+  auto settings = request<WorkspaceSettings>(m, "WorkspaceSettings", "How a workspace is searched.");
+  word_attribute(settings, "method", &WorkspaceSettings::method, std::array{"octree", "grid", "sample"},
+                 "Cells divided at the boundary, all of one size, or points.");
+  settings.def_readwrite("tolerance", &WorkspaceSettings::tolerance, "Of an octree, relative to the volume.")
+      .def_readwrite("resolution", &WorkspaceSettings::resolution, "Cells along each side before any is divided.")
+      .def_readwrite("most_evaluations", &WorkspaceSettings::most_evaluations, "Poses.")
+      .def_readwrite("points", &WorkspaceSettings::points, "Of the audit, or of each shift of a sample.")
+      .def_readwrite("shifts", &WorkspaceSettings::shifts, "Of a sample.")
+      .def_readwrite("seed", &WorkspaceSettings::seed, "Of the audit and of a sample.")
+      .def_readwrite("threads", &WorkspaceSettings::threads, "0: one for each processor.");
+  m.def("workspace", [](const WorkspaceQuestion& q, const WorkspaceSettings& s, const py::object& progress) {
+    return interruptible(
+        progress,
+        [&](const Control& control) { return workspace(q.geometry, q.domain, q.rule, q.criteria, s, q.home, control); },
+        [](WorkspaceMap& map) {
+          map.status = WorkspaceStatus::stopped;
+          return true;
         });
-  m.def("region_share",
-        [](const Geometry& g, const py::object& home, const py::dict& criteria, const py::dict& region, long count) {
-          const Configuration at_home = home_from(home).value();
-          const WorkspaceCriteria asked = criteria_from(criteria);
-          const Region over = region_from(region);
-          const RegionShare found = interruptible(py::none(), [&](const Control& control) {
-            return region_share(g, at_home, asked, over, count, control);
-          });
-          return py::make_tuple(found.share, found.poses, py::tuple(py::cast(found.passed)));
-        });
+  });
+  py::class_<RegionShare>(m, "RegionShare", "How much of a region keeps the criteria of a workspace.")
+      .def_readonly("share", &RegionShare::share)
+      .def_readonly("looked_at", &RegionShare::poses)
+      .def_property_readonly("passed", [](const RegionShare& found) { return py::tuple(py::cast(found.passed)); });
+  m.def("region_share", [](const WorkspaceQuestion& q, const Region& region, long count) {
+    return interruptible(py::none(), [&](const Control& control) {
+      return region_share(q.geometry, q.home.value(), q.criteria, region, count, control);
+    });
+  });
   m.def("spread_rotations", [](int count, double angle) {
     const std::vector<Mat3> rotations = spread_rotations(count, angle);
     Array out(std::vector<py::ssize_t>{static_cast<py::ssize_t>(rotations.size()), 3, 3});
     double* to = out.mutable_data();
-    for (const Mat3& q : rotations) to = write(q, to);
+    for (const Mat3& q : rotations) to = python::write(q, to);
     return out;
   });
 }

@@ -13,15 +13,16 @@ from ninedof.cli.chosen_design import Chosen
 from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, Threads, Three, Two
 from ninedof.cli.posed import length_at_home
 from ninedof.design.indices import computed
-from ninedof.design.leg_limits import SPREADS
+from ninedof.design.leg_limits import LEGS, SPREADS
 from ninedof.design.limit_numbers import CONES
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.redundancy.rules import RULES
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite
 from ninedof.workspace.certified import GAPS, require_certifiable
 from ninedof.workspace.region_share import box_about
-from ninedof.workspace.study_criteria import LEGS
 from ninedof.workspace.study_question import (
     box_around,
     built_ranges,
@@ -136,7 +137,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     region = None if study is None else study.objective.region
     given = _present(options, CRITERIA)
     values = {CRITERIA[name]: _radians(name, x) if name.endswith("_deg") else x for name, x in given.items()}
-    criteria, own, left = criteria_of(study if options.study_limits else None, float(home.position[2]), values)
+    criteria, own, left = criteria_of(study if options.study_limits else None, chosen.geometry, home, values)
     if options.study_limits and compare_poses(left, values):
         built = built_ranges(chosen.geometry, home, region, chosen.leg_ranges)
         if built is not None:
@@ -171,13 +172,13 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
 
 
 def criteria_of(
-    study: Study | None, zp: float, values: Mapping[str, Any]
+    study: Study | None, geometry: Geometry, home: Configuration, values: Mapping[str, Any]
 ) -> tuple[dict[str, Any], set[str], list[str]]:
     """Return criteria, the names of those that come from the study, and the limits of the study that are none.
 
     `values` holds what options give for constraints of leg lengths, angles and axes of cones, and other criteria.
     """
-    from_study, left = ({}, []) if study is None else study_limits(study, zp)
+    from_study, left = ({}, []) if study is None else study_limits(study, geometry, home)
     criteria = from_study | {name: value for name, value in values.items() if not name.endswith("_axis")}
     for cone in CONES:
         axis = values.get(f"{cone}_axis", _axis(from_study.get(cone)))
@@ -187,8 +188,7 @@ def criteria_of(
         elif axis is not None:
             angle = criteria[cone]["max"] if isinstance(criteria[cone], Mapping) else criteria[cone]
             criteria[cone] = {"max": angle, "axis": axis}
-    if criteria.get("singularity_free") is False:
-        del criteria["singularity_free"]
+    criteria = {name: value for name, value in criteria.items() if value is not False}
     ranges = {name for name in LEGS if name in criteria}
     unchanged = {name for name in from_study if name not in values}
     own = {name for name in criteria if name in unchanged and name not in ranges}

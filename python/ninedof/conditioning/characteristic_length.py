@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.robot.configuration import Configuration, operands
+from ninedof.robot.configuration import Configuration, Flat, operands
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite, shown
 from ninedof.support.arrays import Floats, as_floats
@@ -62,7 +62,7 @@ def resolve_length(geometry: Geometry, configuration: Configuration, length: Arr
 
 def operands_and_length(
     geometry: Geometry, configuration: Configuration, length: ArrayLike | str
-) -> tuple[Geometry, Floats, Floats, Floats, Floats]:
+) -> tuple[Geometry, Configuration | Flat, Floats]:
     """Return the operands of the core with the characteristic length as `resolve_length` gives it."""
     return *operands(geometry, configuration), resolve_length(geometry, configuration, length)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import Any
 
 from ninedof import _core
 from ninedof.design.limits import ROWS
@@ -14,9 +14,11 @@ from ninedof.support.arrays import Floats
 PARTS: dict[str, tuple[str, ...]] = _core.limit_parts
 """The limits that have a value at every pose, and their items: legs, pairs of legs "l1-q2", determinants "det N"."""
 CONES = tuple(name for name in PARTS if ROWS[name].is_angle)
+CLEARANCE = next(name for name, parts in PARTS.items() if "-" in parts[0])
+"""The limit on the distance of pairs of legs."""
 
 
-def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration, axis: Sequence[float] = ()) -> Floats:
+def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration, axis: Any = (0, 0, 0)) -> Floats:
     """Return what a limit is about at each pose, shape (n, items): lengths, radians, distances, determinants.
 
     Parameters
@@ -27,12 +29,11 @@ def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration,
     c : Configuration, shape (n,)
     home : Configuration
         A single one: determinants are positive on its side, and cones without an axis are about its legs.
-    axis : sequence, optional
-        Of a cone, in the frame of its body.
+    axis : array_like, shape (3,), optional
+        Of a cone, in the frame of its body; by default each leg's own direction at home.
 
     """
-    at_home = (home.position[None], home.rotation[None], home.internal_point[None])
-    return _core.limit_numbers(name, axis, g, *at_home, c.position, c.rotation, c.internal_point)
+    return _core.limit_numbers(name, axis, g, home, c)
 
 
 def exempt_pairs(g: Geometry, study: Study | None = None) -> list[bool]:
@@ -41,7 +42,7 @@ def exempt_pairs(g: Geometry, study: Study | None = None) -> list[bool]:
     Where a study limits the distance, in every design of it, as joints that coincide in this one alone collide; else in
     this robot.
     """
-    limited = study is not None and "leg_clearance" in study.constraints
+    limited = study is not None and CLEARANCE in study.constraints
     return study.problem().exempt_pairs() if study is not None and limited else _core.pairs_sharing_a_joint(g)
 
 

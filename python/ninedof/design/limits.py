@@ -103,9 +103,9 @@ class Limit:
         entries = (angle_entry(*item) if item[0] in angles else item for item in self.entries.items())
         return {name: plain(value) for name, value in entries}
 
-    def for_core(self) -> dict[str, Any]:
+    def for_core(self) -> _core.Limit:
         """Return the limit as the core takes it: the axis of unit length."""
-        return vars(self) | {"axis": _unit(self.axis) if self.axis else ()}
+        return _core.Limit(**vars(self) | {"axis": _unit(self.axis) if self.axis else (0.0, 0.0, 0.0)})
 
 
 def parse(name: str, value: Any) -> tuple[Limit, ...]:

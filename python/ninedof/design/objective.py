@@ -10,6 +10,7 @@ from inspect import signature
 from itertools import chain
 from typing import Any, Self
 
+from ninedof import _core
 from ninedof.design import poses
 from ninedof.design.indices import objectives
 from ninedof.design.pose import Pose
@@ -170,13 +171,13 @@ class Objective(Table):
         """Return the table of a study file: the index, and what differs from the defaults."""
         return {"index": self.index, **super().to_dict()}
 
-    def for_core(self, over_region: bool = False) -> dict[str, Any]:
+    def for_core(self, over_region: bool = False) -> _core.Objective:
         """Return the objective as the core takes it; of a region, that over the listed poses, or over the region."""
         # Without the region a mean has no poses to be taken over.
-        return {
-            "index": self.index,
-            "aggregate": self.aggregate if self.region is None or over_region else "worst",
-            "weight": self.weight,
+        return _core.Objective(
+            index=self.index,
+            aggregate=self.aggregate if self.region is None or over_region else "worst",
+            weight=self.weight,
+            poses=[pose.for_core() for pose in self.poses],
             **{name: math.inf if (limit := getattr(self, name)) is None else limit for name in CONDITION_LIMITS},
-            "poses": [pose.for_core() for pose in self.poses],
-        }
+        )

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from ninedof import _core
 from ninedof.redundancy.rules import STUDY_RULES
 from ninedof.support.arguments import Vector, choice, finite, vector
 from ninedof.support.schema import Table, entry
@@ -70,8 +71,14 @@ class Pose(Table):
         word = "shifted" if shift == self.position else "held" if shift == ZERO else shift
         object.__setattr__(self, "internal_point", word)
 
-    def for_core(self) -> tuple[Vector, Vector, Vector, bool, bool, float]:
-        """Return position, rotation vector, shift of s, whether the optimizer chooses s or shifts are in zp, weight."""
+    def for_core(self) -> _core.Pose:
+        """Return the pose as the core takes it."""
         point = self.internal_point
-        shift = point if not isinstance(point, str) else self.position if point == "shifted" else ZERO
-        return self.position, self.rotation, shift, self.internal_point == "best", self.unit == "zp", self.weight
+        return _core.Pose(
+            position=self.position,
+            rotation=self.rotation,
+            internal=point if not isinstance(point, str) else self.position if point == "shifted" else ZERO,
+            best_internal=point == "best",
+            in_zp=self.unit == "zp",
+            weight=self.weight,
+        )

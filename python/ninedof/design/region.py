@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from ninedof import _core
 from ninedof.redundancy.rules import STUDY_RULES
 from ninedof.support.angles import exact_degrees, half_turn
 from ninedof.support.arguments import Vector, choice, finite, pair, text, vector, vectors
@@ -117,31 +118,25 @@ class Region(Table):
     @property
     def reach(self) -> tuple[float, ...]:
         """Greatest moduli of the six coordinates of a pose: shift of p, tilt about x and y, yaw."""
-        shape, size = self._shape()
-        place = {"path": (1.0, 0.0, 0.0), "ball": size[:1] * 3, "cylinder": (size[0], *size[::2])}.get(shape, size)
-        return (*place, self.tilt, self.tilt, self.yaw)
+        return tuple(self.for_core().reach)
 
-    def for_core(self) -> dict[str, Any]:
-        """Return the region as the core takes it."""
-        shape, size = self._shape()
-        return {
-            "shape": shape,
-            "size": size,
-            "corners": self.path or (),
-            "tilt": self.tilt,
-            "yaw": self.yaw,
-            "shifted": self.internal_point == "shifted",
-            "placed": self.internal_point == "best",
-            "in_zp": self.unit == "zp",
-        }
-
-    def _shape(self) -> tuple[str, Vector]:
-        """Return the core's word for the shape, and its size; a region of turns alone is an empty box."""
+    def for_core(self) -> _core.Region:
+        """Return the region as the core takes it; one of turns alone is an empty box."""
+        shape, size = "box" if self.path is None else "path", self.box or (0.0, 0.0, 0.0)
         if self.ball is not None:
-            return "ball", (self.ball, 0.0, 0.0)
+            shape, size = "ball", (self.ball, 0.0, 0.0)
         if self.cylinder is not None:
-            return "cylinder", (self.cylinder[0], 0.0, self.cylinder[1])
-        return "box" if self.path is None else "path", self.box or (0.0, 0.0, 0.0)
+            shape, size = "cylinder", (self.cylinder[0], 0.0, self.cylinder[1])
+        return _core.Region(
+            shape=shape,
+            size=size,
+            corners=self.path or (),
+            tilt=self.tilt,
+            yaw=self.yaw,
+            shifted=self.internal_point == "shifted",
+            placed=self.internal_point == "best",
+            in_zp=self.unit == "zp",
+        )
 
 
 def _plain(x: float) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from ninedof import _core
 from ninedof.design.pose import Pose
@@ -33,8 +32,7 @@ class Placing:
     def __call__(self, at: Floats) -> tuple[Configuration, tuple[Pose, ...]]:
         """Return the configurations and poses at given coordinates, shape (n, 6)."""
         region: Region = self.study.objective.region  # type: ignore[assignment]
-        plain, x, log_index, ranges, known = self.for_core()
-        near, shift = _core.place_in_region(plain, region.for_core(), x, log_index, ranges, known, at, 0)
+        near, shift = _core.place_in_region(self.for_core(), region.for_core(), at, 0)
         there = configurations_at(region, self.neutral, near)[1]
         zp = float(self.neutral.position[2])
         size = 1.0 if region.unit == "zp" else zp
@@ -45,12 +43,17 @@ class Placing:
         )
         return Configuration(there.position, there.rotation, self.neutral.internal_point + zp * shift), poses
 
-    def for_core(self) -> tuple[Any, list[float], float, list[Any], list[tuple[float, ...]]]:
-        """Return the problem without poses, the design, the logarithm of the index, the ranges, and known places."""
+    def for_core(self) -> _core.PlacedDesign:
+        """Return the design as the core takes it, its problem without poses."""
         plain = replace(self.study, objective=replace(self.study.objective, poses=(), region=None)).problem()
         low, high = ([r[k] for r in self.leg_ranges] for k in range(2))
-        ranges = [("", low, high, 0.0)] if self.leg_ranges else []
-        return plain, [self.variables[name] for name in plain.names], math.log(self.objective), ranges, self._known()
+        return _core.PlacedDesign(
+            problem=plain,
+            variables=[self.variables[name] for name in plain.names],
+            log_index=math.log(self.objective),
+            ranges=[("", low, high, 0.0)] if self.leg_ranges else [],
+            known=self._known(),
+        )
 
     def _known(self) -> list[tuple[float, ...]]:
         """Return the shifts of O at the poses that ruled, in zp."""

@@ -86,7 +86,7 @@ def follow(
 
     """
     trajectory_argument(trajectory)
-    home_arrays = single(geometry, home, "home")
+    single(geometry, home, "home")
     rule, bounds = rule_argument(internal_point), leg_limits(limits)
     length = characteristic_length
     lc = (
@@ -96,7 +96,7 @@ def follow(
     )
     time, p, q = trajectory.time, trajectory.position, trajectory.rotation
     loads = _loads(geometry, Configuration(p, q, p), force, moment)
-    found = _core.follow(*home_arrays, time, p, q, rule, bounds, lc, loads)
+    found = _core.follow(geometry, home, time, p, q, rule, bounds, lc, loads)
     tracked, margins, forces = found.pop("tracked"), found.pop("singularity_margins"), found.pop("leg_forces")
     return Followed(
         geometry=geometry,

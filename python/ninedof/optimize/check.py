@@ -208,7 +208,11 @@ def _of_claims(result: Result, steps: int, seed: int) -> Iterator[Finding]:
 def _region(result: Result, problem: _core.Problem, x: list[float], seed: int) -> Finding:
     report: Any = result.region
     region: Any = result.study.objective.region
-    worst = _core.check_region(problem, region.for_core(), x, report.leg_ranges, seed)
+    legs = None
+    if report.leg_ranges:
+        low, high = np.transpose(report.leg_ranges)
+        legs = _core.LegLimits(low=low, high=high)
+    worst = _core.check_region(problem, region.for_core(), x, legs, seed)
     where = "poses, O being placed at each," if region.internal_point == "best" else "poses"
     sentence = f"at {worst.poses} {where} the index is at most {worst.index:.9g}, the least margin {worst.margin:.1e}"
     passed = worst.excess <= BETWEEN
@@ -227,8 +231,8 @@ def _proofs(result: Result) -> Iterator[Finding]:
 
 def _bounds(result: Result) -> Iterator[Finding]:
     if result.proof is not None and result.proof.certificate:
-        proved, words, boxes, _, _ = _core.check_certificate(result.proof.certificate, None)
-        yield Finding("certificate", proved, float(boxes), words)
+        verdict = _core.check_certificate(result.proof.certificate, None)
+        yield Finding("certificate", verdict.proved, float(verdict.boxes), verdict.words)
     best: Any = result.best
     neutral = float(condition_number(best.geometry, best.configuration, best.characteristic_length))
     for bound in applicable_bounds(result):

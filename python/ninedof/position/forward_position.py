@@ -161,37 +161,21 @@ def forward_position(geometry: Geometry, leg_lengths: ArrayLike, threads: int | 
     counts, certain, flat, separation, sides = (np.concatenate([c[k] for c in chunks]) for k in (0, 3, 4, 5, 6))
     status = [PositionStatus(word or "no_data") for c in chunks for word in c[1]]
     reason = [OBSTACLES.get(word, "") for c in chunks for word in c[2]]
-    return _modes(
-        lengths.shape[:-1], counts, flat.reshape(-1, 15), separation, sides.reshape(-1, 2), status, reason, certain
-    )
+    shape, most = lengths.shape[:-1], int(counts.max(initial=0))
+    places = np.flatnonzero(np.arange(most) < counts[:, None])  # of the modes of all rows in a padded stack
 
+    def padded(values: NDArray[Any], width: int, fill: float) -> NDArray[Any]:
+        out = np.full((len(counts) * most, width), fill, dtype=values.dtype)
+        out[places] = values.reshape(-1, width)
+        return out
 
-def _modes(
-    shape: tuple[int, ...],
-    counts: NDArray[np.intc],
-    flat: Floats,
-    separation: Floats,
-    sides: NDArray[np.intc],
-    status: list[PositionStatus],
-    reason: list[str],
-    certain: NDArray[np.uint8],
-) -> AssemblyModes:
-    """Arrange the modes of all rows, which the core returns one after the other, as a padded stack."""
-    most = int(counts.max(initial=0))
-    places = np.flatnonzero(np.arange(most) < counts[:, None])
-    padded = np.full((len(counts) * most, 15), np.nan)
-    padded[places] = flat
-    spread = np.full(len(counts) * most, np.nan)
-    spread[places] = separation
-    side = np.zeros((len(counts) * most, 2), dtype=np.int64)
-    side[places] = sides
-    full = (*shape, most)
-    single = shape == ()
-    modes = AssemblyModes._shaped(full, padded[:, :3], padded[:, 3:12], padded[:, 12:])
-    modes._base_side, modes._platform_side = side[:, 0].reshape(full), side[:, 1].reshape(full)
-    modes._separation = spread.reshape(full)
-    modes._certain = bool(certain[0]) if single else certain.astype(bool).reshape(shape)
-    modes._count = int(counts[0]) if single else counts.astype(np.int64).reshape(shape)
-    modes._reason = reason[0] if single else np.array(reason, dtype=object).reshape(shape)
-    modes._status = status[0] if single else np.array(status, dtype=object).reshape(shape)
+    full, poses = (*shape, most), padded(flat, 15, np.nan)
+    modes = AssemblyModes._shaped(full, poses[:, :3], poses[:, 3:12], poses[:, 12:])
+    modes._base_side, modes._platform_side = (x.reshape(full) for x in padded(sides.astype(np.int64), 2, 0).T)
+    modes._separation = padded(separation, 1, np.nan).reshape(full)
+    modes._certain, modes._count = certain.astype(bool).reshape(shape)[()], counts.astype(np.int64).reshape(shape)[()]
+    modes._reason = np.array(reason, dtype=object).reshape(shape)[()]
+    modes._status = np.array(status, dtype=object).reshape(shape)[()]
+    if shape == ():
+        modes._certain, modes._count = bool(modes._certain), int(modes._count)
     return modes

@@ -126,7 +126,7 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
     is_path = lengths.ndim - 1 > len(start.shape)
     path = lengths.shape[-2] if is_path else 1
     shape, home, (rows,) = broadcast_flat(start, leg_lengths=(lengths, 2 if is_path else 1))
-    flat, status = _core.track(geometry, rows.reshape(-1, 9), path, *home, thread_argument(threads))
+    flat, status = _core.track(geometry, rows.reshape(-1, 9), path, home, thread_argument(threads))
     full = (*shape, path) if is_path else shape
     words = np.array([TrackStatus(word) for word in _core.track_statuses], dtype=object)[status]
     found = Tracked._shaped(full, flat[:, :3], flat[:, 3:12], flat[:, 12:15])

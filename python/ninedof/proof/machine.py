@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from hashlib import sha256
 from time import perf_counter
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 import numpy as np
 
@@ -20,9 +20,24 @@ from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite, instance, shown, whole
-from ninedof.support.arrays import MOST_THREADS
+from ninedof.support.arrays import MOST_THREADS as MOST
 from ninedof.support.margins import margin_of
 from ninedof.support.progress import Progress, phase
+from ninedof.support.structs import options_of
+
+
+class CertifyOptions(TypedDict, total=False):
+    """Options of `certify`, which says what they mean."""
+
+    condition_number: float | None
+    gap: float
+    time_limit: float
+    tolerance: float
+    threads: int
+    rule: PointRule | Callable[[], PointRule] | None
+    resume: MachineCertificate | None
+    progress: Progress | None
+    keep: Callable[[MachineCertificate], object] | None
 
 
 def certify(
@@ -30,16 +45,7 @@ def certify(
     geometry: Geometry,
     configurations: Configuration,
     characteristic_length: float,
-    *,
-    condition_number: float | None = None,
-    gap: float = 0.05,
-    time_limit: float = 300.0,
-    tolerance: float = 1e-6,
-    threads: int = 0,
-    rule: PointRule | Callable[[], PointRule] | None = None,
-    resume: MachineCertificate | None = None,
-    progress: Progress | None = None,
-    keep: Callable[[MachineCertificate], object] | None = None,
+    **options: Unpack[CertifyOptions],
 ) -> MachineCertificate:
     """Prove the limits of a study for one design, and enclose its worst condition number.
 
@@ -83,13 +89,13 @@ def certify(
         For a bad argument.
 
     """
+    given = options_of("certify", CertifyOptions, options, gap=0.05, time_limit=300.0, tolerance=1e-6, threads=0)
     region = study.objective.region
-    gap = finite("gap", gap, 1e-9)
-    seconds = finite("time_limit", time_limit, 0.0)
-    tolerance = finite("tolerance", tolerance, 0.0, 0.01)
-    if condition_number is not None:
+    gap, seconds = finite("gap", given["gap"], 1e-9), finite("time_limit", given["time_limit"], 0.0)
+    tolerance, threads = finite("tolerance", given["tolerance"], 0.0, 0.01), whole("threads", given["threads"], 0, MOST)
+    resume, progress, keep = given["resume"], given["progress"], given["keep"]
+    if (condition_number := given["condition_number"]) is not None:
         condition_number = finite("condition_number", condition_number, 1.0)
-    threads = whole("threads", threads, 0, MOST_THREADS)
     if resume is not None:
         instance("resume", resume, MachineCertificate)
     if keep is not None and not callable(keep):
@@ -103,15 +109,13 @@ def certify(
     if resume is not None and resume.machine != digest:
         raise ValueError("resume: got a certificate of another machine, expected one of this machine")
     begin = perf_counter()
-    followed = _rule(region, configurations[0], rule, resume)
+    followed = _rule(region, configurations[0], given["rule"], resume)
     end = perf_counter() + seconds  # finding a rule does not count for the time limit
     over = None if region is None else region.for_core()
     by_rule = None if followed is None else followed.for_core()
 
     def posed(at: Configuration, *where: Any) -> _core.PosedRobot:
-        return _core.PosedRobot(
-            geometry, at.position, at.rotation, at.internal_point, float(characteristic_length), *where
-        )
+        return _core.PosedRobot(geometry, at, float(characteristic_length), *where)
 
     def settings(bounds: list[float]) -> _core.ConditionSettings:
         left = end - perf_counter()
@@ -164,8 +168,7 @@ def machine_digest(
     study: Study, geometry: Geometry, configurations: Configuration, characteristic_length: float
 ) -> str:
     """Return a digest of every number on which a proof of the condition number depends."""
-    region = study.objective.region
-    digest = sha256(repr((float(characteristic_length), region and region.for_core())).encode())
+    digest = sha256(repr((float(characteristic_length), study.objective.region)).encode())
     joints = (geometry.base_external, geometry.base_internal, geometry.platform_external, geometry.platform_internal)
     for array in (*joints, configurations.position, configurations.rotation, configurations.internal_point):
         digest.update(repr(np.asarray(array, float).tolist()).encode())

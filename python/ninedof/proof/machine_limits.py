@@ -6,6 +6,7 @@ from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.proof.machine_record import LimitProof, Met
 from ninedof.support.margins import margin_of
+from ninedof.support.structs import from_core
 
 
 def proved_limits(
@@ -33,13 +34,13 @@ def proved_limits(
         Every leg (l, q, r) stays between these lengths.
 
     """
-    limits, lengths = _core.limits_over_poses(machine, study.problem(), tolerance, threads, seconds)
+    found = _core.limits_over_poses(machine, study.problem(), tolerance, threads, seconds)
     proofs = []
-    for name, kind, side, bound, value, answer, which, at, at_neutral, boxes in limits:
-        margin = float(margin_of(kind, side, bound, value[side == "max"]))
-        poses = tuple(met_at(one, only_neutral or at_neutral) for one in at)
-        proofs.append(LimitProof(name, kind, side, bound, answer, value, margin, which, poses, boxes))
-    return tuple(proofs), tuple(lengths)
+    for one in found.limits:
+        margin = float(margin_of(one.kind, one.side, one.limit, one.value[one.side == "max"]))
+        poses = tuple(met_at(place, only_neutral or one.at_neutral) for place in one.at)
+        proofs.append(from_core(LimitProof, one, margin=margin, at=poses))
+    return tuple(proofs), found.lengths
 
 
 def met_at(at: _core.MetAt, neutral: bool) -> Met:

@@ -32,7 +32,7 @@ class Met:
     def for_core(self) -> _core.MetAt:
         """Return the pose as the core counts poses."""
         listed = -1 if self.listed is None else max(self.listed - 1, 0)
-        return _core.MetAt(self.shift, self.tilt, self.yaw, listed)
+        return _core.MetAt(shift=self.shift, tilt=self.tilt, yaw=self.yaw, pose=listed)
 
     def worded(self, unit: str = "") -> str:
         """Return the pose in words, angles in degrees."""

@@ -17,6 +17,7 @@ from ninedof.support.fields import entries_of
 from ninedof.support.files import write_whole
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.short import short_repr
+from ninedof.support.structs import from_core
 
 FILE = "optimum.certificate"
 GAPS = {"hexagonal": 1e-12, "symmetric": 1e-6}
@@ -28,7 +29,7 @@ PLAIN = ("lower_bound", "target", "complete", "boxes", "open", "seconds", "bette
 @short_repr
 @dataclass(frozen=True)
 class OptimumProof:
-    """What `prove_optimum` returns."""
+    """A lower bound of the condition number of every design of a study, proved."""
 
     lower_bound: float
     """No design of the study has a condition number below it, at the neutral pose."""
@@ -154,12 +155,16 @@ def prove_optimum(
     target = best * (1.0 - aim)
     if not target > 1.0:
         raise ValueError(f"condition_number: got {best:g} and a gap of {aim:g}, expected more than 1 to be proved")
-    return _proved(problem, target, thread_argument(threads), MOST_BOXES, limit, progress)
+    settings = _core.OptimumSettings(
+        target=target, threads=thread_argument(threads), box_limit=MOST_BOXES, time_limit=limit, keep_tree=True
+    )
+    return from_core(OptimumProof, _core.prove_optimum(problem, settings, progress), target=target)
 
 
 def left_out_of(study: Study) -> tuple[str, ...]:
     """Return the limits of a study that a proof leaves out; raise ValueError if the theory does not reach the study."""
-    return _proved(_problem(study), 2.0, 1, 0, 0.0, None).left_out  # looks at the study and at no box
+    settings = _core.OptimumSettings(target=2.0, threads=1, box_limit=0)  # looks at the study and at no box
+    return _core.prove_optimum(_problem(study), settings, None).left_out
 
 
 def _problem(study: Study) -> _core.Problem:
@@ -169,17 +174,10 @@ def _problem(study: Study) -> _core.Problem:
     return study.problem()
 
 
-def _proved(
-    problem: _core.Problem, target: float, threads: int, boxes: int, limit: float, progress: Progress | None
-) -> OptimumProof:
-    found = _core.prove_optimum(problem, target, threads, boxes, limit, True, progress)
-    return OptimumProof(target=target, left_out=tuple(found.pop("left_out")), **found)
-
-
 @short_repr
 @dataclass(frozen=True)
 class Checked:
-    """What `check_certificate` returns."""
+    """The verdict of the checker of a certificate."""
 
     proved: bool
     words: str
@@ -220,5 +218,4 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
     except OSError as error:
         raise ValueError(f"certificate: got {path!s}, expected a file that can be read ({error.strerror})") from None
     progress_argument(progress)
-    proved, words, boxes, recut, study = _core.check_certificate(data, progress)
-    return Checked(proved, words, boxes, recut, tuple(study))
+    return from_core(Checked, _core.check_certificate(data, progress))

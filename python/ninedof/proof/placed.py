@@ -27,6 +27,6 @@ def rule_of(
     region = place.study.objective.region
     assert region is not None
     c, length = configurations, float(characteristic_length)
-    machine = _core.PosedRobot(geometry, c.position, c.rotation, c.internal_point, length, region.for_core(), None)
-    found = _core.fit_rule(_core.RuleTask(machine, *place.for_core()), threads, partial(phase, progress))
-    return PointRule.of(place.neutral, found.scale, found.powers, found.coefficients)
+    machine = _core.PosedRobot(geometry, c, length, region.for_core(), None)
+    found = _core.fit_rule(machine, place.for_core(), threads, partial(phase, progress))
+    return PointRule.of(place.neutral, found)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -43,9 +43,7 @@ class PointRule:
     def of(
         cls,
         neutral: Configuration,
-        scale: Sequence[float],
-        powers: Sequence[Sequence[int]],
-        coefficients: Sequence[Sequence[float]],
+        rule: _core.PointRule,
     ) -> PointRule:
         """Make a rule about a neutral configuration."""
         x, y, z = neutral.position.tolist()
@@ -54,9 +52,9 @@ class PointRule:
             (x, y, z),
             tuple(map(tuple, neutral.rotation.tolist())),
             (a, b, c),
-            tuple(map(float, scale)),
-            tuple(tuple(map(int, row)) for row in powers),
-            tuple(_three(row) for row in coefficients),
+            tuple(map(float, rule.scale)),
+            tuple(tuple(map(int, row)) for row in rule.powers),
+            tuple(_three(row) for row in rule.coefficients),
         )
 
     def about(self, neutral: Configuration) -> bool:
@@ -108,7 +106,7 @@ class PointRule:
 
     def for_core(self) -> _core.PointRule:
         """Return the rule as the core takes it."""
-        return _core.PointRule(self.scale, self.powers, self.coefficients)
+        return _core.PointRule(scale=self.scale, powers=self.powers, coefficients=self.coefficients)
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values."""

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.redundancy.search_arguments import poses_of, problem_of, starts_of
+from ninedof.redundancy.search_arguments import PointOptions, poses_of, problem_of, starts_of
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, as_number, thread_argument
 from ninedof.support.short import short_repr
+from ninedof.support.structs import options_of
 
 
 class InternalPointStatus(StrEnum):
@@ -64,10 +65,9 @@ def best_internal_point(
     rotation: Any = None,
     criterion: str = "condition_number",
     limits: tuple[ArrayLike, ArrayLike] | None = None,
-    characteristic_length: float = 1.0,
-    start: ArrayLike | None = None,
-    clearance: float | None = None,
+    *,
     threads: int | None = None,
+    **options: Unpack[PointOptions],
 ) -> InternalPoint:
     """Return the best internal point for a pose of the platform.
 
@@ -127,9 +127,11 @@ def best_internal_point(
     (<InternalPointStatus.FOUND: 'found'>, True)
 
     """
+    given = options_of("best_internal_point", PointOptions, options, characteristic_length=1.0)
     shape, p, q = poses_of(geometry, position, rotation)
-    problem = problem_of(criterion, limits, characteristic_length, clearance)
-    found = _core.best_internal_point(geometry, p, q, starts_of(start, shape), problem, thread_argument(threads))
+    problem = problem_of(criterion, limits, given)
+    starts = starts_of(given["start"], shape)
+    found = _core.best_internal_point(geometry, p, q, starts, problem, thread_argument(threads))
     return InternalPoint(**point_fields(shape, p, q, found))
 
 
@@ -139,10 +141,9 @@ def best_internal_path(
     rotation: Any = None,
     criterion: str = "condition_number",
     limits: tuple[ArrayLike, ArrayLike] | None = None,
-    characteristic_length: float = 1.0,
-    start: ArrayLike | None = None,
-    clearance: float | None = None,
+    *,
     smoothness: float = 0.1,
+    **options: Unpack[PointOptions],
 ) -> InternalPoint:
     """Return internal points along a path of the platform: good at every pose, and smooth.
 
@@ -200,24 +201,24 @@ def best_internal_path(
     shape, p, q = poses_of(geometry, position, rotation)
     if len(shape) != 1:
         raise ValueError(f"position: got shape {(*shape, 3)}, expected a path of shape (n, 3)")
-    problem = problem_of(criterion, limits, characteristic_length, clearance)
-    weight = as_number("smoothness", smoothness)
-    first = np.empty((0, 3))
+    given = options_of("best_internal_path", PointOptions, options, characteristic_length=1.0)
+    problem = problem_of(criterion, limits, given)
+    weight, start = as_number("smoothness", smoothness), given["start"]
     if start is not None:
-        first = as_floats("start", start, (3,))
-        if first.ndim != 1:
-            raise ValueError(f"start: got shape {first.shape}, expected shape (3,)")
-    return InternalPoint(**point_fields(shape, p, q, _core.best_internal_path(geometry, p, q, first, problem, weight)))
+        start = as_floats("start", start, (3,))
+        if start.ndim != 1:
+            raise ValueError(f"start: got shape {start.shape}, expected shape (3,)")
+    return InternalPoint(**point_fields(shape, p, q, _core.best_internal_path(geometry, p, q, start, problem, weight)))
 
 
-def point_fields(shape: tuple[int, ...], p: Floats, q: Floats, found: dict[str, Any]) -> dict[str, Any]:
-    """Return the fields of an InternalPoint from the columns that the core found for flat poses."""
-    keys, inverse = np.unique(found["active"], return_inverse=True)
-    names = np.empty(len(keys), dtype=object)
-    names[:] = [found["active_names"][int(key)] for key in keys]
+def point_fields(shape: tuple[int, ...], p: Floats, q: Floats, points: _core.InternalPoints) -> dict[str, Any]:
+    """Return the fields of an InternalPoint from those of flat poses."""
+    keys, inverse = np.unique(points.active, return_inverse=True)
+    words, names = points.active_names, np.empty(len(keys), dtype=object)
+    names[:] = [words[int(key)] for key in keys]
     return {
-        "configuration": Configuration._shaped(shape, p, q, found["internal_point"]),
-        "value": found["value"].reshape(shape)[()],
-        "status": STATUSES[found["status"]].reshape(shape)[()],
+        "configuration": Configuration._shaped(shape, p, q, points.internal_point),
+        "value": points.value.reshape(shape)[()],
+        "status": STATUSES[points.status].reshape(shape)[()],
         "active": names[inverse.reshape(-1)].reshape(shape)[()],
     }

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Unpack
 
 from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.redundancy.redundancy import InternalPoint, point_fields
-from ninedof.redundancy.search_arguments import poses_of, problem_of, starts_of
+from ninedof.redundancy.search_arguments import PointOptions, poses_of, problem_of, starts_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.short import short_repr
+from ninedof.support.structs import from_core, options_of
 
 
 @short_repr
@@ -44,20 +45,27 @@ class InternalPointMap(InternalPoint):
     """Number of local optima continued from those of neighbours."""
 
 
+class MapOptions(PointOptions, total=False):
+    """Options of `best_internal_map`, which says what they mean."""
+
+    seed_every: int
+    audit_every: int
+    audit_seed: int
+
+
+MAP_DEFAULTS = {"characteristic_length": 1.0, "seed_every": 256, "audit_every": 512, "audit_seed": 0}
+
+
 def best_internal_map(
     geometry: Geometry,
     position: ArrayLike,
     rotation: Any = None,
     criterion: str = "condition_number",
     limits: tuple[ArrayLike, ArrayLike] | None = None,
-    characteristic_length: float = 1.0,
-    start: ArrayLike | None = None,
-    clearance: float | None = None,
+    *,
     threads: int | None = None,
-    seed_every: int = 256,
-    audit_every: int = 512,
-    audit_seed: int = 0,
     progress: Progress | None = None,
+    **options: Unpack[MapOptions],
 ) -> InternalPointMap:
     """Return the best internal point of every pose of a grid, up to eight times faster than one by one.
 
@@ -120,20 +128,16 @@ def best_internal_map(
     ((21, 21), 0)
 
     """
+    given = options_of("best_internal_map", MapOptions, options, **MAP_DEFAULTS)
     shape, p, q = poses_of(geometry, position, rotation)
-    settings = {
-        "seed_every": whole("seed_every", seed_every, 1),
-        "audit_every": whole("audit_every", audit_every, 1),
-        "audit_seed": whole("audit_seed", audit_seed, 0),
-        "threads": thread_argument(threads),
-    }
-    problem = problem_of(criterion, limits, characteristic_length, clearance)
-    found = _core.best_internal_map(
-        geometry, p, q, shape, starts_of(start, shape), problem, settings, progress_argument(progress)
+    settings = _core.MapSettings(
+        seed_every=whole("seed_every", given["seed_every"], 1),
+        audit_every=whole("audit_every", given["audit_every"], 1),
+        audit_seed=whole("audit_seed", given["audit_seed"], 0),
+        threads=thread_argument(threads),
     )
-    return InternalPointMap(
-        **point_fields(shape, p, q, found),
-        audit=MapAudit(**found["audit"]),
-        searched=found["searched"],
-        followed=found["followed"],
-    )
+    problem = problem_of(criterion, limits, given)
+    starts = starts_of(given["start"], shape)
+    found = _core.best_internal_map(geometry, p, q, shape, starts, problem, settings, progress_argument(progress))
+    fields, audit = point_fields(shape, p, q, found.points), from_core(MapAudit, found.audit)
+    return InternalPointMap(**fields, audit=audit, searched=found.searched, followed=found.followed)

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ninedof import _core
 from ninedof.robot.configuration import Configuration, require_geometry
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown
 from ninedof.support.arrays import Floats, as_floats, as_number
 
 CRITERIA = ("condition_number", "singularity", "leg_centring")
+
+
+class PointOptions(TypedDict, total=False):
+    """Options that the searches for an internal point share; `best_internal_point` says what they mean."""
+
+    characteristic_length: float
+    start: ArrayLike | None
+    clearance: float | None
 
 
 def poses_of(geometry: Geometry, position: ArrayLike, rotation: Any) -> tuple[tuple[int, ...], Floats, Floats]:
@@ -33,16 +43,18 @@ def starts_of(start: ArrayLike | None, shape: tuple[int, ...]) -> Floats:
         raise ValueError(f"start: got shape {given.shape}, expected one that broadcasts to {(*shape, 3)}") from None
 
 
-def problem_of(criterion: Any, limits: Any, characteristic_length: Any, clearance: Any) -> dict[str, Any]:
-    """Return the problem as the core takes it; the default clearance depends on the criterion."""
+def problem_of(criterion: str, limits: Any, options: Mapping[str, Any]) -> _core.InternalPointProblem:
+    """Return the problem of an internal point; the default clearance depends on the criterion."""
+    clearance = options["clearance"]
     if clearance is None:
         clearance = 1e-2 if criterion == "leg_centring" else 1e-10
-    return {
-        "criterion": choice("criterion", criterion, CRITERIA),
-        "limits": leg_limits(limits),
-        "characteristic_length": as_number("characteristic_length", characteristic_length),
-        "clearance": as_number("clearance", clearance),
-    }
+    low, high = leg_limits(limits)
+    return _core.InternalPointProblem(
+        criterion=choice("criterion", criterion, CRITERIA),
+        limits=_core.LegLimits(low=low, high=high),
+        characteristic_length=as_number("characteristic_length", options["characteristic_length"]),
+        clearance=as_number("clearance", clearance),
+    )
 
 
 def leg_limits(limits: Any, name: str = "limits") -> tuple[Floats, Floats]:

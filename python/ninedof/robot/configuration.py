@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,16 @@ from ninedof import _core
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, broadcast_leading, frozen, without_infinity
 
-Operands = tuple[Geometry, Floats, Floats, Floats]
+
+class Flat(NamedTuple):
+    """The arrays of a stack of configurations for the core, one after the other."""
+
+    position: Floats
+    rotation: Floats
+    internal_point: Floats
+
+
+Operands = tuple[Geometry, "Configuration | Flat"]
 
 
 class Configuration:
@@ -166,8 +175,8 @@ class Configuration:
         return self._position, self._rotation, self._internal_point
 
 
-def _flat(p: Floats, q: Floats, s: Floats) -> tuple[Floats, Floats, Floats]:
-    return p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)
+def _flat(p: Floats, q: Floats, s: Floats) -> Flat:
+    return Flat(p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3))
 
 
 def arrays_of(configuration: Configuration) -> dict[str, Floats]:
@@ -177,7 +186,7 @@ def arrays_of(configuration: Configuration) -> dict[str, Floats]:
 
 def broadcast_flat(
     configuration: Configuration, **others: tuple[Floats, int]
-) -> tuple[tuple[int, ...], tuple[Floats, Floats, Floats], list[Floats]]:
+) -> tuple[tuple[int, ...], Flat, list[Floats]]:
     """Broadcast a configuration against arrays, each given with its number of trailing dimensions.
 
     Return the leading shape, the flat arrays of the configuration, and the other arrays.
@@ -207,10 +216,10 @@ def require_single(name: str, configuration: Any) -> None:
 
 
 def operands(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:
-    """Return the operands of the core: the geometry, and arrays (n, 3), (n, 3, 3), (n, 3)."""
+    """Return the operands of the core, checked: geometry and configuration."""
     require_geometry(geometry)
     require_configuration(name, configuration)
-    return geometry, *_flat(*configuration._arrays())
+    return geometry, configuration
 
 
 def operands_with(
@@ -229,11 +238,11 @@ def operands_with(
     operands(geometry, configuration)
     arrays = {name: (without_infinity(name, as_floats(name, values, (k,))), 1) for name, (values, k) in others.items()}
     shape, flat, rest = broadcast_flat(configuration, **arrays)
-    return shape, (geometry, *flat), [a.reshape(-1, a.shape[-1]) for a in rest]
+    return shape, (geometry, flat), [a.reshape(-1, a.shape[-1]) for a in rest]
 
 
 def single(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:
     """Return the operands of the core for a single configuration; a stack raises ValueError."""
-    flat = operands(geometry, configuration, name)
+    require_geometry(geometry)
     require_single(name, configuration)
-    return flat
+    return operands(geometry, configuration, name)

@@ -62,7 +62,7 @@ class LegRow:
         }
         if self.permitted is not None:
             row |= dict(zip(("permitted_shortest", "permitted_longest"), self.permitted, strict=True))
-        for name in ("base_cone", "platform_cone"):
+        for name in CONES:
             angle = getattr(self, name)
             row[f"{name}_deg"] = "" if angle is None else float(np.degrees(angle))
         for name in ("twist_speed", "twist_acceleration"):
@@ -86,9 +86,15 @@ def leg_rows(g: Geometry, c: Configuration, found: Mapping[str, Floats]) -> tupl
         ratio = high / low
     idle = idle_legs(lengths)
     speed, acceleration = (found[name].max(axis=0) for name in ("speed", "acceleration"))
-    base, platform = (dict(zip(PARTS[name], found[name].max(axis=0).tolist(), strict=True)) for name in CONES)
+    cones = {name: dict(zip(PARTS[name], found[name].max(axis=0).tolist(), strict=True)) for name in CONES}
     forces = found.get("force", np.empty((len(c), 0))).reshape(len(c), -1, 9)
     given = [name for name in ("twist_speed", "twist_acceleration") if name in found]
+
+    def of_leg(k: int) -> dict[str, Any]:
+        return {name: angles.get(LEGS[k]) for name, angles in cones.items()} | {
+            name: _ends(found[name][:, k]) for name in given
+        }
+
     return tuple(
         LegRow(
             name=LEGS[k],
@@ -100,10 +106,8 @@ def leg_rows(g: Geometry, c: Configuration, found: Mapping[str, Floats]) -> tupl
             idle=bool(idle[k]),
             speed=float(speed[k]),
             acceleration=float(acceleration[k]),
-            base_cone=base.get(LEGS[k]),
-            platform_cone=platform.get(LEGS[k]),
             forces=tuple(_ends(f) for f in forces[:, :, k].T),
-            **{name: _ends(found[name][:, k]) for name in given},
+            **of_leg(k),
         )
         for k in range(9)
     )

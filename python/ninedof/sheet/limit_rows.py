@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninedof.design.design_point import DesignPoint
 from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import Study
 from ninedof.support.units import amount
@@ -40,21 +39,19 @@ def limit_amount(row: LimitRow, value: float, number: Callable[[float], str], un
 
 def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, ...]:
     """Return a row for each side of each limit, in the order of the study."""
-    rows = []
-    no_limit: dict[str, Any] = dict.fromkeys(CONDITION_LIMITS)
+    problem, x, rows = study.problem(), study.vector(variables), []
     for limit in study.limits:
         for side, bound in limit.sides.items():
-            objective = replace(study.objective, **no_limit)
-            alone = replace(study, constraints={limit.name: limit.options | {side: bound}}, objective=objective)
-            rows.append(_row(side, bound, limit.kind, alone.evaluate(variables)))
+            low, high = (bound, math.inf) if side == "min" else (0.0, bound)
+            alone = problem.with_limits([replace(limit, low=low, high=high).for_core()], math.inf, math.inf)
+            rows.append(_row(side, bound, limit.kind, alone.evaluate(x)))
     for name in CONDITION_LIMITS:
         if (bound := getattr(study.objective, name)) is not None:
-            objective = replace(study.objective, **(no_limit | {name: bound}))
-            alone = replace(study, constraints={}, objective=objective)
-            rows.append(_row("max", bound, "ratio", alone.evaluate(variables)))
+            alone = problem.with_limits([], *(bound if name == other else math.inf for other in CONDITION_LIMITS))
+            rows.append(_row("max", bound, "ratio", alone.evaluate(x)))
     return tuple(rows)
 
 
-def _row(side: str, bound: float, kind: str, point: DesignPoint) -> LimitRow:
-    ((label, margin),) = point.margins.items()
-    return LimitRow(label, side, bound, point.values[label], margin, kind)
+def _row(side: str, bound: float, kind: str, point: Mapping[str, Any]) -> LimitRow:
+    ((label, margin, _),) = point["margins"]
+    return LimitRow(label, side, bound, point["limited"][label], margin, kind)

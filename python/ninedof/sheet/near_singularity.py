@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
-
-import numpy as np
 
 from ninedof import _core
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.singularity.singularity import mechanisms_of
+from ninedof.singularity.singularity import mechanism_of
+from ninedof.support.structs import from_core
 
 MOTIONS = ("shift", "turn", "internal")
 
@@ -37,18 +35,17 @@ class NearSingularity(NamedTuple):
 
 def near_singularities(g: Geometry, c: Configuration, internal: str) -> dict[str, NearSingularity]:
     """Return the nearest singularity of a stack of poses, `nearest_singularity`, for each of MOTIONS."""
-    found = _core.nearest_singularities(g, c.position, c.rotation, c.internal_point, internal == "held")
     out = {}
-    for name, (distance, code, direction, pose, motion) in zip(MOTIONS, found, strict=True):
-        there = c[pose].moved(motion) if math.isfinite(distance) else c[pose]
-        out[name] = NearSingularity(
-            name,
-            distance,
-            str(mechanisms_of(np.array([code]), ())),
-            pose,
-            tuple(direction.tolist()),
-            tuple(there.position.tolist()),
-            tuple(tuple(row) for row in there.rotation.tolist()),
-            tuple(there.internal_point.tolist()),
+    for name, found in zip(MOTIONS, _core.nearest_singularities(g, c, internal == "held"), strict=True):
+        there = found.configuration
+        out[name] = from_core(
+            NearSingularity,
+            found,
+            motion=name,
+            mechanism=str(mechanism_of(found.mechanism)),
+            direction=tuple(found.direction.tolist()),
+            position=tuple(there.position.tolist()),
+            rotation=tuple(map(tuple, there.rotation.tolist())),
+            internal_point=tuple(there.internal_point.tolist()),
         )
     return out

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.leg_limits import SPREADS
-from ninedof.design.limit_numbers import PARTS, apart, limit_numbers
+from ninedof.design.limit_numbers import CLEARANCE, PARTS, apart, limit_numbers
+from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
@@ -70,43 +70,36 @@ def pose_limits(
         of the stack.
 
     """
-    found = list[PoseLimit]()
+    rows = list[PoseLimit]()
     for limit in study.limits:
+        name, kind = limit.name, limit.row.kind
         if limit.at != "poses":
             continue
         unit = float(neutral.position[2]) if limit.of == "zp" else 1.0
-        for part, values in _values(study, limit.name, limit.for_core()["axis"], g, c, neutral, beside):
-            for side, bound in limit.sides.items():
-                margin = margin_of(limit.row.kind, side, unit * bound, values)
-                found.append(PoseLimit(limit.name, part, side, unit * bound, values, margin))
+        if name == CLEARANCE:
+            numbers = limit_numbers(name, g, c, neutral)[:, apart(g, study)].min(axis=1, initial=math.inf)
+            values = [("", numbers)]
+        elif name in PARTS:
+            values = list(zip(PARTS[name], limit_numbers(name, g, c, neutral, limit.for_core().axis).T, strict=True))
+        else:
+            values = _spreads(name, leg_lengths(g, c), beside) if name in SPREADS else []
+        for part, value in values:
+            for side, end in limit.sides.items():
+                margin = margin_of(kind, side, unit * end, value)
+                rows.append(PoseLimit(name, part, side, unit * end, value, margin))
     if (most := study.objective.condition_limit) is not None:
         kappa = np.asarray(condition_number(g, c, characteristic_length))
-        found.append(PoseLimit("condition_limit", "", "max", most, kappa, margin_of("ratio", "max", most, kappa)))
-    return found
+        rows.append(PoseLimit("condition_limit", "", "max", most, kappa, margin_of("ratio", "max", most, kappa)))
+    return rows
 
 
-def _values(
-    study: Study,
-    name: str,
-    axis: Sequence[float],
-    g: Geometry,
-    c: Configuration,
-    neutral: Configuration,
-    beside: Floats | None,
-) -> Iterator[tuple[str, Floats]]:
-    """Yield the numbers that a constraint limits at each pose, by leg or determinant; none for limits of the design."""
-    if name == "leg_clearance":
-        yield "", limit_numbers(name, g, c, neutral)[:, apart(g, study)].min(axis=1, initial=math.inf)
-    elif name in PARTS:
-        yield from zip(PARTS[name], limit_numbers(name, g, c, neutral, axis).T, strict=True)
-    elif name in SPREADS:
-        lengths = leg_lengths(g, c)
-        if beside is None:
-            long, short = np.maximum.accumulate(lengths, axis=0), np.minimum.accumulate(lengths, axis=0)
-        else:
-            long, short = np.maximum(lengths, beside.max(axis=0)), np.minimum(lengths, beside.min(axis=0))
-        if name == "leg_ratio":
-            yield "", long.max(axis=1) / short.min(axis=1)
-        else:
-            spread = long - short if name == "stroke" else long / short
-            yield from zip(LEGS, spread.T, strict=True)
+def _spreads(name: str, lengths: Floats, beside: Floats | None) -> list[tuple[str, Floats]]:
+    """Return the spread of lengths that a limit is about at each pose, by leg or of all legs."""
+    if beside is None:
+        long, short = np.maximum.accumulate(lengths, axis=0), np.minimum.accumulate(lengths, axis=0)
+    else:
+        long, short = np.maximum(lengths, beside.max(axis=0)), np.minimum(lengths, beside.min(axis=0))
+    if name == "leg_ratio":
+        return [("", long.max(axis=1) / short.min(axis=1))]
+    spread = long - short if ROWS[name].kind == "length" else long / short
+    return list(zip(LEGS, spread.T, strict=True))

@@ -4,33 +4,34 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.design.limit_numbers import PARTS
+from ninedof.design.limit_numbers import CLEARANCE, PARTS
 from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.sheet.leg_motion import Motion, shown_internal
 from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
-from ninedof.sheet.numbers import SAMPLES, Asked, RegionLook, look_over, numbers_at
 from ninedof.sheet.pose_words import turn_deg
+from ninedof.sheet.region_look import SAMPLES, RegionLook, look_over
+from ninedof.sheet.request import Motion, SheetOptions, SheetRequest, Weight, shown_internal
 from ninedof.sheet.tables import lengths_table, limits_table, summary_parts, worst_table
-from ninedof.sheet.weight import Weight
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.support.arguments import shown, whole
 from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.structs import options_of
 from ninedof.support.units import per, unit_argument, with_unit
 from ninedof.tables.html import notebook
 from ninedof.tables.plain import plain
@@ -83,7 +84,10 @@ class Stiffness(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Sheet:
-    """What `sheet` returns. Lengths in the unit of the design, angles in radians; in `to_dict` and CSV degrees."""
+    """The engineering sheet of a design.
+
+    Lengths in the unit of the design, angles in radians; in `to_dict` and CSV degrees.
+    """
 
     geometry: Geometry
     configurations: Configuration
@@ -204,26 +208,7 @@ class Sheet:
         return text.getvalue()
 
 
-def sheet(
-    design: Any,
-    poses: Configuration | None = None,
-    *,
-    linear_speed: float = 1.0,
-    angular_speed: float = 0.0,
-    internal: str | None = None,
-    loads: ArrayLike | None = None,
-    leg_errors: ArrayLike | None = None,
-    joint_errors: ArrayLike | None = None,
-    leg_stiffness: ArrayLike | None = None,
-    characteristic_length: float | str | None = None,
-    twist: ArrayLike | None = None,
-    twist_rate: ArrayLike | None = None,
-    mass: float | None = None,
-    centre: ArrayLike | None = None,
-    gravity: ArrayLike | None = None,
-    samples: int = SAMPLES,
-    unit: str | None = None,
-) -> Sheet:
+def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[SheetOptions]) -> Sheet:
     """Return the engineering sheet of a design over its poses.
 
     Extremes are those over the listed poses, the neutral one included; between the poses nothing is looked at. Of the
@@ -294,54 +279,67 @@ def sheet(
     ('r1', 'r2', 'r3')
 
     """
+    given = options_of("sheet", SheetOptions, options, linear_speed=1.0, angular_speed=0.0, samples=SAMPLES)
     g, c, own_length = _robot(design, poses)
-    given = own_length if characteristic_length is None else characteristic_length
-    given = length_argument(given)
-    length = float(length_of(g, c[0], given)) if isinstance(given, str) else given
-    weight = Weight.checked(mass, centre, gravity)
-    wrenches = _loads(np.zeros((1, 6)) if loads is None and weight is not None else loads)
-    rule = shown_internal(c) if internal is None else internal
-    motion = Motion.checked(linear_speed, angular_speed, rule, twist, twist_rate)
-    bounded = leg_errors is not None or joint_errors is not None
-    errors = (0.0 if leg_errors is None else leg_errors, 0.0 if joint_errors is None else joint_errors)
-    asked = Asked(motion, wrenches, weight, errors if bounded else None, leg_stiffness, length)
-    count = whole("samples", samples, 1, MOST_SAMPLES)
+    request = _request(g, c, own_length, given)
+    count = whole("samples", given["samples"], 1, MOST_SAMPLES)
     study: Study | None = getattr(design, "solved", None)
     variables, look = getattr(design, "variables", None), None
-    question = asked.question(g, c[0], study)
+    question = request.question(g, c[0], study)
     region = design.study.objective.region if poses is None and study is not None else None
     report = getattr(design, "region", None)
-    kept = None if region is None or places_o(region) or report is None else report.leg_ranges
-    if study is not None and region is not None and (places_o(region) or kept is not None):
-        place = None if kept is None else Placing(design.study, c[0], variables or {}, design.objective, kept)
+    ranges = None if region is None or places_o(region) or report is None else report.leg_ranges
+    if study is not None and region is not None and (places_o(region) or ranges is not None):
+        place = None if ranges is None else Placing(design.study, c[0], variables or {}, design.objective, ranges)
         look, worst, shifts = look_over(design.study, c[0], question, count, place)
         c = _joined(c, worst)
         study = replace(study, objective=replace(study.objective, poses=(*study.objective.poses, *shifts)))
-    found = numbers_at(question, c)
-    kappa = found["condition_number"][:, 0] if "condition_number" in found else np.full(len(c), np.inf)
+    numbers = _core.sheet_numbers(question, c)
+    kappa = numbers["condition_number"][:, 0] if "condition_number" in numbers else np.full(len(c), np.inf)
     determinants = _determinants(g, c)
+    legs = zip(leg_rows(g, c, numbers), ranges or (None,) * 9, strict=True)
     return Sheet(
         geometry=g,
         configurations=c,
-        characteristic_length=length,
-        motion=motion,
-        loads=wrenches,
-        weight=weight,
-        legs=tuple(
-            replace(leg, permitted=band) for leg, band in zip(leg_rows(g, c, found), kept or (None,) * 9, strict=True)
-        ),
-        condition_number=_worst(kappa),
+        characteristic_length=request.characteristic_length,
+        motion=request.motion,
+        loads=request.loads,
+        weight=request.weight,
+        legs=tuple(replace(leg, permitted=band) for leg, band in legs),
+        condition_number=_extreme(kappa, np.argmax),
         mean_condition_number=float(kappa.mean()) if look is None else look.mean,
-        clearance=_clearance(found["leg_clearance"]),
+        clearance=_clearance(numbers[CLEARANCE]),
         determinants=determinants,
         nearest_singularity=min(determinants, key=lambda name: determinants[name].value),
-        singularities=near_singularities(g, c, motion.internal),
-        accuracy=None if not bounded else Accuracy(*map(_worst, found["error"].T)),
-        stiffness=None if leg_stiffness is None else Stiffness(*map(_least, found["stiffness"].T)),
+        singularities=near_singularities(g, c, request.motion.internal),
+        accuracy=Accuracy(*(_extreme(x, np.argmax) for x in numbers["error"].T)) if "error" in numbers else None,
+        stiffness=Stiffness(*(_extreme(x, np.argmin) for x in numbers["stiffness"].T))
+        if "stiffness" in numbers
+        else None,
         limits=limit_rows(study, variables) if study is not None and isinstance(variables, Mapping) else (),
         region=look,
-        unit=getattr(study or design, "unit", "") if unit is None else unit_argument(unit),
-        leg_ranges=kept,
+        unit=getattr(study or design, "unit", "") if given["unit"] is None else unit_argument(given["unit"]),
+        leg_ranges=ranges,
+    )
+
+
+def _request(g: Geometry, c: Configuration, own_length: float | str, given: Mapping[str, Any]) -> SheetRequest:
+    length = length_argument(own_length if given["characteristic_length"] is None else given["characteristic_length"])
+    weight = Weight.checked(given["mass"], given["centre"], given["gravity"])
+    loads = np.zeros((1, 6)) if given["loads"] is None and weight is not None else given["loads"]
+    internal = shown_internal(c) if given["internal"] is None else given["internal"]
+    errors = [given["leg_errors"], given["joint_errors"]]
+    exact = all(error is None for error in errors)
+    legs, joints = (0.0 if error is None else error for error in errors)
+    return SheetRequest(
+        motion=Motion.checked(
+            given["linear_speed"], given["angular_speed"], internal, given["twist"], given["twist_rate"]
+        ),
+        loads=_loads(loads),
+        weight=weight,
+        errors=None if exact else (legs, joints),
+        leg_stiffness=given["leg_stiffness"],
+        characteristic_length=float(length_of(g, c[0], length)) if isinstance(length, str) else length,
     )
 
 
@@ -372,20 +370,15 @@ def _loads(loads: ArrayLike | None) -> Floats:
     return found
 
 
-def _worst(values: Floats) -> Extreme:
-    at = int(np.argmax(values))
-    return Extreme(float(values[at]), at)
-
-
-def _least(values: Floats) -> Extreme:
-    at = int(np.argmin(values))
+def _extreme(values: Floats, place: Callable[[Floats], Any]) -> Extreme:
+    at = int(place(values))
     return Extreme(float(values[at]), at)
 
 
 def _clearance(distances: Floats) -> Clearance:
     """Return the least of distances at poses, shape (n, pairs), infinite for pairs that may meet."""
     pose, pair = divmod(int(np.argmin(distances)), distances.shape[1])
-    one, other = sorted(PARTS["leg_clearance"][pair].split("-"))  # "l3-l1" as l1 and l3
+    one, other = sorted(PARTS[CLEARANCE][pair].split("-"))  # "l3-l1" as l1 and l3
     return Clearance(float(distances[pose, pair]), pose, (one, other))
 
 
@@ -395,7 +388,7 @@ def _determinants(g: Geometry, c: Configuration) -> dict[str, Determinant]:
     for name in ("det_b", "det_c", "det_n"):
         values = np.asarray(getattr(margins, name))
         changes = bool(np.any(values * np.sign(values[0]) <= 0.0))
-        found[name] = Determinant(*_least(np.abs(values)), changes)
+        found[name] = Determinant(*_extreme(np.abs(values), np.argmin), changes)
     return found
 
 

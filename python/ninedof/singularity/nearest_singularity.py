@@ -11,10 +11,11 @@ from ninedof import _core
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
-from ninedof.singularity.singularity import mechanisms_of
+from ninedof.singularity.singularity import mechanism_of
 from ninedof.support.arguments import choice, finite, whole
 from ninedof.support.arrays import Floats, thread_argument
 from ninedof.support.short import short_repr
+from ninedof.support.structs import from_core
 
 PARTS = {"rotation": 0, "position": 3, "internal_point": 6}  # place in a tangent of `Configuration.moved`
 FARTHEST = 2000.0  # longest legs, or quarter turns: what is farther takes long and is no matter of this machine
@@ -86,7 +87,7 @@ def nearest_singularity(
 
     """
     first = PARTS[choice("part", part, PARTS)]
-    arrays = operands(geometry, configuration)
+    operands(geometry, configuration)
     if len(configuration.shape) > 1 or configuration.shape == (0,):
         raise ValueError(f"configuration: got shape {configuration.shape}, expected a single one or a stack (n,)")
     count = whole("directions", directions, 0, 10**6)
@@ -94,9 +95,6 @@ def nearest_singularity(
     reach = 2.0 * size if most is None else finite("most", most, 0.0, FARTHEST * size)
     motions = np.zeros((9, 3))
     motions[first : first + 3] = np.eye(3)
-    distance, code, direction, pose, motion = _core.nearest_singularity(
-        *arrays, motions, reach, count, thread_argument(threads)
-    )
-    here = configuration[pose] if configuration.shape else configuration
-    there = here.moved(motion) if math.isfinite(distance) else here
-    return NearestSingularity(distance, mechanisms_of(np.array([code]), ()), direction, pose, there)
+    found = _core.nearest_singularity(geometry, configuration, motions, reach, count, thread_argument(threads))
+    there = found.configuration if math.isfinite(found.distance) or configuration.shape else configuration
+    return from_core(NearestSingularity, found, mechanism=mechanism_of(found.mechanism), configuration=there)

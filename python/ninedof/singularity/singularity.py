@@ -193,6 +193,11 @@ def _margins(flat: Floats, shape: tuple[int, ...]) -> SingularityMargins:
     return SingularityMargins(*(flat[:, k].reshape(shape)[()] for k in range(3)))
 
 
+def mechanism_of(code: int) -> Mechanism:
+    """Return the mechanism of the core's code: members are in its order."""
+    return list(Mechanism)[code]
+
+
 def mechanisms_of(codes: Floats, shape: tuple[int, ...]) -> Any:
     """Return the mechanisms of the core's codes: one, or an array of their values."""
     values = np.array(list(Mechanism), dtype="U1")[codes.astype(int)].reshape(shape)  # members in the core's order

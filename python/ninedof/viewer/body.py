@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ninedof.design.leg_limits import LEGS as OF_LENGTHS
 from ninedof.design.leg_limits import SPREADS
 from ninedof.design.limit_numbers import CONES
 from ninedof.robot.configuration import Configuration
@@ -20,9 +21,8 @@ from ninedof.support.units import amount
 from ninedof.viewer.machine import Variant
 from ninedof.viewer.numbers import limits_at
 from ninedof.viewer.shapes import Mesh
+from ninedof.workspace.region_share import EASE
 from ninedof.workspace.search import workspace
-from ninedof.workspace.study_criteria import EASE
-from ninedof.workspace.study_criteria import LEGS as OF_LENGTHS
 from ninedof.workspace.study_question import study_limits
 
 COARSE = {"tolerance": 0.01, "resolution": 16, "points": 1000, "most_evaluations": 400_000}
@@ -51,7 +51,7 @@ def question_of(variant: Variant, c: Configuration, rule: str, size: float, cond
     """
     criteria: dict[str, Any] = {}
     if variant.study is not None:
-        limits, _ = study_limits(variant.study, float(variant.home.position[2]))
+        limits, _ = study_limits(variant.study, variant.geometry, variant.home)
         criteria = {name: limit for name, limit in limits.items() if name not in OF_LENGTHS}
     criteria |= {"leg_limits": leg_limits(variant), "singularity_free": True}
     if condition_limit < math.inf:

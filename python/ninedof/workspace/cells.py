@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof import _core
+from ninedof.design.limit_numbers import PARTS
 from ninedof.support.arrays import Floats
 from ninedof.support.short import short_repr
 
 LIMITS: tuple[str, ...] = tuple(_core.workspace_limits)
-GROUPS = ("base_cone", "platform_cone", "leg_clearance")
 
 
 @short_repr
@@ -57,8 +57,7 @@ class WorkspaceSlice(NamedTuple):
 def group_of(name: str) -> str:
     """Return the criterion of a limit."""
     first = name.split(" ")[0]
-    if first in GROUPS:
+    if first in PARTS:
         return first
-    if name.startswith("det "):
-        return "singularity_free"
-    return "leg_limits" if name.endswith((" low", " high")) else name
+    of_item = [limit for limit, parts in PARTS.items() if name in parts]
+    return of_item[0] if of_item else "leg_limits" if name.endswith((" low", " high")) else name

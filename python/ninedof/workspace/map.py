@@ -14,13 +14,14 @@ from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, flag, whole
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, Saved, from_json_array, json_array
+from ninedof.support.structs import from_core
 from ninedof.tables.html import notebook
 from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of
 from ninedof.workspace.certified_record import CertifiedWorkspace
-from ninedof.workspace.field import WorkspaceField, field_of
 from ninedof.workspace.statistics import IndexStatistics
-from ninedof.workspace.surface import WorkspaceSurface, surface_of
 from ninedof.workspace.tables import workspace_table
+
+MOST_VOXELS = 1_300_000
 
 
 class WorkspaceStatus(StrEnum):
@@ -185,26 +186,23 @@ class WorkspaceMap(Saved):
         smooth = flag("smooth", smooth)
         if self.method == "sample":
             raise ValueError("slice: got a sample, expected a map of cells")
-        ends = self.low, self.high
         section = (
-            _core.field_section(self.cells, ends, self.field, fixed, at)
-            if smooth
-            else _core.cell_section(self.cells, ends, fixed, at, pixels)
+            _core.field_section(self, self.field, fixed, at) if smooth else _core.cell_section(self, fixed, at, pixels)
         )
-        h, v = (name for name in self.coordinates if name != axis)
-        return WorkspaceSlice((h, v), (axis, float(at)), *section)
+        drawn = tuple(name for name in self.coordinates if name != axis)
+        return from_core(WorkspaceSlice, section, axes=drawn, plane=(axis, float(at)))
 
     @cached_property
-    def field(self) -> WorkspaceField:
+    def field(self) -> _core.WorkspaceField:
         """Allowed share and condition number on an even raster about the workspace, smooth between the cells.
 
         Computed when first used. ValueError for a sample, which has no cells.
         """
         if self.method == "sample":
             raise ValueError("field: got a sample, expected a map of cells")
-        return field_of(self.cells, (self.low, self.high))
+        return _core.workspace_field(self, MOST_VOXELS)
 
-    def surface(self, most: int = 300_000) -> WorkspaceSurface:
+    def surface(self, most: int = 300_000) -> _core.WorkspaceSurface:
         """Return the body of the workspace as a smooth surface for drawing.
 
         Parameters
@@ -226,7 +224,7 @@ class WorkspaceMap(Saved):
         if self.method == "sample":
             raise ValueError("surface: got a sample, expected a map of cells")
         whole("most", most, 1_000, 10_000_000)
-        return surface_of(field_of(self.cells, (self.low, self.high), most))
+        return _core.workspace_field(self, most).surface()
 
     def to_dict(self) -> dict[str, Any]:
         """Return all fields except the cells as plain values."""

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.limit_numbers import CONES
 from ninedof.redundancy.rules import where_o
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.leg_names import LEGS as LEG_NAMES
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
+from ninedof.workspace.question import ROWS
 
 KINDS = {"external": slice(0, 3), "upper internal": slice(3, 6), "lower internal": slice(6, 9)}
 
@@ -61,15 +61,22 @@ def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> It
             least, most = float(low[legs][0]), float(high[legs][0])
             if least > 0.0 or math.isfinite(most):
                 yield amount(f"{kind} legs {least:.6g} to {most:.6g}", unit)
-    elif name in CONES:
-        angle, axis = (value["max"], value["axis"]) if isinstance(value, Mapping) else (value, None)
-        about = "each leg's direction at home" if axis is None else f"the axis {_point(axis)}"
-        yield f"{name.replace('_', ' ')} {math.degrees(angle):.6g} degrees about {about}"
-    elif name == "singularity_free":
+        return
+    row = ROWS[name]
+    if row.kind == "sign":
         yield "connected with home, on its side of every singularity"
-    else:
-        side, of = ("at least", unit) if name == "leg_clearance" else ("at most", "")
-        yield amount(f"{name.replace('_', ' ')} {side} {value:.6g}", of)
+        return
+    entries = value if isinstance(value, Mapping) else {row.sides[0]: value}
+    words = {"min": "at least", "max": "at most"}
+    for side in row.sides:
+        if side not in entries:
+            continue
+        if row.is_angle:
+            about = f"the axis {_point(entries['axis'])}" if "axis" in entries else "each leg's direction at home"
+            yield f"{name.replace('_', ' ')} {math.degrees(entries[side]):.6g} degrees about {about}"
+        else:
+            of = unit if row.kind == "length" else ""
+            yield amount(f"{name.replace('_', ' ')} {words[side]} {entries[side]:.6g}", of)
 
 
 def _point(values: Sequence[float] | Floats) -> str:

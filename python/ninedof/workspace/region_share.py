@@ -11,15 +11,17 @@ from ninedof.design.region_outline import extent
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
-from ninedof.workspace.criteria import criteria_of
-from ninedof.workspace.study_criteria import EASE
+from ninedof.support.structs import from_core
+from ninedof.workspace.question import criteria_of
 
+EASE = 1e-9
+"""Share by which limits are eased: an optimum lies on some of them, and rounding would put its home pose outside."""
 COUNT = 10_000  # even poses, and as many toward the boundary
 ROOM = 2.0  # about the region in the box of a map, in its largest half edge
 
 
 class RegionShare(NamedTuple):
-    """What `region_share` returns."""
+    """How much of a region keeps the criteria of a workspace."""
 
     share: float
     """Of the even poses of the region that keep all criteria, 0 to 1."""
@@ -33,9 +35,8 @@ def region_share(
     region: Region, g: Geometry, home: Configuration, criteria: Mapping[str, Any], characteristic_length: float
 ) -> RegionShare:
     """Return how much of a region keeps the criteria of a workspace, with its tilts, O as the region has it."""
-    at_home = (home.position, home.rotation, home.internal_point)
-    asked = criteria_of(criteria, characteristic_length)
-    return RegionShare(*_core.region_share(g, at_home, asked, region.for_core(), COUNT))
+    asked = _core.WorkspaceQuestion(g, home=home, criteria=criteria_of(criteria, characteristic_length))
+    return from_core(RegionShare, _core.region_share(asked, region.for_core(), COUNT))
 
 
 def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[Floats, Floats]:
@@ -43,8 +44,7 @@ def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[F
 
     Eased by `EASE` of themselves.
     """
-    at_home = (home.position[None], home.rotation[None], home.internal_point[None])
-    shortest, longest = _core.leg_lengths_over(g, *at_home, region.for_core(), 2 * COUNT)
+    shortest, longest = _core.leg_lengths_over(g, home, region.for_core(), 2 * COUNT)
     return shortest * (1.0 - EASE), longest * (1.0 + EASE)
 
 

@@ -7,30 +7,31 @@ from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.design.index_argument import What, indices_of
 from ninedof.redundancy.redundancy_map import MapAudit
-from ninedof.robot.configuration import Configuration, require_geometry
+from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown, whole
 from ninedof.support.arrays import as_number, thread_argument
 from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.structs import from_core
 from ninedof.support.units import unit_argument
-from ninedof.workspace.cells import LIMITS, WorkspaceCells
-from ninedof.workspace.criteria import criteria_of
-from ninedof.workspace.domain import domain_of, home_of, rule_of
+from ninedof.workspace.cells import WorkspaceCells
 from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
+from ninedof.workspace.question import question_of
 from ninedof.workspace.statistics import statistics_of
 
 METHODS = ("octree", "grid", "sample")
 POINTS = 16384
 POINTS_SEARCHED = 1024  # if the best O is sought at each
-CARTESIAN = ("x", "y", "z")
-ROTATION_VECTOR = ("w_x", "w_y", "w_z")
-TILT_TORSION = ("tilt_x", "tilt_y", "torsion")
+COORDINATES = {
+    "": ("x", "y", "z"),
+    "rotation_vector": ("w_x", "w_y", "w_z"),
+    "tilt_torsion": ("tilt_x", "tilt_y", "torsion"),
+}
 
 
 def workspace(
@@ -82,7 +83,8 @@ def workspace(
         - "leg_limits": (low, high), each a number or shape (9,) in the order of `leg_lengths`; may be infinite.
         - "base_cone", "platform_cone": greatest angle, radians, between each leg at its joint there and its direction
           at `home`, seen from that body; {"max": angle, "axis": (x, y, z)} for one axis of that body.
-        - "leg_clearance": least distance of the axes of legs that share no joint.
+        - "leg_clearance": least distance of the axes of legs that share no joint; {"min": distance, "exempt": ("l1-l2",
+          ...)} where only these pairs may share one, so that joints of others that coincide collide.
         - "condition_number": its greatest value, at least 1.
         - "singularity_free": True for poses that are connected with `home` and where det N, det B and det C have the
           signs they have there. By cells: pieces closer than one of the smallest cells count as one.
@@ -164,61 +166,56 @@ def workspace(
     (<WorkspaceStatus.CONVERGED: 'converged'>, 8.7, True)
 
     """
-    require_geometry(geometry)
+    asked = {
+        "archetype": archetype,
+        "criteria": criteria,
+        "internal_point": internal_point,
+        "rotation": rotation,
+        "position": position,
+        "region": region,
+        "orientations": orientations,
+        "home": home,
+        "characteristic_length": characteristic_length,
+    }
+    question = question_of(geometry, box, asked)
     progress_argument(progress)
     choice("method", method, METHODS)
-    named = unit_argument(unit)
-    domain = domain_of(archetype, box, position, rotation, region, orientations)
-    rule = rule_of(internal_point)
+    unit = unit_argument(unit)
     indices = () if index is None else indices_of(index)
+    searched = question.rule.kind == "best"
     if indices and archetype not in ("constant_orientation", "orientation"):
         raise ValueError(f"index: got {shown(index)}, expected none for the {archetype} workspace: its poses are sets")
-    if indices and rule[0] == "best":
+    if indices and searched:
         raise ValueError(f"index: got {shown(index)}, expected none with the best internal point")
-    default = 64 if method == "grid" else 16
-    settings: dict[str, Any] = {
-        "method": method,
-        "tolerance": as_number("tolerance", tolerance),
-        "resolution": whole(
-            "resolution", default if resolution is None else resolution, 2, 512 if method == "grid" else 128
-        ),
-        "most_evaluations": whole("most_evaluations", most_evaluations, 1, 10**9),
-        "points": whole(
-            "points", (POINTS_SEARCHED if rule[0] == "best" else POINTS) if points is None else points, 1, 10**8
-        ),
-        "shifts": whole("shifts", shifts, 2, 1000),
-        "seed": whole("seed", seed, 0),
-        "threads": thread_argument(threads),
-    }
-    limits = criteria_of(criteria, characteristic_length)
+    cells, most = (64, 512) if method == "grid" else (16, 128)
+    settings = _core.WorkspaceSettings(
+        method=method,
+        tolerance=as_number("tolerance", tolerance),
+        resolution=whole("resolution", cells if resolution is None else resolution, 2, most),
+        most_evaluations=whole("most_evaluations", most_evaluations, 1, 10**9),
+        points=whole("points", (POINTS_SEARCHED if searched else POINTS) if points is None else points, 1, 10**8),
+        shifts=whole("shifts", shifts, 2, 1000),
+        seed=whole("seed", seed, 0),
+        threads=thread_argument(threads),
+    )
     begin = perf_counter()
-    found = _core.workspace(geometry, domain, *rule, limits, settings, home_of(home), progress)
-    made = _map(found, domain["chart"], archetype, method, settings["resolution"], perf_counter() - begin)
-    made = replace(made, unit=named)
+    found = _core.workspace(question, settings, progress)
+    made = from_core(
+        WorkspaceMap,
+        found,
+        status=WorkspaceStatus(found.status),
+        cells=from_core(WorkspaceCells, found.cells, size=found.sides),
+        coordinates=COORDINATES[question.domain.region.chart if archetype == "orientation" else ""],
+        archetype=archetype,
+        method=method,
+        seconds=perf_counter() - begin,
+        internal_point_audit=from_core(MapAudit, found.internal_point_audit),
+        unit=unit,
+    )
     if not indices or made.interrupted:
         return made
     try:
-        over = statistics_of(geometry, domain, rule, limits, made.cells, (made.low, made.high), indices, threads)
+        over = statistics_of(question, made, indices, threads)
     except KeyboardInterrupt:
         return replace(made, status=WorkspaceStatus.STOPPED)
     return replace(made, indices=over, seconds=perf_counter() - begin)
-
-
-def _map(
-    found: dict[str, Any], chart: str, archetype: str, method: str, resolution: int, seconds: float
-) -> WorkspaceMap:
-    cells, low, high = found.pop("cells"), found["low"], found["high"]
-    side = (high - low) / (resolution * 2.0 ** cells.pop("level")[:, None])
-    cells["size"] = np.zeros_like(cells["centre"]) if method == "sample" else side
-    names = {"rotation_vector": ROTATION_VECTOR, "tilt_torsion": TILT_TORSION}[chart]
-    home_limit, audit = found.pop("home_limit"), found.pop("internal_point_audit")
-    return WorkspaceMap(
-        **found | {"status": WorkspaceStatus(found["status"])},
-        cells=WorkspaceCells(**cells),
-        home_limit="" if home_limit < 0 else LIMITS[home_limit],
-        coordinates=names if archetype == "orientation" else CARTESIAN,
-        archetype=archetype,
-        method=method,
-        seconds=seconds,
-        internal_point_audit=MapAudit(**audit),
-    )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,11 +9,9 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.indices import Index
-from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats
 from ninedof.support.short import short_repr
-from ninedof.workspace.cells import WorkspaceCells
+from ninedof.support.structs import from_core
+from ninedof.workspace.question import connected
 
 
 @short_repr
@@ -36,24 +33,19 @@ class IndexStatistics:
 
 
 def statistics_of(
-    geometry: Geometry,
-    domain: Mapping[str, Any],
-    rule: tuple[str, float, Floats],
-    criteria: Mapping[str, Any],
-    cells: WorkspaceCells,
-    ends: tuple[Floats, Floats],
-    indices: tuple[Index, ...],
-    threads: int | None,
+    question: _core.WorkspaceQuestion, found: Any, indices: tuple[Index, ...], threads: int | None
 ) -> dict[str, IndexStatistics]:
-    """Return the statistics of each index. Each pose has one rotation, and O by a rule that is a formula."""
-    poses = _core.workspace_poses(geometry, domain, *rule, cells, ends, criteria["singularity_free"])
-    c = Configuration(poses.position, poses.rotation, poses.internal_point)
+    """Return the statistics of each index over a WorkspaceMap: each pose has one rotation, and O by a formula."""
+    poses = _core.workspace_poses(question, found, connected(question))
+    c = poses.configurations
+    length = question.criteria.characteristic_length
 
     def over(index: Index) -> IndexStatistics:
-        given = index.values(geometry, c, criteria["characteristic_length"], threads) if len(c.position) else []
-        values = np.asarray(given, dtype=np.float64).reshape(len(c.position), *index.tail)
+        computed = index.values(question.geometry, c, length, threads) if len(c) else []
+        values = np.asarray(computed, dtype=np.float64).reshape(len(c), *index.tail)
         if not index.tail:
-            return IndexStatistics(*poses.statistics(values, index.signed))
-        return IndexStatistics(*map(list, zip(*(poses.statistics(one, index.signed) for one in values.T), strict=True)))
+            return from_core(IndexStatistics, poses.statistics(values, index.signed))
+        each = [poses.statistics(one, index.signed) for one in values.T]
+        return IndexStatistics(*([getattr(one, n) for one in each] for n in IndexStatistics.__dataclass_fields__))
 
     return {index.name: over(index) for index in indices}

@@ -107,17 +107,6 @@ TEST_SUITE("surface") {
     CHECK(enclosed_volume(wide) < 4.0 * 5.0 * 6.0);
   }
 
-  TEST_CASE("smoothing keeps the faces, flattens teeth, and is the mean of the neighbours") {
-    const Raster raster = raster_of({41, 41, 41}, Vec3(-0.7, -1.2, -0.9), Vec3::Constant(0.05), in_ball);
-    const QuadSurface surface = surface_net(raster, 0.0, -1.0);
-    const std::vector<Vec3> once = smoothed_points(surface, 1);
-    REQUIRE(once.size() == surface.points.size());
-    CHECK(smoothed_points({once, surface.faces}, 1) == smoothed_points(surface, 2));
-    // A pyramid over a square, closed from below: the apex moves half way to the middle of its neighbours.
-    const QuadSurface sheet{{Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}, {{0, 1, 2, 3}, {3, 2, 1, 0}}};
-    CHECK((smoothed_points(sheet, 1)[0] - (0.5 * Vec3(0, 0, 1) + 0.5 * Vec3(2, 2, 0) / 3.0)).norm() < 1e-15);
-  }
-
   TEST_CASE("invalid arguments are named") {
     Raster raster = raster_of({3, 3, 3}, Vec3::Zero(), Vec3::Ones(), in_ball);
     CHECK(message_of([&] { surface_net(raster, 0.0, 0.5); }).starts_with("outside: got 0.5"));

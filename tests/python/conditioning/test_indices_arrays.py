@@ -12,6 +12,7 @@ from numpy.testing import assert_array_equal
 
 import ninedof as nd
 from ninedof import _core
+from ninedof.robot.configuration import Flat
 
 INDICES = (nd.condition_number, nd.manipulability, nd.isotropy_residual)
 
@@ -101,10 +102,10 @@ def test_a_geometry_out_of_misaligned_arrays(published):
 @pytest.mark.parametrize("name", ["condition_number_two", "manipulability", "singular_values"])
 def test_misaligned_arrays_are_read(published, stack, name):
     index = getattr(_core, name)
-    given = [stack.position, stack.rotation, stack.internal_point, np.array([0.5, 1.0, 2.0, 3.0, 0.1])]
-    assert_array_equal(
-        index(published, *map(off_by_one, given), 1, None), index(published, *map(np.ascontiguousarray, given), 1, None)
-    )
+    given = [stack.position, stack.rotation, stack.internal_point]
+    lengths = np.array([0.5, 1.0, 2.0, 3.0, 0.1])
+    misaligned = index(published, Flat(*map(off_by_one, given)), off_by_one(lengths), 1, None)
+    assert_array_equal(misaligned, index(published, Flat(*map(np.ascontiguousarray, given)), lengths, 1, None))
 
 
 def test_misaligned_designs_are_read():

@@ -47,7 +47,7 @@ def test_an_added_index_is_evaluated(added, capsys):
 
 def test_an_added_index_with_a_gradient_is_an_objective(added):
     objective = nd.Objective(index="height")
-    assert objective.for_core()["index"] == "speed"
+    assert objective.for_core().index == "speed"
     study = nd.Study(objective={"index": "height", "condition_limit": 5.0}, starts=4)
     same = nd.Study(objective={"index": "speed", "condition_limit": 5.0}, starts=4)
     assert nd.optimize(study).objective == nd.optimize(same).objective

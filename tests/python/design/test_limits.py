@@ -75,12 +75,12 @@ def test_options():
 
 
 def test_for_the_core():
-    (limit,) = limits.parse("base_cone", {"max_deg": 45, "axis": [0, 3, 4]})
-    assert limit.for_core()["axis"] == pytest.approx((0.0, 0.6, 0.8))
-    (limit,) = limits.parse("leg_clearance", {"radius": 1, "of": "zp"})
-    assert limit.for_core() == {
-        "name": "leg_clearance", "low": 2.0, "high": INF, "of": "zp", "axis": (), "steps": 4, "at": "poses",
-    }  # fmt: skip
+    (cone,) = limits.parse("base_cone", {"max_deg": 45, "axis": [0, 3, 4]})
+    assert cone.for_core().axis == pytest.approx((0.0, 0.6, 0.8))
+    (clearance,) = limits.parse("leg_clearance", {"radius": 1, "of": "zp"})
+    one = clearance.for_core()
+    assert (one.name, one.low, one.high, one.of, one.steps, one.at) == ("leg_clearance", 2.0, INF, "zp", 4, "poses")
+    assert not one.axis.any()
 
 
 @pytest.mark.parametrize("degrees", [45, 30, 10.1, 0.1, 57.3, 89.999, 180, 1e-3, 1 / 3])

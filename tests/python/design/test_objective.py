@@ -24,7 +24,9 @@ def positions(found):
 def test_the_neutral_pose_is_the_default():
     assert nd.Pose() == nd.Pose((0, 0, 0), np.zeros(3), [0, 0, 0], "length")
     assert nd.Pose().to_dict() == {}
-    assert nd.Pose().for_core() == ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), False, False, 1.0)
+    neutral = nd.Pose().for_core()
+    assert not np.any([neutral.position, neutral.rotation, neutral.internal])
+    assert (neutral.best_internal, neutral.in_zp, neutral.weight) == (False, False, 1.0)
 
 
 def test_numbers_of_any_kind_become_floats():
@@ -35,8 +37,9 @@ def test_numbers_of_any_kind_become_floats():
 
 
 def test_best_internal_point_has_no_shift():
-    assert nd.Pose(internal_point="best").for_core()[2:4] == ((0.0, 0.0, 0.0), True)
-    assert nd.Pose(internal_point=(1, 0, 0)).for_core()[2:4] == ((1.0, 0.0, 0.0), False)
+    for point, shift, best in (("best", [0, 0, 0], True), ((1, 0, 0), [1, 0, 0], False)):
+        pose = nd.Pose(internal_point=point).for_core()
+        assert (list(pose.internal), pose.best_internal) == (shift, best)
 
 
 # --- Sets -------------------------------------------------------------------------------------------------------------
@@ -112,7 +115,7 @@ def test_the_default_is_the_neutral_condition_number():
     assert nd.Study().objective == nd.Objective()
     assert nd.Objective().to_dict() == {"index": "condition_number"}
     assert nd.Objective().words == "condition number"
-    assert nd.Objective().for_core()["condition_limit"] == INF
+    assert nd.Objective().for_core().condition_limit == INF
 
 
 def test_an_objective_is_a_value():

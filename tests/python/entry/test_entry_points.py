@@ -7,6 +7,7 @@ import inspect
 import entry_things as it
 import numpy as np
 import pytest
+from argument_names import argument_names
 from entry_engine import attack
 from entry_rows import ROWS
 from memory import small
@@ -87,12 +88,11 @@ def names():
 
 
 def parameters(thing):
-    """The names of the arguments of a function; None where the compiled core does not tell."""
+    """The names of the arguments of a function; none where the compiled core does not tell."""
     try:
-        found = inspect.signature(thing).parameters
+        return set(argument_names(thing)) - {"self"}
     except ValueError:
         return set()
-    return {n for n, p in found.items() if n != "self" and p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)}
 
 
 @pytest.mark.parametrize(("name", "thing"), list(names()), ids=[name for name, _ in names()])

@@ -142,7 +142,7 @@ def test_o_by_the_rule_of_each_pose():
     assert nd.Pose(shift, internal_point=shift) == nd.Pose(shift) == nd.Pose(shift, internal_point="shifted")
     assert nd.Pose(shift, internal_point=(0, 0, 0)) == nd.Pose(shift, internal_point="held") != nd.Pose(shift)
     assert nd.Pose(internal_point="held") == nd.Pose()
-    assert nd.Pose(shift).for_core()[2] == shift
+    assert tuple(nd.Pose(shift).for_core().internal) == shift
     assert rule_words([nd.Pose(shift), nd.Pose(shift, internal_point="held"), nd.Pose()]) == (
         "O is shifted with the platform's origin at 2 poses, held in the base at 1 pose"
     )

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from argument_names import argument_names
 
 import ninedof as nd
 
@@ -91,7 +92,7 @@ def test_functions_document_every_parameter(name):
         described += inspect.getdoc(getattr(nd, borrowed.group(1)))
     else:
         assert "\nParameters\n----------\n" in doc
-    for parameter in inspect.signature(function).parameters:
+    for parameter in argument_names(function):
         assert re.search(rf"^[\w, ]*\b{parameter}\b[\w, ]* :|^{parameter}\b", described, flags=re.MULTILINE), parameter
 
 

@@ -182,7 +182,7 @@ def test_arithmetic_with_another_rounding_mode_is_refused(published, neutral):
     finally:
         checked = _core.check_certificate(b"", None)
         library.fesetround(nearest)
-    assert checked[1] == "numbers are not rounded as they must be here: to nearest, with gradual underflow"
+    assert checked.words == "numbers are not rounded as they must be here: to nearest, with gradual underflow"
     assert message == "the arithmetic of this process is unfit for proofs: numbers are not rounded to nearest"
 
 

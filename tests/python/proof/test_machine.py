@@ -314,7 +314,7 @@ def test_boxes_of_other_poses_are_refused():
     stack = neutral[[0, 0]]
     settings = _core.ConditionSettings(threads=1, seconds=1.0, gap=0.1, wanted=[], tolerance=0.0)
     geometry = study(None).problem().geometry(list(VARIABLES.values()))
-    machine = _core.PosedRobot(geometry, stack.position, stack.rotation, stack.internal_point, 150.0, None, None)
+    machine = _core.PosedRobot(geometry, stack, 150.0, None, None)
     for piece in (0.0, -2.0, 7.0, math.nan):
         earlier = _core.ConditionState()
         earlier.left = [(piece,) + (0.0,) * 12]

@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
+from ninedof import _core
 from ninedof.proof.machine import certify
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.point_rule import PointRule
@@ -52,7 +53,7 @@ def random_rule(region, rng, degree):
     coefficients = 1.5 * rng.normal(size=(len(powers), 3))
     for k in range(3):
         coefficients[[p == tuple(np.eye(6, dtype=int)[k]) for p in powers], k] += 0.5 * scale[k]
-    return PointRule.of(NEUTRAL[0], scale, powers, coefficients.tolist())
+    return PointRule.of(NEUTRAL[0], _core.PointRule(scale=scale, powers=powers, coefficients=coefficients))
 
 
 def posed(region, rule, rng, count):

@@ -7,8 +7,8 @@ from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
-from ninedof.sheet.leg_motion import Motion
-from ninedof.sheet.numbers import Asked, numbers_at
+from ninedof import _core
+from ninedof.sheet.request import Motion, SheetRequest
 
 
 def robots_at_poses(seed, poses):
@@ -75,8 +75,8 @@ def test_no_direction_accelerates_a_leg_more(seed, internal):
     for turn, shift in ways:
         for k, w in enumerate((0.7, 0.0)):
             motion = Motion(1.0, 0.0, internal, (*(w * turn).tolist(), *(1.3 * shift).tolist()))
-            question = Asked(motion, np.empty((0, 6))).question(g, c[0], None)
-            worst[k] = np.maximum(worst[k], np.abs(numbers_at(question, c)["twist_acceleration"][0]))
+            question = SheetRequest(motion, np.empty((0, 6))).question(g, c[0], None)
+            worst[k] = np.maximum(worst[k], np.abs(_core.sheet_numbers(question, c)["twist_acceleration"][0]))
     assert (worst[0] <= np.array([leg.acceleration for leg in both.legs]) + 1e-9).all()
     exact = np.array([leg.acceleration for leg in still.legs])
     assert (worst[1] <= exact + 1e-9).all()

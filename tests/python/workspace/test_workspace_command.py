@@ -15,8 +15,9 @@ from ninedof.cli.workspace_figures import _planes, _section
 from ninedof.cli.workspace_question import compare_poses
 from ninedof.paper.published import published_variables
 from ninedof.records.record import write_run
-from ninedof.workspace.study_criteria import EASE, leg_ranges, own_fraction
-from ninedof.workspace.study_question import narrowed
+from ninedof.workspace.question_words import criterion_words
+from ninedof.workspace.region_share import EASE
+from ninedof.workspace.study_question import leg_ranges, narrowed, own_fraction, study_limits
 
 BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])
 LEGS = {"leg_limits": (2.5, 6.5)}
@@ -256,6 +257,26 @@ def test_ranges_by_kind_and_the_own_fraction():
     upper, lower = np.array([0.0, 0.0, 5.0]), np.array([0.0, 0.0, 1.0])
     assert own_fraction(upper, lower, np.array([0.0, 0.0, 2.0])) == 0.25
     assert own_fraction(upper, lower, np.array([0.1, 0.0, 2.0])) is None
+
+
+def test_joints_that_coincide_in_one_design_alone_collide():
+    """As for optimize and certify, legs may share a joint where they do in every design of the study."""
+    g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0), nd.Configuration.neutral(3.9828, 2.4432)
+    limits = {"leg_clearance": {"min": 0.1}}
+    box = ([-2.0, -2.0, 3.0], [2.0, 2.0, 5.0])
+    for variables, allowed in (({}, False), ({"a1": 0.0, "b2": 0.0}, True)):
+        study = nd.Study(variables=variables, constraints=limits)
+        own = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.4432}
+        assert (study.evaluate(own).margins["leg_clearance"] > 0.0) == allowed
+        criteria, left = study_limits(study, g, home)
+        assert not left
+        found = nd.workspace(g, box, criteria=criteria, home=home, method="grid", resolution=4)
+        assert found.home_allowed == allowed
+        assert allowed or found.home_limit.startswith("leg_clearance")
+        words = list(criterion_words("leg_clearance", criteria["leg_clearance"], ""))
+        assert words == ["leg clearance at least 0.1"]
+    with pytest.raises(ValueError, match=r"leg_clearance .exempt.: got 'l1'"):
+        nd.workspace(g, box, criteria={"leg_clearance": {"min": 0.1, "exempt": ["l1"]}})
 
 
 def test_limits_of_legs_and_what_a_region_needs_hold_together():

@@ -7,7 +7,6 @@ import pytest
 
 import ninedof as nd
 from ninedof.workspace import WorkspaceField
-from ninedof.workspace.surface import surface_of
 
 G = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
 HOME = nd.Configuration.neutral(zp=3.9828, zs=2.4435)
@@ -71,7 +70,7 @@ def ball(n, radius=0.8):
 
 
 def test_a_ball_has_a_closed_surface_that_faces_outward():
-    surface = surface_of(ball(41))
+    surface = ball(41).surface()
     assert np.linalg.norm(surface.points, axis=1) == pytest.approx(0.8, abs=0.02)
     assert surface.volume == pytest.approx(4.0 / 3.0 * np.pi * 0.8**3, rel=0.02)
     edges = Counter(pair for face in surface.faces.tolist() for pair in zip(face, face[1:] + face[:1], strict=True))

@@ -39,9 +39,4 @@ std::vector<Vec3> surface_normals(const QuadSurface& surface);
 /// Volume enclosed, by the divergence theorem.
 double enclosed_volume(const QuadSurface& surface);
 
-/// The points, each moved half way to the mean of its neighbours `rounds` times: for the eye, not for volumes, since
-/// surface nets leave teeth along sharp edges. Neighbours share a side of the triangles (0, 1, 2) and (0, 2, 3) of a
-/// face.
-std::vector<Vec3> smoothed_points(const QuadSurface& surface, int rounds);
-
 }  // namespace ninedof

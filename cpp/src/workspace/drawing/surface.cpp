@@ -94,20 +94,4 @@ double enclosed_volume(const QuadSurface& surface) {
   return six / 6.0;
 }
 
-std::vector<Vec3> smoothed_points(const QuadSurface& surface, int rounds) {
-  std::vector<Vec3> points = surface.points, sum(points.size());
-  std::vector<double> count(points.size());
-  for (int round = 0; round < rounds; ++round) {
-    std::fill(sum.begin(), sum.end(), Vec3::Zero());
-    std::fill(count.begin(), count.end(), 0.0);
-    for (const auto& [a, b, c, d] : surface.faces)
-      for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}, {a, c}, {c, d}, {d, a}}) {
-        sum[at_index(from)] += points[at_index(to)];
-        count[at_index(from)] += 1.0;
-      }
-    for (std::size_t n = 0; n < points.size(); ++n) points[n] = 0.5 * (points[n] + sum[n] / count[n]);
-  }
-  return points;
-}
-
 }  // namespace ninedof

@@ -24,7 +24,7 @@ from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.path_limits import PathLimits, path_limits
-from ninedof.sheet.weight import Weight
+from ninedof.sheet.request import Weight
 from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
 

@@ -1,0 +1,48 @@
+"""A region looked over for a sheet."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ninedof import _core
+from ninedof.design.pose import Pose
+from ninedof.design.region_placed import Placing
+from ninedof.design.region_stack import configurations_at, poses_at
+from ninedof.design.study import Study
+from ninedof.robot.configuration import Configuration
+from ninedof.support.structs import from_core
+
+SAMPLES = 10_000
+PLACED = 2000  # the most where O is placed anew at every pose, which takes a thousand times as long
+
+
+class RegionLook(NamedTuple):
+    """How a region was looked over."""
+
+    region: str
+    """In words."""
+    looked_at: int
+    """Poses: of the sample and of the descents from the worst of it."""
+    mean: float
+    """Condition number, mean over the even sample: in positions, in the tilt vector and in the yaw."""
+    mean_error: float
+    """Standard error of it, from eight parts of the sample."""
+
+
+def look_over(
+    study: Study, neutral: Configuration, question: _core.SheetQuestion, count: int, placing: Placing | None = None
+) -> tuple[RegionLook, Configuration, tuple[Pose, ...]]:
+    """Return how the region of a study was looked over, and its worst poses as configurations and as poses.
+
+    Where O is placed anew at every pose, descents follow the lengths of the legs: those of the external legs do not
+    depend on O, those of the others take O placed at every step. Of the other numbers it is the worst of the sample.
+    """
+    region = study.objective.region
+    assert region is not None
+    design = None if placing is None else placing.for_core()
+    samples = 2 * (count if placing is None else min(count, PLACED))
+    found = _core.sheet_over_region(question, region.for_core(), samples, design)
+    look, at = from_core(RegionLook, found, region=region.worded(study.unit)), found.worst
+    if placing is not None:
+        return look, *placing(at)
+    return look, configurations_at(region, neutral, at)[1], poses_at(region, at)

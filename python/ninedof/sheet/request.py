@@ -1,0 +1,178 @@
+"""What a sheet is asked for: the motion behind the speeds of the legs, loads, tolerances, stiffness."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, TypedDict
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.design.limit_numbers import PARTS, exempt_pairs
+from ninedof.design.limits import ROWS
+from ninedof.design.study import Study
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.robot.idle import IDLE
+from ninedof.support.arguments import Vector, choice, finite, shown, vector
+from ninedof.support.arrays import Floats, as_floats, one_or_each
+
+FASTEST = 1e100  # speeds: their squares must be numbers
+INTERNAL = ("least", "held", "shifted", "carried")
+STANDARD = (0.0, 0.0, -9.81)
+
+
+class SheetOptions(TypedDict, total=False):
+    """Options of `sheet`, which says what they mean."""
+
+    linear_speed: float
+    angular_speed: float
+    internal: str | None
+    loads: ArrayLike | None
+    leg_errors: ArrayLike | None
+    joint_errors: ArrayLike | None
+    leg_stiffness: ArrayLike | None
+    characteristic_length: float | str | None
+    twist: ArrayLike | None
+    twist_rate: ArrayLike | None
+    mass: float | None
+    centre: ArrayLike | None
+    gravity: ArrayLike | None
+    samples: int
+    unit: str | None
+
+
+class Motion(NamedTuple):
+    """A motion of the platform in any direction, and a given one."""
+
+    linear_speed: float
+    """Of the platform origin, length/time."""
+    angular_speed: float
+    """rad/time."""
+    internal: str
+    """How O moves: "least" squares of the leg rates and of the leg accelerations, "held", "shifted" or "carried" as in
+    `ninedof.redundancy.rules`."""
+    twist: tuple[float, ...] | None = None
+    """Angular velocity (rad/time) and velocity of the platform's origin, base frame; None without one."""
+    twist_rate: tuple[float, ...] = (0.0,) * 6
+    """Its time derivative."""
+
+    @classmethod
+    def checked(
+        cls,
+        linear_speed: float,
+        angular_speed: float,
+        internal: str,
+        twist: ArrayLike | None = None,
+        twist_rate: ArrayLike | None = None,
+    ) -> Motion:
+        """Return the motion of valid arguments."""
+        speeds = (
+            finite("linear_speed", linear_speed, 0.0, FASTEST),
+            finite("angular_speed", angular_speed, 0.0, FASTEST),
+        )
+        rule = choice("internal", internal, INTERNAL)
+        if twist is None:
+            if twist_rate is not None:
+                raise ValueError(f"twist_rate: got {shown(twist_rate)} without a twist, expected a twist too")
+            return cls(*speeds, rule)
+        rate = (0.0,) * 6 if twist_rate is None else _six("twist_rate", twist_rate)
+        return cls(*speeds, rule, _six("twist", twist), rate)
+
+
+class Weight(NamedTuple):
+    """The weight of the platform with what it carries."""
+
+    mass: float
+    centre: Vector
+    """Centre of mass in the platform frame."""
+    gravity: Vector
+    """Force per mass, base axes: with 9.81 and kilograms forces are in newtons, in any unit of length."""
+
+    @classmethod
+    def checked(cls, mass: float | None, centre: ArrayLike | None, gravity: ArrayLike | None) -> Weight | None:
+        """Return the weight of valid arguments, None without a mass; at the platform's origin by default."""
+        if mass is None:
+            for name, value in (("centre", centre), ("gravity", gravity)):
+                if value is not None:
+                    raise ValueError(f"{name}: got {shown(value)} without a mass, expected a mass too")
+            return None
+        at = vector("centre", (0.0, 0.0, 0.0) if centre is None else as_floats("centre", centre, (3,)).tolist())
+        return cls(
+            finite("mass", mass, 0.0),
+            at,
+            vector("gravity", STANDARD if gravity is None else as_floats("gravity", gravity, (3,)).tolist()),
+        )
+
+    def wrench(self, rotation: Floats) -> Floats:
+        """Return (moment about p, force) at each rotation of the platform, (n, 3, 3), in base axes, shape (n, 6)."""
+        arm = rotation @ np.asarray(self.centre)
+        force = np.broadcast_to(self.mass * np.asarray(self.gravity), arm.shape)
+        return np.concatenate([np.cross(arm, force), force], axis=-1)
+
+
+class SheetRequest(NamedTuple):
+    """The numbers of a sheet besides lengths, cones, clearance, condition number and determinants."""
+
+    motion: Motion
+    loads: Floats
+    weight: Weight | None = None
+    errors: tuple[ArrayLike, ArrayLike] | None = None
+    """Of the legs and of the joints."""
+    leg_stiffness: ArrayLike | None = None
+    characteristic_length: float = 1.0
+    """NaN or infinite where it has no value."""
+
+    def question(self, g: Geometry, neutral: Configuration, study: Study | None) -> _core.SheetQuestion:
+        """Return the request as the core takes it."""
+        motion, length = self.motion, self.characteristic_length
+        moving = _core.PlatformMotion(
+            internal=motion.internal, linear_speed=motion.linear_speed, angular_speed=motion.angular_speed
+        )
+        if motion.twist is not None:
+            moving.given = _core.TwistMotion(twist=motion.twist, rate=motion.twist_rate)
+        out = _core.SheetQuestion(
+            g,
+            neutral,
+            limits=_limits(study),
+            exempt=exempt_pairs(g, study),
+            motion=moving,
+            loads=list(self.loads),
+            characteristic_length=length if np.isfinite(length) else None,
+        )
+        if self.weight is not None:
+            out.weight = _core.Weight(**self.weight._asdict())
+        if self.errors is not None:
+            legs, joints = self.errors
+            out.errors = _core.Tolerances(
+                legs=one_or_each("leg_errors", legs, 9), joints=one_or_each("joint_errors", joints, 12)
+            )
+        if self.leg_stiffness is not None:
+            out.leg_stiffness = one_or_each("leg_stiffness", self.leg_stiffness, 9)
+        return out
+
+
+def shown_internal(c: Configuration) -> str:
+    """Return the rule that O follows over a stack of poses: "held", "carried", "shifted", or "least" where none."""
+    if len(c) < 2:
+        return "least"
+    size = IDLE * np.abs(np.concatenate([c.position, c.internal_point])).max()
+    arm = c.internal_point - c.position
+    own = (arm[:, None] @ c.rotation)[:, 0]  # rows: Q^T (s - p)
+    for rule, places in (("held", c.internal_point), ("carried", own), ("shifted", arm)):
+        if np.abs(places - places[0]).max() <= size:
+            return rule
+    return "least"
+
+
+def _limits(study: Study | None) -> list[tuple[str, Floats]]:
+    """Return limits at poses and axes of cones: each about the neutral directions, and about the axes of the study."""
+    cones = [limit.for_core() for limit in (study.limits if study is not None else ()) if limit.axis]
+    return [(name, np.zeros(3)) for name in PARTS if len(ROWS[name].sides) == 1] + [(c.name, c.axis) for c in cones]
+
+
+def _six(name: str, value: ArrayLike) -> tuple[float, ...]:
+    numbers = as_floats(name, value, (6,))
+    if numbers.shape != (6,) or not np.isfinite(numbers).all():
+        raise ValueError(f"{name}: got {shown(value)}, expected six finite numbers, rotation first")
+    return tuple(numbers.tolist())
