@@ -1,11 +1,13 @@
-"""The result of a trade-off: the best design for each limit, or the reason why there is none."""
+"""The result of a trade-off: the best design for each limit, or the reason why there is none; its knee."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
@@ -15,6 +17,7 @@ from ninedof.tables import RIGHT, Column, Table
 from ninedof.tables.html import notebook
 
 SAME = 1e-9  # relative: smaller differences of objectives do not count
+FLAT = 1e-6  # of the range of the objective: a front that bulges less has no knee
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,25 +99,14 @@ class Front:
 
         """
         rows = []
-        for limit, result, value, price, flat in zip(
-            self.limits, self.results, self.objectives, self.prices, self.dominated, strict=True
-        ):
-            best = result.best if not math.isnan(value) else None
-            rows.append(
-                {
-                    "limit": limit,
-                    "status": str(result.status),
-                    "reason": result.reason,
-                    "objective": None if best is None else best.objective,
-                    "condition_number": None if best is None else best.condition_number,
-                    "price": price,
-                    "active": None
-                    if best is None
-                    else [n for n in best.active if n != self.limit_name or price != 0.0],
-                    "variables": None if best is None else dict(best.variables),
-                    "dominated": flat,
-                }
-            )
+        columns = (self.limits, self.results, self.objectives, self.prices, self.dominated)
+        for limit, result, value, price, flat in zip(*columns, strict=True):
+            best = None if math.isnan(value) else result.best
+            active = best and [name for name in best.active if name != self.limit_name or price != 0.0]
+            row: dict[str, Any] = {"limit": limit, "status": str(result.status), "reason": result.reason}
+            row |= {"objective": best and best.objective, "condition_number": best and best.condition_number}
+            row |= {"price": price, "active": active, "variables": best and dict(best.variables), "dominated": flat}
+            rows.append(row)
         return rows
 
     def to_dict(self) -> dict[str, Any]:
@@ -173,3 +165,34 @@ def _row_words(front: Front, row: Mapping[str, Any]) -> str:
     if row["dominated"]:
         return f"{reached} (no better than a tighter limit)"
     return f"{reached} ({front.limit_name} without effect)" if row["price"] == 0.0 else reached
+
+
+class Preferred(NamedTuple):
+    """The point of a front to look at first."""
+
+    number: int
+    """Counted from 1, as the table of the front has it."""
+    words: str
+    """Why."""
+
+
+def preferred(front: Front) -> Preferred | None:
+    """Return the knee of a front, else the tightest limit with the least objective; None without a design.
+
+    The knee is the point farthest below the straight line between the two ends, both axes over their ranges. Limits
+    that are no better than a tighter one do not count, nor does an infinite one.
+    """
+    points = [
+        (k, limit, value)
+        for k, (limit, value, flat) in enumerate(zip(front.limits, front.objectives, front.dominated, strict=True), 1)
+        if not (math.isnan(value) or flat)
+    ]
+    if not points:
+        return None
+    at = np.array([point for point in points if math.isfinite(point[1])])
+    if len(at) > 2:
+        x, y = ((column - column[-1]) / (column[0] - column[-1]) for column in at[:, 1:].T)  # 1 at the tightest, 0 last
+        if (x - y).max() > FLAT:
+            words = "the knee of the front: farthest below the straight line between its ends"
+            return Preferred(int(at[(x - y).argmax(), 0]), words)
+    return Preferred(points[-1][0], "the least objective; the front has no knee")

@@ -8,20 +8,16 @@ from dataclasses import replace
 
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
-from ninedof.optimize.result import Result, Status, result_from
+from ninedof.optimize.pieces import Pieces
+from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import SAME, objective_of
 from ninedof.pareto.limited import limited, unit_of
 from ninedof.support.angles import degrees_of
-from ninedof.support.files import from_json_array, json_array
 from ninedof.support.progress import Progress
 from ninedof.support.store import Store
 from ninedof.support.units import amount
 
-WORDS = "words"  # name of a result in the store: its JSON
-
-
-class Interrupted(Exception):  # ends the computation, not an error
-    """Ctrl-C was pressed while a limit was being solved."""
+BETTER = 1e-12  # relative: what the objective of an optimum must gain to replace another
 
 
 class Sweep:
@@ -38,8 +34,7 @@ class Sweep:
         self.study, self.against = study, against
         self.results: dict[float, Result] = {}
         self.open_ended: Result | None = None
-        self._threads, self._progress = threads, progress
-        self._store, self._optimized = store, 0
+        self._threads, self._progress, self._pieces = threads, progress, Pieces(store)
         self._solved, self.planned = 0, 0
 
     def solve(self, limit: float | None, warm: Iterable[Result | None] = (), few: bool = False) -> Result:
@@ -57,36 +52,26 @@ class Sweep:
         study = limited(self.study, self.against, limit)
         if few:
             study = study.with_solver(max(1, study.starts // 4), study.seed + 1)
-        known = [result for result in warm if result is not None and result.candidates]
-        result, anew = self._result(study, known)
+        computed = self._pieces.computed
+        result = self.optimum(study, [one for one in warm if one is not None and one.candidates])
         self._solved += 1
-        if self._progress is not None and anew:
+        if self._progress is not None and self._pieces.computed > computed:
             value = objective_of(result)
             self._progress(self._solved, max(self.planned, self._solved), None if math.isnan(value) else value)
         if limit is None:
             self.open_ended = result
             return result
         old = self.results.get(limit)
-        if old is None or _rank(result) < _rank(old, better_by=1e-12):
+        if old is None or _rank(result) < _rank(old, better_by=BETTER):
             self.results[limit] = result
         return self.results[limit]
 
-    def optimum(self, study: Study) -> Result:
-        """Solve a study that is none of the limits."""
-        return self._result(study, [])[0]
-
-    def _result(self, study: Study, warm: list[Result]) -> tuple[Result, bool]:
-        """Return the next result, and whether it was computed and not found in the store."""
-        number = self._optimized
-        self._optimized += 1
-        if self._store is not None and (kept := self._store.read(number)) is not None:
-            return result_from(study, from_json_array(kept[WORDS])), False
-        result = optimize(study, threads=self._threads, warm=warm or None)
+    def optimum(self, study: Study, warm: Sequence[Result] = ()) -> Result:
+        """Return the result of a study, whether it is one of the limits or not."""
+        result = self._pieces.result(study, lambda: optimize(study, threads=self._threads, warm=list(warm) or None))
         if result.interrupted:
-            raise Interrupted
-        if self._store is not None:
-            self._store.keep(number, {WORDS: json_array(result.to_dict())})
-        return result, True
+            raise KeyboardInterrupt
+        return result
 
     def both_ways(self, limits: Sequence[float]) -> None:
         """Solve from the loosest limit to the tightest and back; limits in increasing order.
@@ -95,10 +80,10 @@ class Sweep:
         designs, so that a looser limit does not have a worse result.
         """
         self.planned = self._solved + 2 * len(limits)
-        for k in reversed(range(len(limits))):
-            self.solve(limits[k], self._beside(limits, k))
-        for k in range(len(limits)):
-            self.solve(limits[k], self._beside(limits, k), few=True)
+        there, back = [(k, False) for k in reversed(range(len(limits)))], [(k, True) for k in range(len(limits))]
+        for k, few in there + back:
+            beside = [self.results.get(limits[j]) for j in (k - 1, k + 1, k) if 0 <= j < len(limits)]
+            self.solve(limits[k], beside, few)
 
     def between(self, low: float, high: float) -> float:
         """Solve for the geometric mean of two limits, starting from both designs; return it."""
@@ -112,25 +97,22 @@ class Sweep:
         for limit in sorted(self.results):
             if best is not None and self._is_worse(limit, best[1]):
                 self.solve(limit, [best[1]], few=True)
-                if self._is_worse(limit, best[1]):
-                    self.results[limit] = _adopted(
-                        best[1], limited(self.study, self.against, limit), self._words(best[0])
-                    )
+                if self._is_worse(limit, best[1]):  # not an optimum of this limit
+                    study, words = limited(self.study, self.against, limit), self._words(best[0])
+                    reason = f"the design found for the limit {words} is better than all found for this one"
+                    adopted = {"study": study, "status": Status.STOPPED, "reason": f"{reason}, so it is used here too"}
+                    self.results[limit] = replace(best[1], **adopted)  # type: ignore[arg-type]
             if not math.isnan(objective_of(self.results[limit])):
                 best = limit, self.results[limit]
 
     def _is_worse(self, limit: float, tighter: Result) -> bool:
         result = self.results[limit]
-        if result.status == Status.UNBOUNDED:
-            return False
-        return not objective_of(result) <= objective_of(tighter) * (1.0 + SAME)
+        unbounded = result.status == Status.UNBOUNDED
+        return not unbounded and not objective_of(result) <= objective_of(tighter) * (1.0 + SAME)
 
     def _words(self, limit: float) -> str:
         unit = unit_of(self.study, self.against)
         return amount(f"{degrees_of(limit):g}", "deg") if unit == "rad" else amount(f"{limit:g}", unit)
-
-    def _beside(self, limits: Sequence[float], k: int) -> list[Result | None]:
-        return [self.results.get(limits[j]) for j in (k - 1, k + 1, k) if 0 <= j < len(limits)]
 
 
 def _rank(result: Result, better_by: float = 0.0) -> tuple[int, float]:
@@ -140,9 +122,3 @@ def _rank(result: Result, better_by: float = 0.0) -> tuple[int, float]:
     if result.best is None or result.status == Status.INFEASIBLE:
         return 2, 0.0
     return int(result.status != Status.OPTIMAL), result.best.objective * (1.0 - better_by)
-
-
-def _adopted(result: Result, study: Study, limit: str) -> Result:
-    """Return the design of a tighter limit as the result of a looser one, not as an optimum."""
-    reason = f"the design found for the limit {limit} is better than all found for this one, so it is used here too"
-    return replace(result, study=study, status=Status.STOPPED, reason=reason)

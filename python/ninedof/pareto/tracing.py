@@ -15,11 +15,11 @@ import numpy as np
 from ninedof.design.study import Study
 from ninedof.optimize.result import Status
 from ninedof.pareto.front import Front, objective_of
-from ninedof.pareto.limited import resolve, with_degrees, without_degrees
-from ninedof.pareto.solving import Interrupted, Sweep
-from ninedof.pareto.span import span
+from ninedof.pareto.limited import CONDITION_LIMIT, resolve, with_degrees, without_degrees
+from ninedof.pareto.solving import Sweep
+from ninedof.pareto.span import BISECTIONS, between_indices, of_a_limit
 from ninedof.support.angles import degrees_of
-from ninedof.support.arguments import finite, items, path_argument, shown, whole
+from ninedof.support.arguments import finite, instance, items, path_argument, shown, whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.store import Store
@@ -90,68 +90,61 @@ def pareto(
     [3.9412, 3.7627, 3.5486]
 
     """
-    if not isinstance(study, Study):
-        raise ValueError(f"study: got {type(study).__name__}, expected a Study")
+    instance("study", study, Study)
     progress_argument(progress)
     thread_argument(threads)
-    count = whole("points", points, 2, MOST_POINTS)
+    whole("points", points, 2, MOST_POINTS)
     plain, degrees = without_degrees(against)
     if study.length_note:
         warnings.warn(study.length_note, stacklevel=2)
     posed, limit = resolve(replace(study.with_solver(starts)), plain)
-    given = None if values is None else _values(values, limit, degrees)
-    if out is not None:
-        out = path_argument("out", out)
-    begin, interrupted = perf_counter(), False
-    wanted: list[float] | None = given
-    question = {"study": posed.to_dict(), "against": limit, "values": given, "points": count}
-    with nullcontext() if out is None else Store(out, question, 1) as store:
+    chosen = None if values is None else _values(values, limit, degrees)
+    begin, interrupted, limits = perf_counter(), False, chosen
+    question = {"study": posed.to_dict(), "against": limit, "values": chosen, "points": points}
+    with nullcontext() if out is None else Store(path_argument("out", out), question, 1) as store:
         sweep = Sweep(posed, limit, threads, progress, store)
         try:
-            wanted = _trace(sweep, count) if given is None else given
-            if given is not None:
-                sweep.both_ways(given)
+            if chosen is None:
+                limits = _trace(sweep, points)
+            else:
+                sweep.both_ways(chosen)
             sweep.repair()
-        except (Interrupted, KeyboardInterrupt):
+        except KeyboardInterrupt:
             interrupted = True
-    shown_limits = sorted(sweep.results if wanted is None else set(wanted) & set(sweep.results))
-    results = tuple(sweep.results[value] for value in shown_limits)
-    limits = tuple(degrees_of(value) if degrees else value for value in shown_limits)
-    return Front(posed, against if degrees else limit, limits, results, interrupted, perf_counter() - begin)
+    solved = sorted(sweep.results if limits is None else set(limits) & set(sweep.results))
+    results = tuple(sweep.results[value] for value in solved)
+    named = tuple(degrees_of(value) if degrees else value for value in solved)
+    return Front(posed, against if degrees else limit, named, results, interrupted, perf_counter() - begin)
 
 
 def _values(values: Sequence[float], limit: str, degrees: bool) -> list[float]:
     """Return the limits in increasing order, angles in radians."""
-    listed = items("values", values, "a sequence of limits")
-    found = {finite(f"values[{k}]", value) for k, value in enumerate(listed)}
-    if not found or min(found) <= 0.0:
+    listed = {finite(f"values[{k}]", value) for k, value in enumerate(items("values", values, "a sequence of limits"))}
+    if not listed or min(listed) <= 0.0:
         raise ValueError(f"values: got {shown(values)}, expected one or more limits above 0")
-    if not degrees and with_degrees(limit) != limit and max(found) > math.pi:
+    if not degrees and with_degrees(limit) != limit and max(listed) > math.pi:
         in_degrees = f'degrees are given with against="{with_degrees(limit)}"'
-        raise ValueError(f"values: got {max(found):g} radians, expected at most pi ({in_degrees})")
-    return sorted(math.radians(value) if degrees else value for value in found)
+        raise ValueError(f"values: got {max(listed):g} radians, expected at most pi ({in_degrees})")
+    return sorted(math.radians(value) if degrees else value for value in listed)
 
 
 def _trace(sweep: Sweep, count: int) -> list[float]:
     """Find the range, solve evenly spaced limits, then halve the widest gaps."""
-    ends = span(sweep)
+    sweep.planned = 4 + BISECTIONS
+    ends = between_indices(sweep) if sweep.against == CONDITION_LIMIT else of_a_limit(sweep)
     if ends is None:  # one row with the reason: the study without the limit
         assert sweep.open_ended is not None
         sweep.results[math.inf] = sweep.open_ended
         return [math.inf]
     low, high = ends
     first = max(2, round(FIRST * count))
-    wanted = [low, *np.geomspace(low, high, first)[1:-1].tolist(), high] if high > low * (1.0 + 1e-6) else [high]
-    sweep.planned += 2 * first + count
-    sweep.both_ways(wanted)
-    while 1 < len(wanted) < count:
-        gap = _widest(sweep, wanted)
-        if gap is None:
-            break
-        wanted = sorted([*wanted, sweep.between(*gap)])
+    limits = [low, *np.geomspace(low, high, first)[1:-1].tolist(), high] if high > low * (1.0 + 1e-6) else [high]
+    sweep.both_ways(limits)
+    while 1 < len(limits) < count and (gap := _widest(sweep, limits)) is not None:
+        limits = sorted([*limits, sweep.between(*gap)])
     below = max((value for value in sweep.results if value < low), default=None)
     is_edge = below is not None and sweep.results[below].status == Status.INFEASIBLE
-    return [below, *wanted] if below is not None and is_edge else wanted
+    return [below, *limits] if below is not None and is_edge else limits
 
 
 def _widest(sweep: Sweep, limits: Sequence[float]) -> tuple[float, float] | None:
@@ -159,12 +152,12 @@ def _widest(sweep: Sweep, limits: Sequence[float]) -> tuple[float, float] | None
 
     Gaps in the objective have three times the weight: steep parts get more points.
     """
-    found = [(limit, objective_of(sweep.results[limit])) for limit in limits]
-    found = [pair for pair in found if not math.isnan(pair[1])]
-    if len(found) < 2:
+    points = np.array(
+        [(limit, value) for limit in limits if not math.isnan(value := objective_of(sweep.results[limit]))]
+    )
+    if len(points) < 2:
         return None
-    x, y = np.log(found).T
+    x, y = np.log(points).T
     apart = np.hypot(np.diff(x) / max(np.ptp(x), 1e-12), 3.0 * np.diff(y) / max(np.ptp(y), 1e-12))
-    widest = int(np.argmax(apart))
-    low, high = found[widest][0], found[widest + 1][0]
+    low, high = points[int(np.argmax(apart)) :, 0][:2].tolist()
     return (low, high) if high > low * (1.0 + 1e-4) else None

@@ -6,8 +6,7 @@ import math
 from typing import Any
 
 from ninedof.pareto import Front
-from ninedof.pareto.front import front_table, limit_text
-from ninedof.pareto.knee import preferred
+from ninedof.pareto.front import front_table, limit_text, preferred
 from ninedof.report import origin, proof, scene
 from ninedof.report.body import quick_body
 from ninedof.report.optimization import design_machine, sheet_html

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ninedof.pareto.knee import preferred
+from ninedof.pareto.front import preferred
 
 NAN, INF = float("nan"), float("inf")
 
