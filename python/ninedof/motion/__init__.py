@@ -1,6 +1,6 @@
 """Motion along a trajectory: inverse kinematics over time.
 
-`trajectory` has the poses over time, `trajectory_file` reads them from CSV, `shapes` makes lines, circles and spirals.
+`trajectory` has the poses over time, `trajectory_file` reads them from CSV.
 `follow` has the public function, `followed` its result.
 """
 

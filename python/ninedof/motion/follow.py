@@ -16,9 +16,8 @@ from ninedof.redundancy.search_arguments import leg_limits
 from ninedof.robot.configuration import Configuration, operands_with, single
 from ninedof.robot.geometry import Geometry
 from ninedof.singularity.singularity import SingularityMargins
-from ninedof.support.arguments import choice, finite
+from ninedof.support.arguments import choice, finite, pair
 from ninedof.support.arrays import Floats, as_number
-from ninedof.support.units import unit_argument
 
 
 def follow(
@@ -28,9 +27,7 @@ def follow(
     internal_point: str | float = "carried",
     limits: tuple[ArrayLike, ArrayLike] | None = None,
     characteristic_length: float | str = 1.0,
-    force: ArrayLike | None = None,
-    moment: ArrayLike | None = None,
-    unit: str | None = None,
+    load: tuple[ArrayLike | None, ArrayLike | None] = (None, None),
 ) -> Followed:
     """Return lengths, rates and accelerations of the legs along a trajectory, and what limits it.
 
@@ -57,11 +54,8 @@ def follow(
     characteristic_length : float or str
         Length l_c of the condition number, or a kind of `characteristic_length`, taken at home; 1 by
         default; a Result and a Design have their own, `found.characteristic_length`.
-    force, moment : array_like, shape (3,) or (n, 3), optional
-        Load on the platform at its origin, base axes, for the leg forces.
-    unit : str, optional
-        Name of the length unit, for screens, figures and the head of legs.csv: "mm", "cm", "m", "in" or "ft". None by
-        default. With one, times are in seconds: rates are labelled mm/s.
+    load : (force, moment), optional
+        On the platform at its origin, base axes, for the leg forces: each of shape (3,) or (n, 3), or None.
 
     Returns
     -------
@@ -88,14 +82,10 @@ def follow(
     trajectory_argument(trajectory)
     single(geometry, home, "home")
     rule, bounds = rule_argument(internal_point), leg_limits(limits)
-    length = characteristic_length
-    lc = (
-        float(length_of(geometry, home, length))
-        if isinstance(length, str)
-        else as_number("characteristic_length", length)
-    )
+    lc = characteristic_length
+    lc = float(length_of(geometry, home, lc)) if isinstance(lc, str) else as_number("characteristic_length", lc)
     time, p, q = trajectory.time, trajectory.position, trajectory.rotation
-    loads = _loads(geometry, Configuration(p, q, p), force, moment)
+    loads = _loads(geometry, Configuration(p, q, p), *pair("load", load, "force and moment"))
     found = _core.follow(geometry, home, time, p, q, rule, bounds, lc, loads)
     tracked, margins, forces = found.pop("tracked"), found.pop("singularity_margins"), found.pop("leg_forces")
     return Followed(
@@ -109,7 +99,7 @@ def follow(
         leg_forces=forces if len(loads) else None,
         tracked=tracked == len(trajectory),
         tracked_until=float(time[tracked - 1]),
-        unit=unit_argument(unit),
+        unit=trajectory.unit,
         **found,
     )
 
@@ -126,7 +116,5 @@ def _loads(geometry: Geometry, poses: Configuration, force: Any, moment: Any) ->
     moment, force = (np.zeros(3) if value is None else value for value in (moment, force))
     shape, _, load = operands_with(geometry, poses, moment=(moment, 3), force=(force, 3))
     if shape != poses.shape:
-        raise ValueError(
-            f"force, moment: got stacks of shape {shape}, expected one load for each of {len(poses)} poses"
-        )
+        raise ValueError(f"load: got stacks of shape {shape}, expected one load for each of {len(poses)} poses")
     return np.concatenate(load, axis=1)

@@ -83,8 +83,7 @@ class Followed(Saved):
     @property
     def time(self) -> Floats:
         """Shape (n,)."""
-        found: Floats = self.trajectory.time
-        return found
+        return self.trajectory.time  # type: ignore[no-any-return]
 
     @property
     def leg_margins(self) -> Floats:
@@ -108,23 +107,19 @@ class Followed(Saved):
         worst = int(np.argmax(self.condition_number))
         margins = np.abs(np.stack(self.singularity_margins))
         near = np.unravel_index(int(np.argmin(margins)), margins.shape)
-        low, high = self.limits
-        legs = {}
-        for k, leg in enumerate(LEGS):
-            legs[leg] = {
-                "shortest": float(self.leg_lengths[:, k].min()),
-                "longest": float(self.leg_lengths[:, k].max()),
-                "speed": float(np.abs(self.leg_rates[:, k]).max()),
-                "acceleration": float(np.abs(self.leg_accelerations[:, k]).max()),
-                "low": float(low[k]),
-                "high": float(high[k]),
-                "margin": float(self.leg_margins[:, k].min()),
-            }
-            if self.leg_forces is not None:
-                legs[leg] |= {
-                    "push": float(self.leg_forces[:, k].max(initial=0.0)),
-                    "pull": float((-self.leg_forces[:, k]).max(initial=0.0)),
-                }
+        columns = {
+            "shortest": self.leg_lengths.min(axis=0),
+            "longest": self.leg_lengths.max(axis=0),
+            "speed": np.abs(self.leg_rates).max(axis=0),
+            "acceleration": np.abs(self.leg_accelerations).max(axis=0),
+            "low": self.limits[0],
+            "high": self.limits[1],
+            "margin": self.leg_margins.min(axis=0),
+        }
+        if self.leg_forces is not None:
+            columns["push"] = self.leg_forces.max(axis=0, initial=0.0)
+            columns["pull"] = (-self.leg_forces).max(axis=0, initial=0.0)
+        legs = {leg: {name: float(values[k]) for name, values in columns.items()} for k, leg in enumerate(LEGS)}
         return {
             **unit_entry(self.unit),
             "poses": len(self.time),
@@ -175,7 +170,7 @@ class Followed(Saved):
         if words.pop("format") != cls.FORMAT:
             raise ValueError
         geometry = Geometry(**{name: data.pop(name) for name in TRIPLES})
-        moving = Trajectory(data.pop("time"), data.pop("position"), data.pop("rotation"))
+        moving = Trajectory(data.pop("time"), data.pop("position"), data.pop("rotation"), words["unit"])
         poses = Configuration(moving.position, moving.rotation, data.pop("o"))
         low, high = data.pop("limits")
         margins = SingularityMargins(*data.pop("singularity_margins"))

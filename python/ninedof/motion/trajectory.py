@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import math
 import os
 from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
 
-from ninedof.motion.shapes import circle_positions, line_positions, spiral_positions, times
 from ninedof.motion.trajectory_file import FEWEST, read_trajectory
 from ninedof.robot.configuration import Configuration, require_single
-from ninedof.support.arguments import finite, shown, vector
-from ninedof.support.arrays import as_floats, frozen
+from ninedof.support.arguments import finite, shown, vector, whole
+from ninedof.support.arrays import Floats, as_floats, frozen
+from ninedof.support.units import unit_argument
+
+TURNS = 3  # of a spiral
+SHORTEST, LONGEST = 1e-300, 1e100  # of a motion: its times must differ, and their squares be numbers
+MOST_POINTS = 10_000_000
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -27,6 +32,9 @@ class Trajectory:
         Origin p of the platform, length units, base frame.
     rotation : array_like, shape (n, 3, 3) or (3, 3), or scipy.spatial.transform.Rotation
         Q, platform frame to base frame. The identity by default.
+    unit : str
+        Name of the length unit, for screens, figures and the head of legs.csv: "mm", "cm", "m", "in" or "ft". None by
+        default. With one, times are in seconds: rates are labelled mm/s.
 
     Raises
     ------
@@ -48,6 +56,8 @@ class Trajectory:
     """Shape (n, 3)."""
     rotation: Any = None
     """Shape (n, 3, 3)."""
+    unit: str = ""
+    """Name of the length unit; "" without one."""
 
     def __post_init__(self) -> None:
         """Check and freeze the arrays."""
@@ -63,6 +73,7 @@ class Trajectory:
             raise ValueError(f"position: got poses of shape {poses.shape}, expected one for each of {len(t)} times")
         if not (np.isfinite(poses.position).all() and np.isfinite(poses.rotation).all()):
             raise ValueError("position, rotation: got NaN, expected finite numbers")
+        object.__setattr__(self, "unit", unit_argument(self.unit))
         for name, array in (("time", frozen(t)), ("position", poses.position), ("rotation", poses.rotation)):
             object.__setattr__(self, name, array)
 
@@ -90,35 +101,49 @@ class Trajectory:
 
         """
         require_single("home", home)
-        found = read_trajectory(path, unit)
+        time, position, rotation = read_trajectory(path, unit)
         try:
-            return cls(found.time, found.position, home.rotation if found.rotation is None else found.rotation)
+            return cls(time, position, home.rotation if rotation is None else rotation, unit)
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from None
 
     @classmethod
-    def circle(cls, home: Configuration, radius: float, duration: float = 1.0, points: int = 1001) -> Self:
+    def circle(
+        cls, home: Configuration, radius: float, duration: float = 1.0, points: int = 1001, unit: str = ""
+    ) -> Self:
         """Return a horizontal circle about the position of `home`, at constant speed and with its rotation."""
-        require_single("home", home)
-        t = times(duration, points)
-        return cls(t, home.position + circle_positions(t / t[-1], finite("radius", radius)), home.rotation)
+        r, t, u = finite("radius", radius), *_times(duration, points)
+        around = r * _turning(2.0 * math.pi * u)
+        around[-1] = around[0]
+        return cls._from(home, unit, t, around)
 
     @classmethod
-    def line(cls, home: Configuration, step: Any, duration: float = 1.0, points: int = 1001) -> Self:
+    def line(cls, home: Configuration, step: Any, duration: float = 1.0, points: int = 1001, unit: str = "") -> Self:
         """Return a straight line from `home` by `step` (x, y, z), from rest to rest (polynomial of degree five)."""
-        require_single("home", home)
-        t = times(duration, points)
-        return cls(t, home.position + line_positions(t / t[-1], vector("step", step)), home.rotation)
+        along, t, u = np.array(vector("step", step)), *_times(duration, points)
+        return cls._from(home, unit, t, _rest_to_rest(u)[:, None] * along)
 
     @classmethod
     def spiral(
-        cls, home: Configuration, radius: float, height: float, duration: float = 1.0, points: int = 1001
+        cls,
+        home: Configuration,
+        radius: float,
+        height: float,
+        duration: float = 1.0,
+        points: int = 1001,
+        unit: str = "",
     ) -> Self:
         """Return three turns from `home` outwards to `radius` and up by `height`, from rest to rest."""
+        r, h, (t, u) = finite("radius", radius), finite("height", height), _times(duration, points)
+        v = _rest_to_rest(u)
+        return cls._from(
+            home, unit, t, (r * v)[:, None] * _turning(2.0 * math.pi * TURNS * v) + np.outer(v, [0.0, 0.0, h])
+        )
+
+    @classmethod
+    def _from(cls, home: Configuration, unit: str, time: Floats, shift: Floats) -> Self:
         require_single("home", home)
-        t = times(duration, points)
-        r, h = finite("radius", radius), finite("height", height)
-        return cls(t, home.position + spiral_positions(t / t[-1], r, h), home.rotation)
+        return cls(time, home.position + shift, home.rotation, unit)
 
     def __len__(self) -> int:
         """Return the number of poses."""
@@ -137,6 +162,26 @@ class Trajectory:
         """Show the number of poses and the times."""
         ends = f"{self.time[0]:g} to {self.time[-1]:g}"
         return f"<Trajectory of {len(self)} poses, {ends}{', closed' if self.closed else ''}>"
+
+
+def _times(duration: Any, points: Any) -> tuple[Floats, Floats]:
+    """Return evenly spaced times from 0 to the duration, and the same from 0 to 1."""
+    length = finite("duration", duration)
+    if not SHORTEST < length <= LONGEST:
+        expected = f"expected a number above {SHORTEST:g} and at most {LONGEST:g}"
+        raise ValueError(f"duration: got {shown(duration)}, {expected}")
+    t = np.linspace(0.0, length, whole("points", points, FEWEST, MOST_POINTS))
+    return t, t / t[-1]
+
+
+def _turning(angle: Floats) -> Floats:
+    """Return horizontal unit vectors, shape (n, 3)."""
+    return np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=1)
+
+
+def _rest_to_rest(u: Floats) -> Floats:
+    """Return the polynomial of degree five from 0 to 1 whose speed and acceleration are zero at both ends."""
+    return np.asarray(u**3 * (10.0 + u * (6.0 * u - 15.0)))
 
 
 def trajectory_argument(value: Any) -> Trajectory:

@@ -33,7 +33,6 @@ def pareto(
     against: str,
     values: Sequence[float] | None = None,
     points: int = 13,
-    starts: int | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     out: str | os.PathLike[str] | None = None,
@@ -60,8 +59,6 @@ def pareto(
         the largest limit found to be infeasible.
     points : int
         Number of limits with a design, if `values` is None; 13 by default.
-    starts : int, optional
-        Starts for each limit, in place of the study's.
     threads : int, optional
         One per processor by default. The result does not depend on it.
     progress : callable, optional
@@ -97,7 +94,7 @@ def pareto(
     plain, degrees = without_degrees(against)
     if study.length_note:
         warnings.warn(study.length_note, stacklevel=2)
-    posed, limit = resolve(replace(study.with_solver(starts)), plain)
+    posed, limit = resolve(replace(study), plain)  # a copy has no note of its own
     chosen = None if values is None else _values(values, limit, degrees)
     begin, interrupted, limits = perf_counter(), False, chosen
     question = {"study": posed.to_dict(), "against": limit, "values": chosen, "points": points}

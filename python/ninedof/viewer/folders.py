@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -250,7 +251,7 @@ def files_of(viewer: Any, kind: str) -> dict[str, bytes]:
             raise ValueError("no path is open")
         g, c, length, unit = design
         limits = variant.leg_low, variant.leg_high
-        return {"legs.csv": legs_csv(follow(g, player.trajectory, c, rule, limits, length, unit=unit))}
+        return {"legs.csv": legs_csv(follow(g, replace(player.trajectory, unit=unit), c, rule, limits, length))}
     with TemporaryDirectory() as folder:
         if kind == DESIGN:
             save_design(design, Path(folder) / "design.toml")

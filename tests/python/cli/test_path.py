@@ -55,7 +55,7 @@ def test_a_circle_of_the_published_design(capsys, tmp_path):
     assert header == [*expected, *(f"{leg}_force" for leg in legs)]
     home = nd.Configuration(**{name: np.array(values) for name, values in record["question"]["home"].items()})
     geometry = nd.Geometry(**record["question"]["geometry"])
-    found = nd.follow(geometry, nd.Trajectory.circle(home, 0.5, 2.0, 101), home, force=[0.0, 0.0, -9.0])
+    found = nd.follow(geometry, nd.Trajectory.circle(home, 0.5, 2.0, 101), home, load=([0.0, 0.0, -9.0], None))
     table = np.array(rows, dtype=float)
     columns = [found.time[:, None], found.leg_lengths, found.leg_rates, found.leg_accelerations, found.leg_forces]
     assert (table == np.concatenate(columns, axis=1)).all()

@@ -58,8 +58,8 @@ def test_no_cell_of_a_table_is_a_formula(tmp_path):
     path = nd.export(DESIGN, "csv", tmp_path / "=1+1.csv")
     tables = [path.read_text(), nd.sheet(DESIGN).to_csv()]
     home = DESIGN.configuration
-    circle = nd.Trajectory.circle(home, radius=5.0, duration=1.0, points=5)
-    followed = nd.follow(DESIGN.geometry, circle, home, unit="mm")
+    circle = nd.Trajectory.circle(home, radius=5.0, duration=1.0, points=5, unit="mm")
+    followed = nd.follow(DESIGN.geometry, circle, home)
     write_motion(followed, tmp_path, question={"design": "=1+1"})
     tables += [(tmp_path / name).read_text() for name in ("legs.csv", "poses.csv")]
     seen = 0
@@ -74,7 +74,7 @@ def test_no_cell_of_a_table_is_a_formula(tmp_path):
         with pytest.raises(ValueError, match="unit: got"):
             nd.export(nd.Design(DESIGN.geometry, home, 1.0, unit), "csv", path)
         with pytest.raises(ValueError, match="unit: got"):
-            nd.follow(DESIGN.geometry, circle, home, unit=unit)
+            nd.Trajectory.circle(home, radius=5.0, unit=unit)
 
 
 BOMB = "<!DOCTYPE x [<!ENTITY a 'aaaaaaaaaa'>" + "".join(

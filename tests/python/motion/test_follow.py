@@ -121,7 +121,7 @@ def test_a_singularity_on_the_way_is_reported(published):
 
 def test_forces_balance_the_load(published):
     line = nd.Trajectory.line(HOME, (0.3, 0.1, 0.2), points=21)
-    found = nd.follow(published, line, HOME, force=[1.0, 2.0, -9.0], moment=[0.1, 0.2, 0.3])
+    found = nd.follow(published, line, HOME, load=([1.0, 2.0, -9.0], [0.1, 0.2, 0.3]))
     power = np.sum(found.leg_forces * found.leg_rates, axis=1) + found.velocity[:, 3:6] @ [1.0, 2.0, -9.0]
     assert np.abs(power).max() < 1e-10
     assert nd.follow(published, line, HOME).leg_forces is None

@@ -109,7 +109,7 @@ def test_a_limit_at_price_0_is_not_reached():
 
 
 def test_impossible_limits_are_rows_too():
-    found = pareto(nd.Study(), "leg_ratio", values=[0.5, 0.9, 2.0], starts=size(16, 64))
+    found = pareto(nd.Study(starts=size(16, 64)), "leg_ratio", values=[0.5, 0.9, 2.0])
     assert [row["status"] for row in found.table()] == ["infeasible", "infeasible", "optimal"]
     assert math.isnan(found.objectives[0])
     assert found.prices[0] is None
@@ -139,7 +139,7 @@ def test_a_limit_at_the_neutral_pose_is_swept_beside_that_at_the_poses():
     assert limited(study, "leg_ratio at neutral", None).constraints["leg_ratio"] == (None, 3.0)
     assert limited(study, "leg_ratio", None).constraints["leg_ratio"] == {"max": 2.5, "at": "neutral"}
     assert limited(MOVING, "leg_ratio at neutral", 2.0) == high
-    found = pareto(study, "leg_ratio at neutral", values=[1.9, 2.1], starts=4)
+    found = pareto(replace(study, starts=4), "leg_ratio at neutral", values=[1.9, 2.1])
     assert is_monotone(found)
     assert found.table()[0]["active"].count("leg_ratio at neutral") == 1
     assert all(price > 0.0 for price in found.prices)
@@ -188,13 +188,11 @@ def test_a_front_of_two_indices_spans_both_optima():
 
 
 def test_steep_parts_get_more_points():
-    points = size(9, 13)
-    found = pareto(PAPER, "radius_ratio", points=points, starts=size(16, 64))
+    points, study = size(9, 13), replace(PAPER, starts=size(16, 64))
+    found = pareto(study, "radius_ratio", points=points)
     values = objectives(found)
     steps = [before - after for before, after in pairwise(values)]
-    evenly = pareto(
-        PAPER, "radius_ratio", values=_geometric(found.limits[0], found.limits[-1], points), starts=size(16, 64)
-    )
+    evenly = pareto(study, "radius_ratio", values=_geometric(found.limits[0], found.limits[-1], points))
     coarse = objectives(evenly)
     assert max(steps) < max(before - after for before, after in pairwise(coarse))
 
@@ -204,7 +202,7 @@ def _geometric(low, high, count):
 
 
 def test_an_infeasible_study_has_one_row():
-    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio", starts=size(16, 64))
+    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}, starts=size(16, 64)), "radius_ratio")
     assert [row["status"] for row in found.table()] == ["infeasible"]
     assert found.limits == (math.inf,)
 
@@ -216,7 +214,8 @@ def test_without_a_scale_limits_must_be_given():
     ):
         pareto(boundless, "radius_ratio")
     limited_itself = replace(boundless, constraints={"radius_ratio": (None, 1.0)})
-    assert is_monotone(pareto(limited_itself, "radius_ratio", points=size(3, 5), starts=size(8, 64)))
+    limited_itself = replace(limited_itself, starts=size(8, 64))
+    assert is_monotone(pareto(limited_itself, "radius_ratio", points=size(3, 5)))
 
 
 # --- Monotone, whatever the solver does -------------------------------------------------------------------------------
@@ -325,7 +324,7 @@ def test_ctrl_c(monkeypatch):
 )
 def test_an_interrupted_front_continues_in_its_folder(tmp_path, monkeypatch, solved, values):
     """The same front as in one go, and nothing is solved twice."""
-    options = {"against": "radius_ratio", "values": values, "points": 3, "starts": 8}
+    options = {"study": replace(PAPER, starts=8), "against": "radius_ratio", "values": values, "points": 3}
     calls = []
 
     def counted(study, **given):
@@ -337,17 +336,17 @@ def test_an_interrupted_front_continues_in_its_folder(tmp_path, monkeypatch, sol
             raise KeyboardInterrupt
 
     monkeypatch.setattr(sweeping, "optimize", counted)
-    whole = pareto(PAPER, **options)
+    whole = pareto(**options)
     needed = len(calls)
     calls.clear()
-    assert pareto(PAPER, **options, out=tmp_path / "kept", progress=stop).interrupted
+    assert pareto(**options, out=tmp_path / "kept", progress=stop).interrupted
     assert len(calls) == solved
-    again = pareto(PAPER, **options, out=tmp_path / "kept")
+    again = pareto(**options, out=tmp_path / "kept")
     assert len(calls) == needed
     assert not again.interrupted
     assert again.table() == whole.table()
     assert [dict(r.to_dict(), seconds=0) for r in again] == [dict(r.to_dict(), seconds=0) for r in whole]
-    assert pareto(PAPER, **options, out=tmp_path / "kept").table() == whole.table()
+    assert pareto(**options, out=tmp_path / "kept").table() == whole.table()
     assert len(calls) == needed
     with pytest.raises(ValueError, match=r"^out: .* another question"):
         pareto(PAPER, "leg_ratio", values=[2.0], out=tmp_path / "kept")
@@ -388,7 +387,6 @@ def test_same_front_for_any_number_of_threads():
         ({"values": [2.0, math.nan]}, r"^values\[1\]: got nan, expected a finite number"),
         ({"values": 2.0}, r"^values: got 2.0, expected a sequence of limits"),
         ({"points": 1}, r"^points: got 1, expected a whole number from 2"),
-        ({"starts": 0}, r"^starts: got 0, expected a whole number"),
         ({"threads": -1}, r"^threads: got -1, expected"),
         ({"progress": 1}, r"^progress: got 1, expected a callable"),
     ],

@@ -31,7 +31,7 @@ def workspace(unit):
 
 
 def motion(unit):
-    return plot.motion(nd.follow(G, nd.Trajectory.circle(HOME, radius=20.0, points=9), HOME, unit=unit))
+    return plot.motion(nd.follow(G, nd.Trajectory.circle(HOME, radius=20.0, points=9, unit=unit), HOME))
 
 
 CURVES = plot.DesignCurves(

@@ -149,13 +149,12 @@ row("optimize", huge=("starts",), few=25, loose=("out",))(
 row("trace", words={"start": OF_ROBOT}, nan=("start",))(
     lambda: {"study": it.study(), "start": dict(DESIGN), "formulation": "minimax"}
 )
-row("pareto", huge=("starts", "points"), few=12, words={"values": ("against",)})(
+row("pareto", huge=("points",), few=12, words={"values": ("against",)})(
     lambda: {
         "study": it.study(),
         "against": "radius_ratio",
         "values": [1.8, 2.0],
         "points": 3,
-        "starts": 1,
         "threads": 1,
         "progress": None,
         "out": None,
@@ -250,9 +249,14 @@ row("best_internal_map", few=15, nan=NO_POINT, loose=("limits",))(
 # --- over poses -------------------------------------------------------------------------------------------------------
 
 row("Trajectory", words={"time": ("leading",)})(
-    lambda: {"time": np.arange(4.0), "position": np.outer(np.arange(4.0), [0.25, 0.0, 0.5]), "rotation": np.eye(3)}
+    lambda: {
+        "time": np.arange(4.0),
+        "position": np.outer(np.arange(4.0), [0.25, 0.0, 0.5]),
+        "rotation": np.eye(3),
+        "unit": "mm",
+    }
 )
-SHAPE = {"duration": 1.0, "points": 9}
+SHAPE = {"duration": 1.0, "points": 9, "unit": "mm"}
 row("Trajectory.circle", nd.Trajectory.circle, words={"radius": ("position",)})(
     lambda: {"home": it.c(), "radius": 0.1, **SHAPE}
 )
@@ -263,7 +267,10 @@ row("Trajectory.spiral", nd.Trajectory.spiral, words={name: ("position",) for na
     lambda: {"home": it.c(), "radius": 0.1, "height": 0.1, **SHAPE}
 )
 row(
-    "follow", few=30, loose=("limits",), words={"internal_point": ("leg_lengths",), "characteristic_length": ("kind",)}
+    "follow",
+    few=30,
+    loose=("limits", "load"),
+    words={"internal_point": ("leg_lengths",), "characteristic_length": ("kind",), "load": ("force", "moment")},
 )(
     lambda: {
         "geometry": it.g(),
@@ -272,9 +279,7 @@ row(
         "internal_point": "carried",
         "limits": (np.full(9, 0.5), np.full(9, 9.0)),
         "characteristic_length": 1.0,
-        "force": [0.0, 0.0, -1.0],
-        "moment": [0.0, 0.0, 0.5],
-        "unit": "mm",
+        "load": ([0.0, 0.0, -1.0], [0.0, 0.0, 0.5]),
     }
 )
 row("Followed.to_dict", lambda: it.followed().to_dict())(dict)

@@ -69,7 +69,7 @@ def proof():
 
 @functools.cache
 def front():
-    return nd.pareto(study(), "radius_ratio", [1.8, 2.0], starts=1)
+    return nd.pareto(study().with_solver(1), "radius_ratio", [1.8, 2.0])
 
 
 @functools.cache

@@ -102,25 +102,25 @@ def path(options: PathOptions) -> None:
     g, home, study = chosen.geometry, chosen.configuration, chosen.study
     trajectory = _trajectory(chosen, options)
     limits: Any = chosen.leg_limits() if options.legs is None else options.legs
-    how = {"internal_point": _rule(options.internal_point, study), "limits": limits}
-    load: dict[str, Any] = {"force": options.force, "moment": options.moment}
+    how: dict[str, Any] = {"internal_point": _rule(options.internal_point, study), "limits": limits}
     weight = Weight.checked(options.mass, options.centre, options.gravity)
     question = {
         "geometry": triples(g),
         "home": arrays_of(home),
         **unit_entry(chosen.unit),
         **how,
-        **load,
+        "force": options.force,
+        "moment": options.moment,
         **({} if weight is None else {"weight": weight._asdict()}),
     }
     if options.file:
         question["file"] = str(options.file)
     else:
         question |= options.shapes | {"duration": trajectory.time[-1], "points": len(trajectory)}
-    load |= _with_weight(load, weight, trajectory)
+    load = _with_weight(options.force, options.moment, weight, trajectory)
     with run_folder(options.out) as directory, Store(directory, {"kind": "motion", **question}):
         length = chosen.characteristic_length
-        result = follow(g, trajectory, home, **how, **load, characteristic_length=length, unit=chosen.unit)
+        result = follow(g, trajectory, home, **how, characteristic_length=length, load=load)
     of_study = path_limits(study, result, home) if study else None
     motion = plain(result, of_study)
     parts: list[Any] = [legs_table(motion), *([limits_table(motion)] if motion.get("limits") else [])]
@@ -149,17 +149,20 @@ def _trajectory(chosen: Chosen, options: PathOptions) -> Trajectory:
             raise ValueError(f"--{name}: got {value}, expected none with a file: it has its own times")
         return Trajectory.load(options.file, home, chosen.unit)
     ((name, value),) = shapes.items()
-    made: Trajectory = getattr(Trajectory, name)(home, *(value if name == "spiral" else (value,)), **times)
+    made: Trajectory = getattr(Trajectory, name)(
+        home, *(value if name == "spiral" else (value,)), **times, unit=chosen.unit
+    )
     return made
 
 
-def _with_weight(load: dict[str, Any], weight: Weight | None, trajectory: Trajectory) -> dict[str, Any]:
-    """Return force and moment at each pose with the weight of the platform, nothing without one."""
+def _with_weight(
+    force: Three | None, moment: Three | None, weight: Weight | None, trajectory: Trajectory
+) -> tuple[Any, Any]:
+    """Return force and moment at each pose, with the weight of the platform where it is known."""
     if weight is None:
-        return {}
+        return force, moment
     own = weight.wrench(trajectory.rotation)
-    force, moment = (np.zeros(3) if load[name] is None else np.asarray(load[name]) for name in ("force", "moment"))
-    return {"moment": own[:, :3] + moment, "force": own[:, 3:] + force}
+    return own[:, 3:] + np.array(force or np.zeros(3)), own[:, :3] + np.array(moment or np.zeros(3))
 
 
 def _rule(text: str | None, study: Study | None) -> str | float:
