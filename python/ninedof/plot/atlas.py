@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from ninedof.plot import style
-from ninedof.plot.arguments import number, swept
-from ninedof.support.arguments import pair
 
 if TYPE_CHECKING:
     from ninedof.sweep import SweepResult
@@ -20,7 +18,7 @@ SHARE = 1e-3  # of all designs: sizes of the base with fewer designs are left ou
 TOP = 300.0  # condition numbers shown
 
 
-def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Figure:
+def atlas(result: SweepResult, optimum: tuple[float, float] | None = None, figure: Figure | None = None) -> Figure:
     """Return a figure of an atlas: designs over radius ratio and condition number, and the best of each bin.
 
     Parameters
@@ -29,6 +27,8 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
         The result of `ninedof.atlas`.
     optimum : tuple of float, optional
         Radius ratio and condition number of a known optimum, which is marked. Without it none is.
+    figure : matplotlib.figure.Figure or SubFigure, optional
+        To draw in; a new one by default.
 
     Examples
     --------
@@ -36,9 +36,6 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
     >>> figure = plot.atlas(nd.atlas(10**6), optimum=(2.0, 3.762659))  # doctest: +SKIP
 
     """
-    swept(result, ("radius_ratio", "condition_number", "histogram", "best"), "ninedof.atlas")
-    if optimum is not None:
-        optimum = tuple(number("optimum", x, positive=True) for x in pair("optimum", optimum, "two numbers"))  # type: ignore[assignment]
     ratio, kappa = result["radius_ratio"], result["condition_number"]
     counts = result["histogram"]
     total = int(counts.sum())
@@ -46,8 +43,7 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
     used = np.flatnonzero(counts[1:-1].sum(axis=1) >= SHARE * total / len(ratio))
     first, last = (int(used[0]), int(used[-1]) + 1) if used.size else (0, len(inner))
     x, y = ratio[1:][first : last + 1], kappa
-    with style.settings():
-        figure = style.new_figure(style.TWO_COLUMNS, 3.3)
+    with style.page(figure, style.TWO_COLUMNS, 3.3) as figure:
         left = figure.add_axes((0.075, 0.14, 0.49, 0.77))
         right = figure.add_axes((0.735, 0.14, 0.25, 0.77))
         shown = np.ma.masked_equal(inner[first:last], 0)
@@ -67,9 +63,8 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
         left.set(xlabel="radius ratio, base / platform", ylabel="condition number")
         left.set_title(f"{total:,} designs")
         if optimum is not None:
-            left.plot(
-                *optimum, "*", ms=9, color=style.ALARM, mec="white", mew=0.7, zorder=6, label="optimum up to ratio 2"
-            )
+            star: dict[str, Any] = {"ms": 9, "color": style.ALARM, "mec": "white", "mew": 0.7, "zorder": 6}
+            left.plot(*optimum, "*", **star, label="optimum up to ratio 2")
         left.legend(loc="upper right", frameon=True, framealpha=0.9, edgecolor="none")
         share = counts.sum(axis=0) / total * 100.0
         right.stairs(share[:-1], kappa, color=style.SERIES[0], fill=True, alpha=0.75)

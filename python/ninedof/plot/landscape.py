@@ -12,8 +12,6 @@ from matplotlib.patches import ConnectionPatch, Rectangle
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
-from ninedof.plot.arguments import number, numbers, things
-from ninedof.support.arguments import items, text
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,23 +38,8 @@ class DesignCurves:
     least: tuple[float, float] | None = None
     """The minimum between the crossings: zs and condition number."""
 
-    def __post_init__(self) -> None:
-        """Check the fields."""
-        text("name", self.name)
-        for place, curve in (("zs", "along_zs"), ("theta_z", "along_theta_z")):
-            at = numbers(place, getattr(self, place), None)
-            numbers(curve, getattr(self, curve), len(at), gaps=True)
-        numbers("point", self.point, 3, gaps=True)
-        for name in ("slope", "level"):
-            if getattr(self, name) is not None:
-                number(name, getattr(self, name))
-        if items("crossings", self.crossings, "a list of heights"):
-            numbers("crossings", self.crossings, None)
-        if self.least is not None:
-            numbers("least", self.least, 2)
 
-
-def condition_curves(designs: Sequence[DesignCurves], unit: str = "") -> Figure:
+def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Figure | None = None) -> Figure:
     """Return a figure of the condition number along zs and along theta_z.
 
     A magnified view shows the crossings of the first design that has a level and crossings: at full scale two crossings
@@ -68,6 +51,8 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "") -> Figure:
         One to four, in this order of colours.
     unit : str
         Of the lengths.
+    figure : matplotlib.figure.Figure or SubFigure, optional
+        To draw in; a new one by default.
 
     Examples
     --------
@@ -78,12 +63,10 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "") -> Figure:
     >>> figure = plot.condition_curves([design], unit="m")
 
     """
-    things("designs", designs, DesignCurves, len(style.SERIES))
-    text("unit", unit)
+    style.counted("designs", designs, len(style.SERIES))
     pairs = list(zip(style.SERIES, designs, strict=False))
     compared = next(((colour, d) for colour, d in pairs if d.level is not None and d.crossings), None)
-    with style.settings():
-        figure = style.new_figure(style.TWO_COLUMNS, 4.3)
+    with style.page(figure, style.TWO_COLUMNS, 4.3) as figure:
         bottom, height = (0.475, 0.45) if compared else (0.185, 0.74)
         left = figure.add_axes((0.085, bottom, 0.415, height))
         right = figure.add_axes((0.575, 0.185, 0.405, 0.74))

@@ -11,9 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullLocator
 
 from ninedof.plot import style
-from ninedof.plot.arguments import swept as checked_sweep
 from ninedof.support.angles import plain_name
-from ninedof.support.arguments import shown, text
+from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 
@@ -28,7 +27,7 @@ SMOOTH = 8  # values each way from which a map without gaps is drawn as bands be
 LEGS = ("external legs", "upper internal legs", "lower internal legs")
 
 
-def sweep(result: SweepResult, name: str = "") -> Figure:
+def sweep(result: SweepResult, name: str = "", figure: Figure | None = None) -> Figure:
     """Return a figure of one index of a sweep.
 
     One coordinate gives a curve for each component of the index. Two give a map for each component, with the first
@@ -39,6 +38,8 @@ def sweep(result: SweepResult, name: str = "") -> Figure:
     result : SweepResult
     name : str
         Of the index; the first by default.
+    figure : matplotlib.figure.Figure or SubFigure, optional
+        To draw in, with a constrained layout for maps; a new one by default.
 
     Examples
     --------
@@ -49,53 +50,52 @@ def sweep(result: SweepResult, name: str = "") -> Figure:
     >>> figure = plot.sweep(nd.sweep(g, home, {"x_p": (-1.0, 1.0, 41), "y_p": (-1.0, 1.0, 41)}))
 
     """
-    checked_sweep(result, (), "ninedof.sweep")
-    name = text("name", name) or next(iter(result))
+    name = name or next(iter(result))
     if name not in result.arrays:
         raise ValueError(f"name: got {shown(name)}, expected one of {', '.join(result)}")
     dims, values = result.dims[name], result.arrays[name]
     labels = result.coords[dims[-1]] if values.shape and result.coords[dims[-1]].dtype.kind == "U" else None
     swept = dims if labels is None else dims[:-1]
-    with style.settings():
-        if len(swept) == 1:
-            return _curves(result, name, swept[0], np.atleast_2d(np.asarray(values).T), labels)
-        if len(swept) == 2:
-            slices = values[None] if labels is None else np.moveaxis(values, -1, 0)[:MOST_CURVES]
-            return _maps(result, name, swept, slices, [_words(name)] if labels is None else [str(x) for x in labels])
-        if labels is not None:
-            values, name = values[..., 0], f"{name}, {labels[0]}"
-        picks = np.unique(np.linspace(0, len(values) - 1, min(PANELS, len(values))).round().astype(int))
-        first, unit = _values(result, swept[0])
-        titles = [f"{plain_name(swept[0])} = {amount(style.signed(first[k]), unit)}" for k in picks]
-        return _maps(result, name, swept[1:], values[picks], titles)
+    if len(swept) == 1:
+        return _curves(result, name, swept[0], np.atleast_2d(np.asarray(values).T), labels, figure)
+    if len(swept) == 2:
+        slices = values[None] if labels is None else np.moveaxis(values, -1, 0)[:MOST_CURVES]
+        titles = [_words(name)] if labels is None else [str(x) for x in labels]
+        return _maps(result, name, swept, slices, titles, figure)
+    if labels is not None:
+        values, name = values[..., 0], f"{name}, {labels[0]}"
+    picks = np.unique(np.linspace(0, len(values) - 1, min(PANELS, len(values))).round().astype(int))
+    first, unit = _values(result, swept[0])
+    titles = [f"{plain_name(swept[0])} = {amount(style.signed(first[k]), unit)}" for k in picks]
+    return _maps(result, name, swept[1:], values[picks], titles, figure)
 
 
-def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any) -> Figure:
+def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any, figure: Figure | None) -> Figure:
     names = [] if labels is None else [str(label) for label in labels[:MOST_CURVES]]
     of_legs = len(names) == 9 and [label[0] for label in names] == list("lllqqqrrr")
-    if of_legs:
-        figure = style.new_figure(style.TWO_COLUMNS, 2.3)
-        panels = figure.subplots(1, 3)
-        figure.subplots_adjust(left=0.085, right=0.985, bottom=0.19, top=0.83, wspace=0.36)
-    else:
-        figure = style.new_figure(style.ONE_COLUMN, 2.5)
-        panels = [figure.add_axes((0.155, 0.16, 0.8, 0.74 if len(names) > 1 else 0.8))]
-    x, _ = _values(result, dim)
-    for k, row in enumerate(rows[:MOST_CURVES]):
-        axes = panels[k // 3 if of_legs else 0]
-        colour = style.LEG_COLOURS[names[k][0]] if of_legs else style.SERIES[k % len(style.SERIES)]
-        dashes = style.DASHES[k % 3 if of_legs else (k + k // len(style.SERIES)) % len(style.DASHES)]
-        axes.plot(x, style.without_infinite(row), ls=dashes, color=colour, label=names[k] if names else None)
-    for k, axes in enumerate(panels):
-        axes.set(xlabel=_axis(result, dim))
-        axes.margins(x=0.0)
-        axes.set_ylabel(style.with_unit(_words(name), _unit(result, name)))
+    size = (style.TWO_COLUMNS, 2.3) if of_legs else (style.ONE_COLUMN, 2.5)
+    with style.page(figure, *size) as figure:
         if of_legs:
-            axes.set_title(LEGS[k], size=style.TEXT_SIZE, pad=16.0)
-        if names:
-            axes.legend(loc="lower left", ncols=4, bbox_to_anchor=(0.0, 0.99), borderaxespad=0.0, handlelength=2.4)
-    if name.startswith("condition_number"):
-        _crop(panels[0], rows)
+            place: dict[str, float] = {"left": 0.085, "right": 0.985, "bottom": 0.19, "top": 0.83}
+            panels: Any = figure.add_gridspec(1, 3, wspace=0.36, **place).subplots()
+        else:
+            panels = [figure.add_axes((0.155, 0.16, 0.8, 0.74 if len(names) > 1 else 0.8))]
+        x, _ = _values(result, dim)
+        for k, row in enumerate(rows[:MOST_CURVES]):
+            axes = panels[k // 3 if of_legs else 0]
+            colour = style.LEG_COLOURS[names[k][0]] if of_legs else style.SERIES[k % len(style.SERIES)]
+            dashes = style.DASHES[k % 3 if of_legs else (k + k // len(style.SERIES)) % len(style.DASHES)]
+            axes.plot(x, style.without_infinite(row), ls=dashes, color=colour, label=names[k] if names else None)
+        for k, axes in enumerate(panels):
+            axes.set(xlabel=_axis(result, dim))
+            axes.margins(x=0.0)
+            axes.set_ylabel(style.with_unit(_words(name), _unit(result, name)))
+            if of_legs:
+                axes.set_title(LEGS[k], size=style.TEXT_SIZE, pad=16.0)
+            if names:
+                axes.legend(loc="lower left", ncols=4, bbox_to_anchor=(0.0, 0.99), borderaxespad=0.0, handlelength=2.4)
+        if name.startswith("condition_number"):
+            _crop(panels[0], rows)
     return figure
 
 
@@ -110,49 +110,56 @@ def _crop(axes: Any, rows: Floats) -> None:
         axes.set_title(f"cut off; {most}", size=style.SMALL_SIZE, weight="normal", loc="right")
 
 
-def _maps(result: SweepResult, name: str, dims: tuple[str, ...], slices: Floats, titles: Sequence[str]) -> Figure:
+def _maps(
+    result: SweepResult,
+    name: str,
+    dims: tuple[str, ...],
+    slices: Floats,
+    titles: Sequence[str],
+    figure: Figure | None,
+) -> Figure:
     """Draw maps over two coordinates with a common colour scale."""
     columns = min(3, len(slices))
     rows = -(-len(slices) // 3)
     single = columns == 1
     size = (style.ONE_COLUMN, 2.8) if single else (style.TWO_COLUMNS, 0.5 + 2.0 * rows)
-    figure = style.new_figure(*size, layout="constrained")
-    grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     coarser = [-(-n // FINEST) for n in slices.shape[1:]]
     slices = slices[:, :: coarser[0], :: coarser[1]]
     levels, beyond = _bands(slices.ravel(), name)
     norm = BoundaryNorm(levels, 256, extend="max" if beyond else "neither")
     colours = style.CONDITION if name.startswith("condition_number") else MAP
     x, y = (_values(result, d)[0][::step] for d, step in zip(dims, coarser, strict=True))
-    drawn = None
-    for axes, title, part in zip(grid.flat, titles, slices, strict=False):
-        values = np.ma.masked_invalid(part.T)
-        if min(part.shape) >= SMOOTH and np.isfinite(part).all():
-            seen = np.clip(values, levels[0], None if beyond else levels[-1])
-            extend = "max" if beyond else "neither"
-            drawn = axes.contourf(x, y, seen, levels, norm=norm, cmap=colours, extend=extend)
-        else:
-            drawn = axes.pcolormesh(x, y, values, norm=norm, cmap=colours, shading="nearest", rasterized=True)
-        axes.set_facecolor(style.GRID)
-        axes.grid(False)
-        axes.set_title(title, size=style.TEXT_SIZE if columns > 1 else None)
-        if min(part.shape) > 1 and len(levels) > 2:
-            _contours(axes, x, y, values, levels)
-    for axes in list(grid.flat)[len(slices) :]:
-        axes.set_axis_off()
-    for axes in grid[-1, :]:
-        axes.set_xlabel(_axis(result, dims[0]))
-    for axes in grid[:, 0]:
-        axes.set_ylabel(_axis(result, dims[1]))
-    if drawn is not None:
-        bar = figure.colorbar(drawn, ax=list(grid.flat), pad=0.02, aspect=30, ticks=levels)
-        bar.ax.yaxis.set_major_formatter("{x:g}")
-        bar.ax.yaxis.set_minor_locator(NullLocator())
-        bar.outline.set_linewidth(0.5)
-        words = style.with_unit(_words(name), _unit(result, name))
-        finite = slices[np.isfinite(slices)]
-        words += f", {finite.max():.4g} at most" if beyond and np.isfinite(slices).all() else ""
-        bar.set_label(words + ("; grey: infinite or none" if not np.isfinite(slices).all() else ""))
+    with style.page(figure, *size, layout="constrained") as figure:
+        grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+        drawn = None
+        for axes, title, part in zip(grid.flat, titles, slices, strict=False):
+            values = np.ma.masked_invalid(part.T)
+            if min(part.shape) >= SMOOTH and np.isfinite(part).all():
+                seen = np.clip(values, levels[0], None if beyond else levels[-1])
+                extend = "max" if beyond else "neither"
+                drawn = axes.contourf(x, y, seen, levels, norm=norm, cmap=colours, extend=extend)
+            else:
+                drawn = axes.pcolormesh(x, y, values, norm=norm, cmap=colours, shading="nearest", rasterized=True)
+            axes.set_facecolor(style.GRID)
+            axes.grid(False)
+            axes.set_title(title, size=style.TEXT_SIZE if columns > 1 else None)
+            if min(part.shape) > 1 and len(levels) > 2:
+                _contours(axes, x, y, values, levels)
+        for axes in list(grid.flat)[len(slices) :]:
+            axes.set_axis_off()
+        for axes in grid[-1, :]:
+            axes.set_xlabel(_axis(result, dims[0]))
+        for axes in grid[:, 0]:
+            axes.set_ylabel(_axis(result, dims[1]))
+        if drawn is not None:
+            bar = figure.colorbar(drawn, ax=list(grid.flat), pad=0.02, aspect=30, ticks=levels)
+            bar.ax.yaxis.set_major_formatter("{x:g}")
+            bar.ax.yaxis.set_minor_locator(NullLocator())
+            bar.outline.set_linewidth(0.5)
+            words = style.with_unit(_words(name), _unit(result, name))
+            finite = slices[np.isfinite(slices)]
+            words += f", {finite.max():.4g} at most" if beyond and np.isfinite(slices).all() else ""
+            bar.set_label(words + ("; grey: infinite or none" if not np.isfinite(slices).all() else ""))
     return figure
 
 

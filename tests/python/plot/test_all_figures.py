@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from figure_table import EDGES, FIGURES, HOME, QUICK, G, followed, found, front, made, row
+from figure_table import EDGES, FIGURES, HOME, QUICK, G, curves, followed, found, front, made, row
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.text import Text
 from sizes import size
@@ -50,11 +50,7 @@ def test_texts_that_intersect_are_found():
 
 # --- Where they are drawn ---------------------------------------------------------------------------------------------
 
-FUNCTIONS = [
-    getattr(plot, name)
-    for name in plot.__all__
-    if name[0].islower() and name not in ("save", "atlas", "condition_curves", "sweep")
-]
+FUNCTIONS = [getattr(plot, name) for name in plot.__all__ if name[0].islower() and name != "save"]
 FUNCTIONS += [getattr(paper, name) for name in paper.__all__ if name != "draw"]
 
 
@@ -75,6 +71,8 @@ ON_AXES = {
 IN_FIGURES = {
     "mechanisms": lambda figure: plot.mechanisms([plot.Robot("a", G, HOME)], figure=figure),
     "front": lambda figure: plot.front(front([row(2.0, "optimal", 3.7, 0.1)]), figure=figure),
+    "condition_curves": lambda figure: plot.condition_curves([curves()], figure=figure),
+    "sweep": lambda figure: plot.sweep(nd.sweep(G, HOME, {"x_p": (-1.0, 1.0, 5)}, "leg_lengths"), figure=figure),
     "motion": lambda figure: plot.motion(followed(), figure=figure),
     "convergence": lambda figure: plot.convergence([[3.0]], [[3.0]], 3.0, figure=figure),
     "ellipsoids": lambda figure: plot.ellipsoids({"a": (np.eye(3), np.ones(3))}, figure=figure),
