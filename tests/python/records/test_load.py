@@ -28,7 +28,7 @@ def same(a, b):
 
 
 def runs(published):
-    weight = {"force": [0.0, 0.0, -9.81]}
+    weight = ([0.0, 0.0, -9.81], None)
     line = nd.Trajectory.line(HOME, [0.3, 0.0, 0.1], 2.0, 41)
     return {
         "optimum": lambda: nd.optimize(STUDY),
@@ -38,7 +38,7 @@ def runs(published):
         ),
         "sweep": lambda: nd.sweep(published, HOME, {"x_p": (-1.0, 1.0, 3)}, ["condition_number", "leg_lengths"]),
         "atlas": lambda: nd.atlas(1000),
-        "path": lambda: nd.follow(published, line, HOME, limits=(0.0, 5.0), **weight),
+        "path": lambda: nd.follow(published, line, HOME, limits=(0.0, 5.0), load=weight),
         "path without a load, O best": lambda: nd.follow(published, line, HOME, "best"),
         "design": lambda: nd.Design(published, HOME, "optimal"),
         "design of a number": lambda: nd.Design(published, HOME, 0.1 + 0.2),
