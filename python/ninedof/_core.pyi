@@ -462,7 +462,54 @@ def place_in_region(design: PlacedDesign, region: Region, at: _Floats, threads: 
 def fit_rule(
     machine: PosedRobot, design: PlacedDesign, threads: int, phase: Callable[[str], object], /
 ) -> PointRule: ...
-def optimize(problem: Problem, settings: Settings, progress: _Progress | None, /) -> dict[str, Any]: ...
+
+class Candidate:
+    variables: _Floats
+    objective: float
+    condition_number: float
+    conditions: tuple[float, ...]
+    characteristic_length: float
+    active: tuple[str, ...]
+    prices: dict[str, float]
+    optimality_residual: float
+    constraint_violation: float
+    reached: int
+
+class Result:
+    status: str
+    reason: str
+    causes: tuple[str, ...]
+    candidates: list[Candidate]
+    evaluations: int
+    starts_done: int
+    runs_abandoned: int
+    runs_completed: int
+    interrupted: bool
+
+class RegionMean:
+    nodes: int
+    quadrature: float
+    value: float
+    error: float
+    standard_error: float
+
+class RegionReport:
+    poses: list[Pose]
+    rounds: int
+    looked_at: int
+    objective: float
+    objective_at: Pose
+    margin: float
+    limit: str
+    gain: float
+    mean: RegionMean | None
+    leg_ranges: LegLimits | None
+
+class Trace:
+    best: tuple[float, ...]
+    end: Candidate
+
+def optimize(problem: Problem, settings: Settings, progress: _Progress | None, /) -> Result: ...
 def optimize_region(
     problem: Problem,
     region: Region,
@@ -470,8 +517,8 @@ def optimize_region(
     progress: _Progress | None,
     phase: Callable[[str], object] | None,
     /,
-) -> dict[str, Any]: ...
-def trace(problem: Problem, start: Sequence[float], formulation: str, /) -> tuple[list[float], dict[str, Any]]: ...
+) -> tuple[Result, RegionReport]: ...
+def trace(problem: Problem, start: Sequence[float], formulation: str, /) -> Trace: ...
 
 class OptimumSettings:
     target: float

@@ -22,83 +22,54 @@ Formulation formulation_from(const std::string& word) {
   throw InvalidArgument("formulation", "\"" + word + "\"", "\"minimax\" or \"plain\"");
 }
 
-/// The fields of a Candidate under the names of the Python class, which adds the robot.
-py::dict fields_of(const Problem& problem, const Candidate& c) {
-  py::dict variables;
-  const std::vector<std::string> names = problem.names();
-  for (std::size_t k = 0; k < names.size(); ++k)
-    variables[py::str(names[k])] = c.variables[static_cast<Eigen::Index>(k)];
-  py::dict out;
-  out["objective"] = c.objective;
-  out["condition_number"] = c.condition_number;
-  out["conditions"] = c.conditions;
-  out["characteristic_length"] = c.characteristic_length;
-  out["variables"] = variables;
-  out["active"] = c.active;
-  out["prices"] = c.prices;
-  out["optimality_residual"] = c.optimality_residual;
-  out["constraint_violation"] = c.constraint_violation;
-  out["reached"] = c.reached;
-  return out;
+/// A getter of a list as a tuple.
+template <class T, class U>
+auto tuple_of(U T::* member) {
+  return [member](const T& from) { return py::tuple(py::cast(from.*member)); };
 }
 
-/// The fields of a Result, likewise.
-py::dict fields_of(const Problem& problem, const Result& r) {
-  py::list candidates;
-  for (const Candidate& c : r.candidates) candidates.append(fields_of(problem, c));
-  py::dict out;
-  out["status"] = to_string(r.status);
-  out["reason"] = r.reason;
-  out["causes"] = r.causes;
-  out["candidates"] = candidates;
-  out["evaluations"] = r.evaluations;
-  out["starts_done"] = r.starts_done;
-  out["runs_abandoned"] = r.runs_abandoned;
-  out["runs_completed"] = r.runs_completed;
-  out["interrupted"] = r.interrupted;
-  return out;
-}
-
-/// The fields of a Pose: shift of p, rotation vector, shift of s, whether s is best, whether in zp, weight.
-py::tuple fields_of(const Pose& pose) {
-  const auto three = [](const Vec3& v) { return py::make_tuple(v[0], v[1], v[2]); };
-  return py::make_tuple(three(pose.position), three(pose.rotation), three(pose.internal), pose.best_internal,
-                        pose.in_zp, pose.weight);
-}
-
-/// The fields of a RegionReport.
-py::dict fields_of(const RegionReport& r) {
-  py::list poses;
-  for (const Pose& pose : r.poses) poses.append(fields_of(pose));
-  py::dict out;
-  out["poses"] = poses;
-  out["rounds"] = r.rounds;
-  out["looked_at"] = r.looked_at;
-  out["objective"] = r.objective;
-  out["objective_at"] = fields_of(r.objective_at);
-  out["margin"] = r.margin;
-  out["limit"] = r.limit;
-  out["gain"] = r.gain;
-  py::list ranges;
-  for (Eigen::Index leg = 0; leg < 9 && r.leg_ranges; ++leg)
-    ranges.append(py::make_tuple(r.leg_ranges->low[leg], r.leg_ranges->high[leg]));
-  out["leg_ranges"] = py::tuple(ranges);
-  out["mean"] = py::none();
-  if (r.mean) {
-    py::dict mean;
-    mean["nodes"] = r.mean->nodes;
-    mean["quadrature"] = r.mean->quadrature;
-    mean["value"] = r.mean->value;
-    mean["error"] = r.mean->error;
-    mean["standard_error"] = r.mean->standard_error;
-    out["mean"] = mean;
-  }
-  return out;
-}
-
-Problem posed_problem(Problem problem, const std::vector<Pose>& poses) {
-  problem.objective.poses.insert(problem.objective.poses.end(), poses.begin(), poses.end());
-  return problem;
+void bind_results(py::module_& m) {
+  py::class_<Candidate>(m, "Candidate", "A local optimum and the results of its checks.")
+      .def_readonly("variables", &Candidate::variables, "A full set, in the order of the names of the problem.")
+      .def_readonly("objective", &Candidate::objective)
+      .def_readonly("condition_number", &Candidate::condition_number, "At the neutral pose.")
+      .def_property_readonly("conditions", tuple_of(&Candidate::conditions), "At each evaluated pose.")
+      .def_readonly("characteristic_length", &Candidate::characteristic_length)
+      .def_property_readonly("active", tuple_of(&Candidate::active), "Active bounds and constraints, by name.")
+      .def_readonly("prices", &Candidate::prices, "Per cent of the objective for one of what is active.")
+      .def_readonly("optimality_residual", &Candidate::optimality_residual)
+      .def_readonly("constraint_violation", &Candidate::constraint_violation, "Largest negative margin; 0 if none.")
+      .def_readonly("reached", &Candidate::reached, "Starts that ended at this objective, warm ones aside.");
+  py::class_<Result>(m, "Result", "Distinct local optima and how the search ended.")
+      .def_property_readonly("status", [](const Result& r) { return to_string(r.status); })
+      .def_readonly("reason", &Result::reason, "One sentence.")
+      .def_property_readonly("causes", tuple_of(&Result::causes), "Variables or limits behind the status.")
+      .def_readonly("candidates", &Result::candidates, "Best first.")
+      .def_readonly("evaluations", &Result::evaluations)
+      .def_readonly("starts_done", &Result::starts_done)
+      .def_readonly("runs_abandoned", &Result::runs_abandoned, "Given up after a short run.")
+      .def_readonly("runs_completed", &Result::runs_completed, "In the round that found the best design.")
+      .def_readonly("interrupted", &Result::interrupted);
+  py::class_<RegionMean>(m, "RegionMean", "The harmonic mean of an index over a region.")
+      .def_readonly("nodes", &RegionMean::nodes)
+      .def_readonly("quadrature", &RegionMean::quadrature)
+      .def_readonly("value", &RegionMean::value)
+      .def_readonly("error", &RegionMean::error)
+      .def_readonly("standard_error", &RegionMean::standard_error);
+  py::class_<RegionReport>(m, "RegionReport", "What is known of the best design over the region.")
+      .def_readonly("poses", &RegionReport::poses, "Where limits and index were imposed.")
+      .def_readonly("rounds", &RegionReport::rounds, "Designs that were searched over the region.")
+      .def_readonly("looked_at", &RegionReport::looked_at, "Poses of the last search.")
+      .def_readonly("objective", &RegionReport::objective, "The largest value of the index found.")
+      .def_readonly("objective_at", &RegionReport::objective_at)
+      .def_readonly("margin", &RegionReport::margin, "The least of a limit found, relative.")
+      .def_readonly("limit", &RegionReport::limit, "Its name; empty without limits.")
+      .def_readonly("gain", &RegionReport::gain, "By how much the objective could still fall near this design.")
+      .def_readonly("mean", &RegionReport::mean, "Where the objective is a mean.")
+      .def_readonly("leg_ranges", &RegionReport::leg_ranges, "Lengths that O, placed at every pose, keeps.");
+  py::class_<Trace>(m, "Trace", "One run from one start.")
+      .def_property_readonly("best", tuple_of(&Trace::best), "Least objective of a feasible design so far.")
+      .def_readonly("end", &Trace::end);
 }
 
 std::array<double, 6> numbers(const Vec6& at) {
@@ -232,6 +203,7 @@ void bind_optimize(py::module_& m) {
            py::kw_only(), py::arg("starts") = defaults.starts, py::arg("seed") = defaults.seed,
            py::arg("threads") = defaults.threads, py::arg("max_evaluations") = defaults.max_evaluations,
            py::arg("warm") = py::none(), py::arg("time_limit") = defaults.time_limit);
+  bind_results(m);
   m.def("region_pose", &region_pose);
   m.def("region_poses", &region_poses);
   m.def("search_region", &worst_of_region);
@@ -245,15 +217,14 @@ void bind_optimize(py::module_& m) {
       .def_readwrite("known", &PlacedDesign::known, "Places of O to begin at: shifts of s in zp.");
   m.def("place_in_region", &places_in_region);
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {
-    const Result result = interruptible(
+    return interruptible(
         progress, [&](const Control& control) { return optimize(problem, settings, control); },
         [](Result& r) { return r.interrupted = true; });
-    return fields_of(problem, result);
   });
   m.def("optimize_region", [](const Problem& problem, const Region& r, const Settings& settings,
                               const py::object& progress, const py::object& phase) {
     RegionStudySettings s{settings};
-    const RegionResult found = interruptible(
+    RegionResult out = interruptible(
         progress,
         [&](const WorkControl& control) {
           if (!phase.is_none())
@@ -261,17 +232,14 @@ void bind_optimize(py::module_& m) {
           return optimize_region(problem, r, s, control);
         },
         [](RegionResult& f) { return f.result.interrupted = true; });
-    py::dict out = fields_of(posed_problem(problem, found.region.poses), found.result);
-    out["region"] = fields_of(found.region);
-    return out;
+    return std::pair(std::move(out.result), std::move(out.region));
   });
   m.def("trace", [](const Problem& problem, const std::vector<double>& start, const std::string& formulation) {
     const Formulation f = formulation_from(formulation);
-    const Trace t = interruptible(py::none(), [&](const Control& control) {
+    return interruptible(py::none(), [&](const Control& control) {
       return trace(problem, Eigen::VectorXd::Map(start.data(), static_cast<Eigen::Index>(start.size())), f, {},
                    control.stop);
     });
-    return py::make_tuple(t.best, fields_of(problem, t.end));
   });
 }
 

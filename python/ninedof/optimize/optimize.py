@@ -16,7 +16,7 @@ from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import RegionReport
-from ninedof.optimize.result import Candidate, Result, Status, candidate_from, result_from
+from ninedof.optimize.result import Candidate, Result, Status, candidate_of
 from ninedof.optimize.warm import Warm, listed, warm_starts
 from ninedof.proof.optimum import GAPS, OptimumProof, left_out_of, prove_optimum
 from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
@@ -24,6 +24,7 @@ from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, phase, progress_argument
 from ninedof.support.short import short_repr
 from ninedof.support.store import Store
+from ninedof.support.structs import from_core
 
 LONGEST = 600.0  # seconds of a proof
 
@@ -136,15 +137,27 @@ def _anew(
     how: dict[str, Any] = {"seed": study.seed, "threads": threads, "time_limit": time_limit}
     settings = _core.Settings(starts=study.starts, warm=warm_starts(study, warm), **how)
     begin, region = perf_counter(), study.objective.region
+    report, solved = None, study
     if region is None:
-        found = _core.optimize(study.problem(), settings, progress)
+        end = _core.optimize(study.problem(), settings, progress)
     else:
-        say = partial(phase, progress)
-        found = _core.optimize_region(study.problem(True), region.for_core(), settings, progress, say)
-        found["region"] = RegionReport.from_core(found["region"]) if found["candidates"] else None
-    if found["status"] == Status.INFEASIBLE and study.unit:
-        found["reason"] += f" (lengths in {study.unit})"
-    return result_from(study, found | {"seconds": perf_counter() - begin})
+        words = partial(phase, progress)
+        end, over = _core.optimize_region(study.problem(True), region.for_core(), settings, progress, words)
+        if end.candidates:
+            report = RegionReport.from_core(over)
+            solved = report.posed(study)
+    unit = f" (lengths in {study.unit})" if end.status == Status.INFEASIBLE and study.unit else ""
+    problem = solved.problem()
+    return from_core(
+        Result,
+        end,
+        status=Status(end.status),
+        reason=end.reason + unit,
+        candidates=tuple(candidate_of(problem, one) for one in end.candidates),
+        seconds=perf_counter() - begin,
+        study=study,
+        region=report,
+    )
 
 
 def _proved(result: Result, threads: int, progress: Progress | None, pieces: Pieces) -> Result:
@@ -203,8 +216,8 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
     instance("study", study, Study)
     choice("formulation", formulation, ("minimax", "plain"))
     problem = study.problem()
-    best, end = _core.trace(problem, _start(study, start), formulation)
-    return Trace(tuple(best), candidate_from(problem, end))
+    run = _core.trace(problem, _start(study, start), formulation)
+    return Trace(run.best, candidate_of(problem, run.end))
 
 
 def _start(study: Study, start: Mapping[str, float]) -> list[float]:

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ninedof import _core
 from ninedof.design.pose import Pose
 from ninedof.design.study import Study
 from ninedof.support.arguments import Vector, items, table
 from ninedof.support.fields import entries_of
 from ninedof.support.short import short_repr
+from ninedof.support.structs import from_core
 
 DENSE = 100_000  # poses of a dense search
 PASSED = 1e-7  # by which a limit or the index may be passed between the poses, relative
@@ -121,11 +123,17 @@ class RegionReport:
         }
 
     @classmethod
-    def from_core(cls, data: Mapping[str, Any]) -> RegionReport:
-        """Return the report of a mapping as the core makes it."""
-        mean = None if data["mean"] is None else RegionMean(**data["mean"])
-        poses = tuple(_posed(pose) for pose in data["poses"])
-        return cls(**{**data, "poses": poses, "objective_at": _posed(data["objective_at"]), "mean": mean})
+    def from_core(cls, report: _core.RegionReport) -> RegionReport:
+        """Return the report of the core."""
+        legs, mean = report.leg_ranges, report.mean
+        return from_core(
+            cls,
+            report,
+            poses=tuple(map(_posed, report.poses)),
+            objective_at=_posed(report.objective_at),
+            mean=None if mean is None else from_core(RegionMean, mean),
+            leg_ranges=() if legs is None else tuple(zip(legs.low.tolist(), legs.high.tolist(), strict=True)),
+        )
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> RegionReport:
@@ -136,9 +144,13 @@ class RegionReport:
         return cls(**found, poses=poses, objective_at=_pose("region.objective_at", data.get("objective_at")))
 
 
-def _posed(pose: tuple[Vector, Vector, Vector, bool, bool, float]) -> Pose:
-    position, rotation, internal, best, in_zp, weight = pose
-    return Pose(position, rotation, "best" if best else internal, "zp" if in_zp else "length", weight)
+def _posed(pose: _core.Pose) -> Pose:
+    def three(v: Iterable[float]) -> Vector:
+        x, y, z = map(float, v)
+        return x, y, z
+
+    point = "best" if pose.best_internal else three(pose.internal)
+    return Pose(three(pose.position), three(pose.rotation), point, "zp" if pose.in_zp else "length", pose.weight)
 
 
 def _pose(where: str, data: Any) -> Pose:

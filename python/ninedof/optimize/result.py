@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
 from functools import cached_property
@@ -31,6 +31,7 @@ from ninedof.support.fields import entries_of
 from ninedof.support.fixed import Fixed
 from ninedof.support.progress import progress_argument
 from ninedof.support.short import short_repr
+from ninedof.support.structs import from_core
 from ninedof.tables.html import notebook
 
 if TYPE_CHECKING:
@@ -315,28 +316,31 @@ class Result:
 
 
 def candidate_from(problem: _core.Problem, data: Mapping[str, Any], where: str = "candidate") -> Candidate:
-    """Return the candidate of a mapping as the core or `Candidate.to_dict` makes it, with its robot and poses."""
+    """Return the candidate of a mapping as `Candidate.to_dict` makes it, with its robot and poses."""
     known = entries_of(Candidate, data, where, skipped=ROBOT)
     values = known["variables"]
     missing = [name for name in problem.names if name not in values]
     if missing:
         raise ValueError(f"{where}.variables: got none of the name {missing[0]}, expected all of the study")
     x = [finite(f"{where}.variables.{name}", values[name]) for name in problem.names]
+    return Candidate(**known, **_robot(problem, x))
+
+
+def candidate_of(problem: _core.Problem, end: _core.Candidate) -> Candidate:
+    """Return the candidate of the core with its robot and poses."""
+    x = end.variables.tolist()
+    return from_core(Candidate, end, variables=dict(zip(problem.names, x, strict=True)), **_robot(problem, x))
+
+
+def _robot(problem: _core.Problem, x: Sequence[float]) -> dict[str, Any]:
     configurations = Configuration(*problem.configurations(x))
-    return Candidate(
-        **known,
-        geometry=problem.geometry(x),
-        configuration=configurations[0],
-        configurations=configurations,
-    )
+    return dict(zip(ROBOT, (problem.geometry(x), configurations[0], configurations), strict=True))
 
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:
-    """Return the result of a mapping as the core (with `seconds` and a RegionReport) or `Result.to_dict` makes it."""
+    """Return the result of a mapping as `Result.to_dict` makes it."""
     known = entries_of(Result, data, skipped=["status", "candidates", "study", "region", "proof"])
-    region = data.get("region")
-    if region is not None and not isinstance(region, RegionReport):
-        region = RegionReport.from_dict(region)
+    region = None if data.get("region") is None else RegionReport.from_dict(data["region"])
     problem = (study if region is None else region.posed(study)).problem()
     listed = items("candidates", data.get("candidates"), "a list of candidates")
     return Result(
