@@ -61,6 +61,8 @@ class Store:
             self._lock = _locked(file)
             there = read_json(file, FORMAT)
             self.folder.mkdir(exist_ok=True)
+            for part in self.folder.glob(f"{PART}*"):  # of a run that was killed
+                part.unlink(missing_ok=True)
         except OSError as error:
             expected = f"which cannot be used ({error.strerror}), expected a writeable place"
             raise ValueError(f"out: got {self._run}, {expected}") from None

@@ -16,13 +16,14 @@ from ninedof.support.files import Arrays
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
 from ninedof.support.versions import versions
-from ninedof.sweep.chunks import FINISHED, Folder, chunk_argument, chunks_of, run
+from ninedof.sweep.chunks import MOST_CHUNK, chunk_argument, computed, opened
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.sample import BOUNDS, Sample, closed_form, squared_radius_ratio
 from ninedof.sweep.tally import Tally, condition_edges, ratio_edges
 
-CHUNK = 2**19  # designs: some 30 ms of work; signals are checked between chunks
-BLOCK = 2**14  # designs evaluated together: they fit into the caches
+CHUNK = 2**19  # designs: some 30 ms of work
+PIECES = 256  # chunks of large surveys: a folder has 85 kB for each
+BLOCK = 2**14  # designs evaluated together: they fit into the caches; signals are checked between blocks
 MOST = 2**40  # designs: years of work
 
 
@@ -84,8 +85,12 @@ def atlas(
 
     """
     sample = Sample(whole("seed", seed, 0), _bounds(bounds))
-    work = AtlasWork(sample, whole("designs", designs, 1, MOST), chunk_argument(chunk, CHUNK))
-    total = run(work, executor, out, progress).tally
+    count = whole("designs", designs, 1, MOST)
+    work = AtlasWork(sample, count, chunk_argument(chunk, min(max(CHUNK, count // PIECES), MOST_CHUNK)))
+    total = Tally()
+    with opened(work, out) as (work, store):
+        for _, arrays in computed(work, store, executor, progress):
+            total = total.plus(Tally(**arrays))
     counted = int(total.histogram.sum())
     if counted != work.points:
         raise RuntimeError(f"got {counted} designs, expected {work.points}")
@@ -110,45 +115,11 @@ class AtlasWork:
         for begin in range(first, last, BLOCK):
             designs = self.sample.designs(begin, min(begin + BLOCK, last))
             tally.add(begin, squared_radius_ratio(designs), closed_form(designs))
-        return tally.arrays()
+        return tally.arrays() | {"histogram": tally.histogram.astype(np.uint32)}  # on the disk by half
 
     def question(self) -> dict[str, Any]:
         """Return what the tally depends on."""
         return {"kind": "atlas", **self.sample.question(), "designs": self.points}
-
-    def begin(self, folder: Folder | None) -> Total:
-        """Return the total that a folder has."""
-        return Total(self, folder)
-
-
-class Total:
-    """The tally of the chunks so far. An interruption finds it with all of a chunk, or with nothing of it."""
-
-    def __init__(self, work: AtlasWork, folder: Folder | None) -> None:
-        """Begin with that of the folder."""
-        self._chunk = work.chunk
-        none: Arrays = {FINISHED: np.zeros(chunks_of(work), np.bool_), **Tally().arrays()}
-        self._arrays = folder.saved if folder is not None and folder.saved else none
-
-    @property
-    def finished(self) -> Any:
-        """Return whether each chunk is in it."""
-        return self._arrays[FINISHED]
-
-    @property
-    def tally(self) -> Tally:
-        """Return it as a tally."""
-        return Tally(*(self._arrays[name] for name in Tally().arrays()))
-
-    def add(self, first: int, arrays: Arrays) -> None:
-        """Take the tally of the chunk that begins with design `first`."""
-        finished = self.finished.copy()
-        finished[first // self._chunk] = True
-        self._arrays = {FINISHED: finished, **self.tally.plus(Tally(**arrays)).arrays()}
-
-    def noted(self) -> Arrays:
-        """Return what the folder notes."""
-        return self._arrays
 
 
 def _labelled(work: AtlasWork, total: Tally) -> SweepResult:

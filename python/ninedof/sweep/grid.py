@@ -4,27 +4,28 @@ from __future__ import annotations
 
 import math
 import os
-import zlib
+import shutil
 from collections.abc import Mapping
 from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ninedof.design.index_argument import identity
 from ninedof.design.indices import Index
 from ninedof.support.angles import DEG
 from ninedof.support.arrays import Floats
-from ninedof.support.blocks import forget
-from ninedof.support.files import Arrays
+from ninedof.support.files import Arrays, naming
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
+from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
 from ninedof.support.versions import versions
 from ninedof.sweep.axis import Grid
-from ninedof.sweep.chunks import FINISHED, Folder, chunks_of, run
+from ninedof.sweep.chunks import computed, opened
 from ninedof.sweep.result import SweepResult
 
 
@@ -63,13 +64,24 @@ class GridWork:
 
     def question(self) -> dict[str, Any]:
         """Return what the values depend on."""
-        return {**self._asked(), "index": [identity(i) for i in self.indices]}
+        return {**self._arguments(), "index": [identity(i) for i in self.indices]}
 
-    def begin(self, folder: Folder | None) -> Values:
-        """Return the values that a folder has, the others to be computed."""
-        return Values(self, folder)
+    def _targets(self, store: Store | None) -> dict[str, Target]:
+        """Return an array for each index, in memory or in files of the folder."""
+        shapes = {i.name: (*self.grid.shape, *i.tail) for i in self.indices}
+        points = " x ".join(map(str, self.grid.shape))
+        size = 2 * 8 * sum(map(math.prod, shapes.values()))  # the finished chunks, and the arrays
+        folder = None if store is None else store.folder
+        if store is not None and not store.kept() and size > (free := _free(store.folder)):
+            room = f"their values take {size / 1e9:.4g} GB, and {free / 1e9:.3g} GB are free on the disk of out"
+            raise ValueError(f"over: got {points} points, expected fewer: {room}")
+        try:
+            return {name: Target(name, shape, folder) for name, shape in shapes.items()}
+        except MemoryError:
+            expected = "what fits into memory, or out for a folder"
+            raise ValueError(f"over: got {points} points, expected {expected}") from None
 
-    def _asked(self) -> dict[str, Any]:
+    def _arguments(self) -> dict[str, Any]:
         return {**self.subject.question(), "over": [axis.question() for axis in self.grid.axes]}
 
     def result(
@@ -81,7 +93,17 @@ class GridWork:
         progress: Progress | None = None,
     ) -> SweepResult:
         """Compute everything and return it with its labels; `unit` is the name of the length unit."""
-        arrays = run(self, executor, out, progress).arrays
+        with opened(self, out) as (work, store):
+            targets = work._targets(store)
+            try:
+                for chunk, values in computed(work, store, executor, progress):
+                    for name, target in targets.items():
+                        target.put(chunk.first, values[name])
+            except BaseException:
+                for target in targets.values():
+                    target.discard()
+                raise
+        arrays = {name: target.array() for name, target in targets.items()}
         swept = tuple(axis.name for axis in self.grid.axes)
         labelled = {name: "deg" if name.endswith(DEG) else units[name] for name in swept}
         labelled |= {i.name: i.unit for i in self.indices}
@@ -92,60 +114,56 @@ class GridWork:
             coords={axis.name: axis.values() for axis in self.grid.axes} | labels,
             units={name: (unit or "length") if of == "length" else of for name, of in labelled.items()},
             attributes=plain(
-                {**unit_entry(unit), **self._asked(), "index": [i.name for i in self.indices], **versions()}
+                {**unit_entry(unit), **self._arguments(), "index": [i.name for i in self.indices], **versions()}
             ),
         )
 
 
-class Values:
-    """The values of all indices, in memory or in files of a folder: one that is damaged there is computed again."""
+class Target:
+    """An array that chunks fill: in memory, or in a file that takes none."""
 
-    def __init__(self, work: GridWork, folder: Folder | None) -> None:
-        """Begin with those of the folder."""
-        self._chunk, self._folder, self._axes = work.chunk, folder, len(work.grid.shape)
-        shapes = {i.name: (*work.grid.shape, *i.tail) for i in work.indices}
-        points = " x ".join(map(str, work.grid.shape))
-        size = 8 * sum(map(math.prod, shapes.values()))
-        if folder is not None and not folder.saved and size > (free := folder.free()):
-            room = f"their values take {size / 1e9:.3g} GB, and {free / 1e9:.3g} GB are free on the disk of out"
-            raise ValueError(f"over: got {points} points, expected fewer: {room}")
-        make = (lambda _, shape: np.empty(shape)) if folder is None else folder.array
-        try:
-            self.arrays: dict[str, Floats] = {name: make(name, shape) for name, shape in shapes.items()}
-        except MemoryError:
-            expected = "what fits into memory, or out for a folder"
-            raise ValueError(f"over: got {points} points, expected {expected}") from None
-        self.finished: NDArray[np.uint64] = np.zeros(chunks_of(work), np.uint64)
-        """The checksum of each chunk."""
-        noted = self.finished if folder is None else folder.saved.get(FINISHED, self.finished)
-        for k in np.flatnonzero(noted):
-            if _checksum(self._rows(int(k))) == noted[k]:
-                self.finished[k] = noted[k]
+    def __init__(self, name: str, shape: tuple[int, ...], folder: Path | None) -> None:
+        """Make it, without values."""
+        self._path = None if folder is None else folder / f"{name}.npy"
+        if self._path is None:
+            self._array = np.empty(shape)
+            return
+        self._path.unlink(missing_ok=True)
+        self._offset = np.lib.format.open_memmap(self._path, "w+", np.float64, shape).offset
+        self._file = self._path.open("r+b")
 
-    def add(self, first: int, arrays: Arrays) -> None:
-        """Take the values of the chunk that begins with point `first`."""
-        for name in self.arrays:
-            values = arrays[name] = np.ascontiguousarray(arrays[name], dtype=np.float64)
-            if self._folder is None:
-                self.arrays[name].reshape(-1, *values.shape[1:])[first : first + len(values)] = values
-            else:
-                self._folder.put(name, first, values)
-        self.finished[first // self._chunk] = _checksum(arrays)
+    def put(self, first: int, values: Floats) -> None:
+        """Take the values of points from `first` on."""
+        if self._path is None:
+            self._array.reshape(-1, *values.shape[1:])[first : first + len(values)] = values
+            return
+        try:  # a memory map would fill the memory, and a full disk end the process
+            self._file.seek(self._offset + first * (values.nbytes // len(values)))
+            self._file.write(np.ascontiguousarray(values).data)
+            self._file.flush()
+        except OSError as error:
+            raise naming(error, self._path) from None
 
-    def noted(self) -> Arrays:
-        """Return what the folder notes besides the values."""
-        return {FINISHED: self.finished}
+    def array(self) -> Floats:
+        """Return the array; one in a file is read as it is needed."""
+        if self._path is None:
+            return self._array
+        self._file.close()
+        mapped: Floats = np.load(self._path, mmap_mode="r")
+        return mapped
 
-    def _rows(self, k: int) -> Arrays:
-        """Return the values of chunk k."""
-        rows = slice(k * self._chunk, (k + 1) * self._chunk)
-        return {name: array.reshape(-1, *array.shape[self._axes :])[rows] for name, array in self.arrays.items()}
+    def discard(self) -> None:
+        """Remove the file of an array that is not full."""
+        if self._path is not None:
+            with suppress(OSError):
+                self._file.close()
+            self._path.unlink(missing_ok=True)
 
 
-def _checksum(arrays: Arrays) -> np.uint64:
-    """Return a checksum of values, never 0."""
-    sum_ = 0
-    for name in sorted(arrays):
-        sum_ = zlib.crc32(np.ascontiguousarray(arrays[name]).data, sum_)
-        forget(arrays[name])
-    return np.uint64(sum_ | 1 << 32)
+def _free(folder: Path) -> float:
+    """Return the bytes that are free on a disk; infinity where it does not say."""
+    with suppress(OSError):
+        disk = shutil.disk_usage(folder)
+        if disk.total:
+            return disk.free
+    return math.inf

@@ -57,17 +57,18 @@ class Poses:
 
     def configurations(self, values: dict[str, Floats], count: int, threads: int | None = None) -> Configuration:
         """Return n configurations for n values of each swept coordinate."""
-        p, s = (self._column(names, values, own, count) for names, own in self._points())
-        turn = self._column(ROTATION, values, np.zeros(3), count)
-        turned = any(name in values for name in ROTATION)
-        start = self.home.rotation if self.relative or not turned else np.eye(3)
-        q = np.broadcast_to(start, (count, 3, 3))
-        if turned:
-            tangent = np.concatenate([turn, np.zeros((count, 6))], axis=1)
-            q = Configuration._of(np.zeros((count, 3)), q, np.zeros((count, 3))).moved(tangent).rotation
-        if self.rule == "carried":
-            s = s + self._carried(p, q)
-        return Configuration._of(p, q, s if self.rule != "best" else self._best(p, q, threads))
+        tangent = np.zeros((count, len(COORDINATES)))
+        for name, column in values.items():
+            tangent[:, COORDINATES.index(name)] = column
+        p, q, s = self.home.position, self.home.rotation, self.home.internal_point
+        if not self.relative:  # what is swept begins at zero
+            p, s = (np.where([name in values for name in names], 0.0, x) for names, x in ((POSITION, p), (INTERNAL, s)))
+            q = np.eye(3) if any(name in values for name in ROTATION) else q
+        c = Configuration._of(p, q, s if self.rule != "carried" else np.zeros(3)).moved(tangent)
+        if self.rule == "held":
+            return c
+        p, q = c.position, c.rotation
+        return Configuration._of(p, q, self._carried(c) if self.rule == "carried" else self._best(p, q, threads))
 
     def _best(self, p: Floats, q: Floats, threads: int | None) -> Floats:
         assert not isinstance(self.length, str), "checked by sweep"
@@ -81,24 +82,12 @@ class Poses:
             s[part] = found.configuration.internal_point.reshape(-1, 3)
         return s
 
-    def _points(self) -> tuple[tuple[tuple[str, ...], Floats], ...]:
-        own = self.home.internal_point if self.rule != "carried" else np.zeros(3)
-        return (POSITION, self.home.position), (INTERNAL, own)
-
-    def _column(self, names: tuple[str, ...], values: dict[str, Floats], own: Floats, count: int) -> Floats:
-        out = np.empty((count, 3))
-        for k, name in enumerate(names):
-            if name in values:
-                out[:, k] = own[k] + values[name] if self.relative else values[name]
-            else:
-                out[:, k] = own[k]
-        return out
-
-    def _carried(self, p: Floats, q: Floats) -> Floats:
-        """Return the positions of O when it is fixed to the platform."""
+    def _carried(self, c: Configuration) -> Floats:
+        """Return the positions of O when it is fixed to the platform, and displaced from there."""
         x, y, z = self.home.rotation.T @ (self.home.internal_point - self.home.position)
+        p, q = c.position, c.rotation
         # Not by matrix multiplication: BLAS may round differently in a chunk of another size.
-        return np.asarray(p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z))
+        return np.asarray(c.internal_point + (p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z)))
 
 
 def best_block(shape: tuple[int, ...]) -> tuple[int, ...]:
