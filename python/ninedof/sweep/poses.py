@@ -57,14 +57,18 @@ class Poses:
 
     def configurations(self, values: dict[str, Floats], count: int, threads: int | None = None) -> Configuration:
         """Return n configurations for n values of each swept coordinate."""
-        tangent = np.zeros((count, len(COORDINATES)))
-        for name, column in values.items():
-            tangent[:, COORDINATES.index(name)] = column
         p, q, s = self.home.position, self.home.rotation, self.home.internal_point
+        turned = any(name in values for name in ROTATION)
         if not self.relative:  # what is swept begins at zero
             p, s = (np.where([name in values for name in names], 0.0, x) for names, x in ((POSITION, p), (INTERNAL, s)))
-            q = np.eye(3) if any(name in values for name in ROTATION) else q
-        c = Configuration._of(p, q, s if self.rule != "carried" else np.zeros(3)).moved(tangent)
+            q = np.eye(3) if turned else q
+        s = np.zeros(3) if self.rule == "carried" else s
+        p, s = (_shifted(names, x, values, count) for names, x in ((POSITION, p), (INTERNAL, s)))
+        c = Configuration._of(p, np.broadcast_to(q, (count, 3, 3)), s)
+        if turned:
+            tangent = np.zeros((count, len(COORDINATES)))
+            tangent[:, :3] = _shifted(ROTATION, np.zeros(3), values, count)
+            c = c.moved(tangent)
         if self.rule == "held":
             return c
         p, q = c.position, c.rotation
@@ -88,6 +92,14 @@ class Poses:
         p, q = c.position, c.rotation
         # Not by matrix multiplication: BLAS may round differently in a chunk of another size.
         return np.asarray(c.internal_point + (p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z)))
+
+
+def _shifted(names: tuple[str, ...], start: Floats, values: dict[str, Floats], count: int) -> Floats:
+    """Return n triples: the start, with the values of each coordinate that is swept added."""
+    out = np.empty((count, 3))
+    for k, name in enumerate(names):
+        out[:, k] = start[k] + values.get(name, 0.0)
+    return out
 
 
 def best_block(shape: tuple[int, ...]) -> tuple[int, ...]:
