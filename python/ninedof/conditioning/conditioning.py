@@ -34,7 +34,7 @@ def singular_values(
         Shape (...).
     characteristic_length : float, array_like of shape (...), or str
         Length l_c > 0, or a kind as in `characteristic_length`; 1 by default; a Result and a Design have their own,
-        `found.characteristic_length`.
+        `result.characteristic_length`.
     threads : int, optional
         Number of threads; one per processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
@@ -68,7 +68,7 @@ def axis_singular_values(
         Shape (...); position and internal point on z, rotation about z.
     characteristic_length : float, array_like of shape (...), or str
         Length l_c > 0, or a kind as in `characteristic_length`; 1 by default; a Result and a Design have their own,
-        `found.characteristic_length`.
+        `result.characteristic_length`.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def condition_number(
         Shape (...).
     characteristic_length : float, array_like of shape (...), or str
         Length l_c > 0, or a kind as in `characteristic_length`; 1 by default; a Result and a Design have their own,
-        `found.characteristic_length`.
+        `result.characteristic_length`.
     norm : {"2", "frobenius"}
         "2": sigma_max / sigma_min, eq. (2), 1 at best. "frobenius": |J'|_F |J'^+|_F, eq. (4) with the Frobenius norm
         and the pseudo-inverse, 6 at best.

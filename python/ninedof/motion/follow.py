@@ -1,23 +1,195 @@
-"""Inverse kinematics along a trajectory."""
+"""Inverse kinematics along a trajectory: rates, accelerations and limits of the legs."""
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
-from ninedof.motion.followed import Followed
-from ninedof.motion.trajectory import Trajectory, trajectory_argument
+from ninedof.motion.trajectory import Trajectory
 from ninedof.redundancy.rules import RULES
 from ninedof.redundancy.search_arguments import leg_limits
 from ninedof.robot.configuration import Configuration, operands_with, single
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.geometry import TRIPLES, Geometry, triples
+from ninedof.robot.idle import idle_names
+from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
-from ninedof.support.arguments import choice, finite, pair
+from ninedof.support.arguments import choice, finite, instance, pair
 from ninedof.support.arrays import Floats, as_number
+from ninedof.support.files import Arrays, Saved, from_json_array, json_array
+from ninedof.support.margins import TOLERANCE
+from ninedof.support.short import short_repr
+from ninedof.support.units import unit_entry
+
+DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
+
+
+@short_repr
+class LimitBreak(NamedTuple):
+    """A stretch of time in which a limit is not kept."""
+
+    limit: str
+    """"l1 low" or "q2 high": the leg is shorter or longer than its limit. "det B": a singularity is passed. Of a study
+    "base_cone l1 max"."""
+    begin: float
+    """Time, interpolated linearly between poses."""
+    end: float
+    worst: float
+    """The leg length or the value that is limited, 0 for a determinant that changes its sign."""
+    at: float
+    """The time of the worst."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Followed(Saved):
+    """A motion along a trajectory, legs in the order of `leg_lengths`."""
+
+    FORMAT = "ninedof-motion-1"
+
+    geometry: Geometry
+    trajectory: Trajectory
+    configurations: Configuration
+    """The poses with O, shape (n,)."""
+    internal_point: str | float
+    """The rule for O."""
+    leg_lengths: Floats
+    """Shape (n, 9)."""
+    leg_rates: Floats
+    """Length/time, shape (n, 9)."""
+    leg_accelerations: Floats
+    """Length/time^2, shape (n, 9)."""
+    velocity: Floats
+    """Angular velocity of the platform and velocities of p and O, base frame, shape (n, 9)."""
+    acceleration: Floats
+    """Their time derivatives, shape (n, 9)."""
+    characteristic_length: float
+    condition_number: Floats
+    """Shape (n,); infinite where singular."""
+    singularity_margins: SingularityMargins
+    """As `singularity_margins`, each of shape (n,)."""
+    limits: tuple[Floats, Floats]
+    """Least and greatest length of each leg, shapes (9,)."""
+    leg_forces: Floats | None
+    """For the given load, positive if the leg pushes, shape (n, 9); None without a load."""
+    tracked: bool
+    """Whether `track` returns every pose from its leg lengths, to 1e-9 and each step with its proof."""
+    tracked_until: float
+    """The time of the last pose before one that it does not reach or returns differently, as beyond a singularity."""
+    tracking_error: float
+    """Largest difference of a pose that `track` reached: of Q, and of p and O over the largest leg length."""
+    unit: str = ""
+    """Name of the length unit; "" without one."""
+
+    @property
+    def time(self) -> Floats:
+        """Shape (n,)."""
+        return self.trajectory.time  # type: ignore[no-any-return]
+
+    @property
+    def leg_margins(self) -> Floats:
+        """Distance of each leg from its nearer limit, in parts of it, shape (n, 9); infinite without limits."""
+        return _core.leg_margins(self.leg_lengths, *self.limits)
+
+    @cached_property
+    def breaks(self) -> tuple[LimitBreak, ...]:
+        """Stretches of time in which a leg passes its limit (by more than 1e-6 of it), and singularities passed."""
+        determinants = np.stack(self.singularity_margins)
+        entries = _core.limit_breaks(self.time, self.leg_lengths, *self.limits, determinants)
+        return tuple(LimitBreak(*entry) for entry in entries)
+
+    @property
+    def idle_legs(self) -> tuple[str, ...]:
+        """Legs whose length never changes."""
+        return idle_names(self.leg_lengths)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return a summary as plain values: extremes of each leg, the worst poses, limits that break, the check."""
+        worst = int(np.argmax(self.condition_number))
+        margins = np.abs(np.stack(self.singularity_margins))
+        near = np.unravel_index(int(np.argmin(margins)), margins.shape)
+        columns = {
+            "shortest": self.leg_lengths.min(axis=0),
+            "longest": self.leg_lengths.max(axis=0),
+            "speed": np.abs(self.leg_rates).max(axis=0),
+            "acceleration": np.abs(self.leg_accelerations).max(axis=0),
+            "low": self.limits[0],
+            "high": self.limits[1],
+            "margin": self.leg_margins.min(axis=0),
+        }
+        if self.leg_forces is not None:
+            columns["push"] = self.leg_forces.max(axis=0, initial=0.0)
+            columns["pull"] = (-self.leg_forces).max(axis=0, initial=0.0)
+        legs = {leg: {name: float(values[k]) for name, values in columns.items()} for k, leg in enumerate(LEGS)}
+        return {
+            **unit_entry(self.unit),
+            "poses": len(self.time),
+            "begin": float(self.time[0]),
+            "end": float(self.time[-1]),
+            "closed": self.trajectory.closed,
+            "internal_point": self.internal_point,
+            "legs": legs,
+            "idle_legs": list(self.idle_legs),
+            "characteristic_length": self.characteristic_length,
+            "condition_number": {
+                "first": float(self.condition_number[0]),
+                "last": float(self.condition_number[-1]),
+                "worst": float(self.condition_number[worst]),
+                "at": float(self.time[worst]),
+            },
+            "nearest_singularity": {
+                "determinant": list(DETERMINANTS.values())[near[0]],
+                "value": float(margins[near]),
+                "at": float(self.time[near[1]]),
+            },
+            "breaks": [entry._asdict() for entry in self.breaks],
+            "tracked": self.tracked,
+            "tracked_until": self.tracked_until,
+            "tracking_error": self.tracking_error,
+        }
+
+    def __repr__(self) -> str:
+        """Show the number of poses and what is not kept."""
+        limits = ", ".join(sorted({entry.limit for entry in self.breaks}))
+        return f"<Followed: {len(self.time)} poses, {'breaks ' + limits if limits else 'within limits'}>"
+
+    def _contents(self) -> dict[str, Any]:
+        path = self.trajectory
+        arrays = {**triples(self.geometry), "time": path.time, "position": path.position, "rotation": path.rotation}
+        arrays |= {name: np.stack(getattr(self, name)) for name in ("limits", "singularity_margins")}
+        arrays["o"] = self.configurations.internal_point
+        words = {}
+        for name in (field.name for field in fields(self) if field.name not in arrays):
+            value = getattr(self, name)
+            if isinstance(value, np.ndarray):
+                arrays[name] = value
+            elif not isinstance(value, Geometry | Trajectory | Configuration):
+                words[name] = value
+        return {"words": json_array({"format": self.FORMAT, **words}), **arrays}
+
+    @classmethod
+    def _made(cls, contents: Arrays) -> Followed:
+        data: dict[str, Any] = {**from_json_array(contents["words"]), **contents}
+        del data["words"]
+        if data.pop("format") != cls.FORMAT:
+            raise ValueError
+        geometry = Geometry(**{name: data.pop(name) for name in TRIPLES})
+        path = Trajectory(data.pop("time"), data.pop("position"), data.pop("rotation"), data["unit"])
+        poses = Configuration(path.position, path.rotation, data.pop("o"))
+        data["limits"] = tuple(data["limits"])
+        data["singularity_margins"] = SingularityMargins(*data["singularity_margins"])
+        return cls(geometry=geometry, trajectory=path, configurations=poses, **data)
+
+
+def stretches(
+    name: str, time: Floats, values: Floats, margin: Floats, tolerance: float = TOLERANCE
+) -> list[LimitBreak]:
+    """Return the stretches of a margin that is negative beyond the tolerance."""
+    return [LimitBreak(*entry) for entry in _core.stretches(name, time, values, margin, tolerance)]
 
 
 def follow(
@@ -53,7 +225,7 @@ def follow(
         by "best" only.
     characteristic_length : float or str
         Length l_c of the condition number, or a kind of `characteristic_length`, taken at home; 1 by
-        default; a Result and a Design have their own, `found.characteristic_length`.
+        default; a Result and a Design have their own, `result.characteristic_length`.
     load : (force, moment), optional
         On the platform at its origin, base axes, for the leg forces: each of shape (3,) or (n, 3), or None.
 
@@ -72,48 +244,44 @@ def follow(
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> home = nd.Configuration.neutral(3.9828, 2.4432)
     >>> circle = nd.Trajectory.circle(home, radius=0.5, duration=2.0, points=201)
-    >>> found = nd.follow(g, circle, home, limits=(2.0, 5.2))
-    >>> found
+    >>> motion = nd.follow(g, circle, home, limits=(2.0, 5.2))
+    >>> motion
     <Followed: 201 poses, breaks l1 high, l2 high, l3 high>
-    >>> found.leg_rates.shape, found.tracked, found.tracking_error < 1e-9
+    >>> motion.leg_rates.shape, motion.tracked, motion.tracking_error < 1e-9
     ((201, 9), True, True)
 
     """
-    trajectory_argument(trajectory)
+    instance("trajectory", trajectory, Trajectory)
     single(geometry, home, "home")
-    rule, bounds = rule_argument(internal_point), leg_limits(limits)
-    lc = characteristic_length
+    rule, lc = internal_point, characteristic_length
+    rule = choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
     lc = float(length_of(geometry, home, lc)) if isinstance(lc, str) else as_number("characteristic_length", lc)
     time, p, q = trajectory.time, trajectory.position, trajectory.rotation
-    loads = _loads(geometry, Configuration(p, q, p), *pair("load", load, "force and moment"))
-    found = _core.follow(geometry, home, time, p, q, rule, bounds, lc, loads)
-    tracked, margins, forces = found.pop("tracked"), found.pop("singularity_margins"), found.pop("leg_forces")
+    bounds, loads = leg_limits(limits), _loads(geometry, trajectory, *pair("load", load, "force and moment"))
+    motion = _core.follow(geometry, home, time, p, q, rule, bounds, lc, loads)
+    poses, margins, forces = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
     return Followed(
         geometry=geometry,
         trajectory=trajectory,
-        configurations=Configuration(p, q, found.pop("internal_point")),
+        configurations=Configuration(p, q, motion.pop("internal_point")),
         internal_point=rule,
         characteristic_length=lc,
         singularity_margins=SingularityMargins(*margins),
         limits=bounds,
         leg_forces=forces if len(loads) else None,
-        tracked=tracked == len(trajectory),
-        tracked_until=float(time[tracked - 1]),
+        tracked=poses == len(trajectory),
+        tracked_until=float(time[poses - 1]),
         unit=trajectory.unit,
-        **found,
+        **motion,
     )
 
 
-def rule_argument(rule: Any) -> str | float:
-    """Return a rule for O: one of RULES or a fraction."""
-    return choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
-
-
-def _loads(geometry: Geometry, poses: Configuration, force: Any, moment: Any) -> Floats:
+def _loads(geometry: Geometry, trajectory: Trajectory, force: Any, moment: Any) -> Floats:
     """Return moment and force at each pose, shape (n, 6); no rows without a load."""
     if force is None and moment is None:
         return np.empty((0, 6))
     moment, force = (np.zeros(3) if value is None else value for value in (moment, force))
+    poses = Configuration(trajectory.position, trajectory.rotation, trajectory.position)
     shape, _, load = operands_with(geometry, poses, moment=(moment, 3), force=(force, 3))
     if shape != poses.shape:
         raise ValueError(f"load: got stacks of shape {shape}, expected one load for each of {len(poses)} poses")

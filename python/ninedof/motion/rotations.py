@@ -27,8 +27,7 @@ def from_vectors(vectors: Floats) -> Floats:
 def from_euler(yaw: Floats, pitch: Floats, roll: Floats) -> Floats:
     """Return R_z(yaw) R_y(pitch) R_x(roll), angles in radians, shape (n,)."""
     z, y, x = (from_vectors(angle[:, None] * np.eye(3)[k]) for k, angle in ((2, yaw), (1, pitch), (0, roll)))
-    found: Floats = z @ y @ x
-    return found
+    return np.asarray(z @ y @ x)
 
 
 def to_quaternions(rotations: Floats) -> Floats:
@@ -44,11 +43,11 @@ def to_quaternions(rotations: Floats) -> Floats:
         rows[:, 0, k + 1] = rows[:, k + 1, 0] = r[:, j, i] - r[:, i, j]
         rows[:, i + 1, j + 1] = rows[:, j + 1, i + 1] = r[:, i, j] + r[:, j, i]
     largest = np.argmax(np.diagonal(rows, axis1=1, axis2=2), axis=1)
-    found: Floats = rows[np.arange(len(r)), largest]
-    found /= np.linalg.norm(found, axis=1, keepdims=True)
-    turned = np.cumsum(np.sum(found[1:] * found[:-1], axis=1) < 0.0) % 2 == 1
-    found[1:][turned] *= -1.0
-    return found
+    out: Floats = rows[np.arange(len(r)), largest]
+    out /= np.linalg.norm(out, axis=1, keepdims=True)
+    opposite = np.cumsum(np.sum(out[1:] * out[:-1], axis=1) < 0.0) % 2 == 1
+    out[1:][opposite] *= -1.0
+    return out
 
 
 def vectors_between(first: Floats, second: Floats) -> Floats:
@@ -59,5 +58,4 @@ def vectors_between(first: Floats, second: Floats) -> Floats:
     v = np.where(w < 0.0, -v, v)
     size = np.linalg.norm(v, axis=-1, keepdims=True)
     angle = 2.0 * np.arctan2(size, np.abs(w))
-    found: Floats = v * np.divide(angle, size, out=np.full_like(size, 2.0), where=size > 1e-150)
-    return found
+    return np.asarray(v * np.divide(angle, size, out=np.full_like(size, 2.0), where=size > 1e-150))

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.motion.followed import Followed
+from ninedof.motion.follow import Followed
 from ninedof.redundancy.rules import where_o
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.margins import margin_words
@@ -22,14 +22,12 @@ SHOWN = 12  # breaks of limits
 def legs_table(motion: Mapping[str, Any]) -> Table:
     """Return the table of the nine legs."""
     legs, unit = motion["legs"], motion.get("unit", "")
-    columns = {"shortest": Column("least", unit, RIGHT), "longest": Column("most", unit, RIGHT)}
+    columns = {"shortest": ("least", unit), "longest": ("most", unit)}
     if any(leg["low"] > 0.0 or math.isfinite(leg["high"]) for leg in legs.values()):
-        columns |= {"low": Column("low", unit, RIGHT), "high": Column("high", unit, RIGHT)}
-        columns["margin"] = Column("margin", "", RIGHT)
-    columns |= {"speed": Column("speed", per(unit, "s"), RIGHT)}
-    columns |= {"acceleration": Column("accel.", per(unit, "s²"), RIGHT)}
+        columns |= {"low": ("low", unit), "high": ("high", unit), "margin": ("margin", "")}
+    columns |= {"speed": ("speed", per(unit, "s")), "acceleration": ("accel.", per(unit, "s²"))}
     if all("push" in leg for leg in legs.values()):
-        columns |= {name: Column(name, "", RIGHT) for name in ("push", "pull")}
+        columns |= {name: (name, "") for name in ("push", "pull")}
     largest = {key: max((abs(leg[key]) for leg in legs.values()), default=0.0) for key in columns if key != "margin"}
     if "push" in columns:
         largest["push"] = largest["pull"] = max(largest["push"], largest["pull"])
@@ -40,24 +38,23 @@ def legs_table(motion: Mapping[str, Any]) -> Table:
         return "0" if math.isfinite(largest[key]) and abs(value) < 1e-12 * largest[key] else f"{value:.6g}"
 
     rows = [(name, *(text(key, leg[key]) for key in columns)) for name, leg in legs.items()]
-    return Table("Legs along the path", [Column("leg"), *columns.values()], list(grouped(rows)))
+    heads = [Column("leg"), *(Column(*head, RIGHT) for head in columns.values())]
+    return Table("Legs along the path", heads, list(grouped(rows)))
 
 
 def limits_table(motion: Mapping[str, Any]) -> Table:
     """Return the other limits of the study: where each has its least margin."""
     heads = [Column("limit"), Column(), *(Column(name, "", RIGHT) for name in ("allowed", "worst", "margin", "at t"))]
-    rows = [_limit_row(row, motion.get("unit", "")) for row in motion.get("limits", ())]
+    rows = []
+    for row in motion.get("limits", ()):
+        if "limit_deg" in row:
+            ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
+        else:
+            unit = motion.get("unit", "") if row["name"] in OF_LENGTHS else ""
+            ends = [amount(f"{row[key]:.6g}", unit) for key in ("limit", "value")]
+        margin = margin_words(row["margin"], "sign" if row["name"] == "singularity_free" else "")
+        rows.append((f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"))
     return Table("Limits of the study along the path", heads, rows)
-
-
-def _limit_row(row: Mapping[str, Any], unit: str) -> tuple[str, ...]:
-    if "limit_deg" in row:
-        ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
-    else:
-        of = unit if row["name"] in OF_LENGTHS else ""
-        ends = [amount(f"{row[key]:.6g}", of) for key in ("limit", "value")]
-    margin = margin_words(row["margin"], "sign" if row["name"] == "singularity_free" else "")
-    return f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"
 
 
 def motion_words(followed: Followed, motion: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
@@ -74,8 +71,8 @@ def motion_words(followed: Followed, motion: Mapping[str, Any]) -> Iterator[tupl
     speed, time = amount(f"{moving:.5g}", per(followed.unit, "s")), "second" if followed.unit else "unit of time"
     yield "", f"platform: speed at most {speed}, turning at most {math.degrees(turning):.5g} degrees per {time}"
     breaks = motion["breaks"]
-    for broken in breaks[:SHOWN]:
-        yield _break_words(broken, followed.unit)
+    for entry in breaks[:SHOWN]:
+        yield _break_words(entry, followed.unit)
     if len(breaks) > SHOWN:
         yield "", f"and {len(breaks) - SHOWN} more breaks of limits: see record.json"
     error = f"largest difference {motion['tracking_error']:.1e}"
@@ -85,12 +82,12 @@ def motion_words(followed: Followed, motion: Mapping[str, Any]) -> Iterator[tupl
         yield "not tracked back", f" beyond t = {motion['tracked_until']:.6g}: {error}"
 
 
-def _break_words(broken: Mapping[str, Any], unit: str) -> tuple[str, str]:
-    limit = broken["limit"]
+def _break_words(entry: Mapping[str, Any], unit: str) -> tuple[str, str]:
+    limit = entry["limit"]
     if limit.startswith("det"):
-        return "singularity", f": {limit} changes sign at t = {broken['begin']:.6g}"
-    worst = f"{broken['worst_deg']:.5g}°" if "worst_deg" in broken else f"{broken['worst']:.5g}"
+        return "singularity", f": {limit} changes sign at t = {entry['begin']:.6g}"
+    worst = f"{entry['worst_deg']:.5g}°" if "worst_deg" in entry else f"{entry['worst']:.5g}"
     if limit.split()[0] in (*LEGS, *OF_LENGTHS):
         worst = amount(worst, unit)
-    when = f"from t = {broken['begin']:.6g} to {broken['end']:.6g}"
-    return "limit breaks", f": {limit}, {when}, at worst {worst} at {broken['at']:.6g}"
+    when = f"from t = {entry['begin']:.6g} to {entry['end']:.6g}"
+    return "limit breaks", f": {limit}, {when}, at worst {worst} at {entry['at']:.6g}"

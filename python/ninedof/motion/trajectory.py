@@ -1,20 +1,35 @@
-"""Poses of the platform over time."""
+"""Poses of the platform over time, from a shape or a CSV file."""
 
 from __future__ import annotations
 
 import math
 import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
 
-from ninedof.motion.trajectory_file import FEWEST, read_trajectory
+from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors
 from ninedof.robot.configuration import Configuration, require_single
-from ninedof.support.arguments import finite, shown, vector, whole
+from ninedof.support.arguments import cleaned, finite, path_argument, shown, vector, whole
 from ninedof.support.arrays import Floats, as_floats, frozen
+from ninedof.support.files import csv_rows, finite_or_nan, read_text
 from ninedof.support.units import unit_argument
 
+PLACE = ("t", "x", "y", "z")
+QUATERNION = ("qw", "qx", "qy", "qz")
+ROTATIONS: dict[tuple[str, ...], Callable[[Floats], Floats]] = {
+    QUATERNION: from_quaternions,
+    ("rx", "ry", "rz"): from_vectors,
+    ("rx_deg", "ry_deg", "rz_deg"): lambda turns: from_vectors(np.radians(turns)),
+    ("yaw", "pitch", "roll"): lambda turns: from_euler(*turns.T),
+    ("yaw_deg", "pitch_deg", "roll_deg"): lambda turns: from_euler(*np.radians(turns).T),
+}
+"""The columns that a file may have for the rotation, and their matrices (n, 3, 3)."""
+ONE_OF = "one of " + ", ".join(map(" ".join, ROTATIONS))
+FEWEST = 3  # poses: accelerations need three
+UNIT = 1e-3  # a quaternion may differ from unit length by rounding, not by more
 TURNS = 3  # of a spiral
 SHORTEST, LONGEST = 1e-300, 1e100  # of a motion: its times must differ, and their squares be numbers
 MOST_POINTS = 10_000_000
@@ -64,14 +79,12 @@ class Trajectory:
         t = as_floats("time", self.time, ())
         if t.ndim != 1 or len(t) < FEWEST or not np.isfinite(t).all():
             raise ValueError(f"time: got {shown(self.time)}, expected at least {FEWEST} finite numbers")
-        wrong = np.flatnonzero(~(np.diff(t) > 0.0))
-        if len(wrong):
-            k = int(wrong[0]) + 1
-            raise ValueError(f"time: got {t[k]:g} after {t[k - 1]:g}, expected increasing times")
+        for k in np.flatnonzero(np.diff(t) <= 0.0)[:1]:
+            raise ValueError(f"time: got {t[k + 1]:g} after {t[k]:g}, expected increasing times")
         poses = Configuration(self.position, self.rotation, np.zeros((len(t), 3)))
         if poses.shape != t.shape:
             raise ValueError(f"position: got poses of shape {poses.shape}, expected one for each of {len(t)} times")
-        if not (np.isfinite(poses.position).all() and np.isfinite(poses.rotation).all()):
+        if np.isnan(poses.position).any() or np.isnan(poses.rotation).any():
             raise ValueError("position, rotation: got NaN, expected finite numbers")
         object.__setattr__(self, "unit", unit_argument(self.unit))
         for name, array in (("time", frozen(t)), ("position", poses.position), ("rotation", poses.rotation)):
@@ -101,27 +114,29 @@ class Trajectory:
 
         """
         require_single("home", home)
-        time, position, rotation = read_trajectory(path, unit)
+        file = path_argument("path", path)
+        text = read_text(file)
         try:
+            time, position, rotation = _poses(text, unit)
             return cls(time, position, home.rotation if rotation is None else rotation, unit)
         except ValueError as error:
-            raise ValueError(f"{path}: {error}") from None
+            raise ValueError(f"{file}: {error}") from None
 
     @classmethod
     def circle(
         cls, home: Configuration, radius: float, duration: float = 1.0, points: int = 1001, unit: str = ""
     ) -> Self:
         """Return a horizontal circle about the position of `home`, at constant speed and with its rotation."""
-        r, t, u = finite("radius", radius), *_times(duration, points)
-        around = r * _turning(2.0 * math.pi * u)
+        t, u = _times(duration, points)
+        around = finite("radius", radius) * _turning(2.0 * math.pi * u)
         around[-1] = around[0]
         return cls._from(home, unit, t, around)
 
     @classmethod
     def line(cls, home: Configuration, step: Any, duration: float = 1.0, points: int = 1001, unit: str = "") -> Self:
         """Return a straight line from `home` by `step` (x, y, z), from rest to rest (polynomial of degree five)."""
-        along, t, u = np.array(vector("step", step)), *_times(duration, points)
-        return cls._from(home, unit, t, _rest_to_rest(u)[:, None] * along)
+        t, u = _times(duration, points)
+        return cls._from(home, unit, t, np.outer(_rest_to_rest(u), vector("step", step)))
 
     @classmethod
     def spiral(
@@ -134,11 +149,10 @@ class Trajectory:
         unit: str = "",
     ) -> Self:
         """Return three turns from `home` outwards to `radius` and up by `height`, from rest to rest."""
-        r, h, (t, u) = finite("radius", radius), finite("height", height), _times(duration, points)
-        v = _rest_to_rest(u)
-        return cls._from(
-            home, unit, t, (r * v)[:, None] * _turning(2.0 * math.pi * TURNS * v) + np.outer(v, [0.0, 0.0, h])
-        )
+        t, u = _times(duration, points)
+        v, top = _rest_to_rest(u), [0.0, 0.0, finite("height", height)]
+        turns = (finite("radius", radius) * v)[:, None] * _turning(2.0 * math.pi * TURNS * v)
+        return cls._from(home, unit, t, turns + np.outer(v, top))
 
     @classmethod
     def _from(cls, home: Configuration, unit: str, time: Floats, shift: Floats) -> Self:
@@ -184,8 +198,65 @@ def _rest_to_rest(u: Floats) -> Floats:
     return np.asarray(u**3 * (10.0 + u * (6.0 * u - 15.0)))
 
 
-def trajectory_argument(value: Any) -> Trajectory:
-    """Return `value`, or raise unless it is a Trajectory."""
-    if not isinstance(value, Trajectory):
-        raise ValueError(f"trajectory: got {shown(value)}, expected a Trajectory")
-    return value
+def _poses(text: str, unit: str) -> tuple[Floats, Floats, Floats | None]:
+    """Return time (n,), position (n, 3) and rotation (n, 3, 3) of a file, None where it has no rotation.
+
+    Raises
+    ------
+    ValueError
+        Naming line and column, and where the file names another unit of lengths.
+
+    """
+    rows = csv_rows(text)
+    if not rows:
+        raise ValueError("got an empty file, expected a line with the names of the columns")
+    (line, header), *body = rows
+    heads = [cleaned(name).partition(" (") for name in header]  # "x (mm)", as `ninedof path` writes it
+    names = [name for name, _, _ in heads]
+    for name, _, end in heads:
+        if name in PLACE[1:] and end and unit and (own := end.rstrip(")")) != unit:
+            raise ValueError(f"line {line}, column {name}: got {own}, expected {unit} as in the design")
+    turns = _rotation_columns(f"line {line}", names)
+    if len(body) < FEWEST:
+        raise ValueError(f"got {len(body)} poses, expected at least {FEWEST}")
+    for line, row in body:
+        if len(row) != len(names):
+            expected = f"expected {len(names)} ({cleaned(', '.join(names))})"
+            raise ValueError(f"line {line}: got {len(row)} entries, {expected}")
+    table = np.array([[finite_or_nan(entry) for entry in row] for _, row in body])
+    for k, column in np.argwhere(np.isnan(table))[:1]:
+        got = shown(body[k][1][column])
+        raise ValueError(f"line {body[k][0]}, column {names[column]}: got {got}, expected a finite number")
+
+    def columns(some: Sequence[str]) -> Floats:
+        return np.ascontiguousarray(table[:, [names.index(name) for name in some]])
+
+    time = columns(PLACE)[:, 0]
+    for k in np.flatnonzero(np.diff(time) <= 0.0)[:1]:
+        got = f"got {time[k + 1]:g} after {time[k]:g}"
+        raise ValueError(f"line {body[k + 1][0]}, column t: {got}, expected more")
+    if turns == QUATERNION:
+        size = np.linalg.norm(columns(turns), axis=1)
+        for k in np.flatnonzero(np.abs(size - 1.0) > UNIT)[:1]:
+            raise ValueError(f"line {body[k][0]}, column qw: got a quaternion of length {size[k]:g}, expected 1")
+    return time, columns(PLACE[1:]), ROTATIONS[turns](columns(turns)) if turns else None
+
+
+def _rotation_columns(where: str, names: Sequence[str]) -> tuple[str, ...]:
+    """Return the columns of the rotation, none if there are none, or raise for missing and unknown columns."""
+    for name in names:
+        if not math.isnan(finite_or_nan(name)):
+            raise ValueError(f"{where}: got the number {name}, expected the names of the columns, such as t,x,y,z")
+        if names.count(name) > 1:
+            raise ValueError(f"{where}, column {name}: got it twice, expected each column once")
+    if missing := [name for name in PLACE if name not in names]:
+        got = cleaned(", ".join(names))
+        raise ValueError(f"{where}: got columns {got}, no {', '.join(missing)}; expected t, x, y, z")
+    others = [name for name in names if name not in PLACE]
+    for columns in ((), *ROTATIONS):
+        if set(others) == set(columns):
+            return columns
+    for name in others:
+        if name not in ONE_OF.replace(",", "").split()[2:]:
+            raise ValueError(f"{where}, column {shown(name)}: not known, expected t x y z and {ONE_OF}")
+    raise ValueError(f"{where}: got {cleaned(' '.join(others))} as rotation, expected {ONE_OF}")

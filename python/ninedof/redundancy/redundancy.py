@@ -95,7 +95,7 @@ def best_internal_point(
         Least and greatest leg lengths, each a number or shape (9,) in the order of `leg_lengths`. None by default.
     characteristic_length : float
         Length l_c of the condition number; 1 by default; a Result and a Design have their own,
-        `found.characteristic_length`.
+        `result.characteristic_length`.
     start : array_like, shape (..., 3), optional
         A point of the chamber to search. By default midway between the centroids of the internal joints of base and
         platform.

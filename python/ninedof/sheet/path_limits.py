@@ -12,7 +12,7 @@ from ninedof.design.leg_limits import LEGS as OF_LENGTHS
 from ninedof.design.limit_numbers import CONES
 from ninedof.design.limits import kind_of
 from ninedof.design.study import Study
-from ninedof.motion.followed import Followed, LimitBreak, stretches
+from ninedof.motion.follow import Followed, LimitBreak, stretches
 from ninedof.robot.configuration import Configuration, single
 from ninedof.sheet.pose_limits import PoseLimit, pose_limits
 from ninedof.support.arguments import instance

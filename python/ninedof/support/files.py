@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import math
 import os
 import secrets
 from abc import ABC, abstractmethod
@@ -71,8 +73,39 @@ def naming(error: OSError, path: Path) -> OSError:
 
 
 def read_text(path: str | os.PathLike[str]) -> str:
-    """Return the text of a file, without a byte order mark; line ends are those of Python."""
-    return Path(path).read_text(encoding="utf-8-sig")
+    """Return the text of a file, without a byte order mark; line ends are those of Python.
+
+    Raises
+    ------
+    ValueError
+        Naming the file, if it cannot be read.
+
+    """
+    try:
+        return Path(path).read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise ValueError(f"{path}: cannot be read ({error.strerror or error})") from None
+    except UnicodeDecodeError:
+        raise ValueError(f"{path}: cannot be read (not UTF-8 text)") from None
+
+
+def csv_rows(text: str) -> list[tuple[int, list[str]]]:
+    """Return the rows of a CSV text with the numbers of their lines; comments (#) and empty rows are left out."""
+    reader = csv.reader(text.split("\n"))
+    try:
+        rows = [(reader.line_num, [entry.strip() for entry in row]) for row in reader]
+    except csv.Error as error:
+        raise ValueError(f"not a CSV file ({error})") from None
+    return [(line, row) for line, row in rows if any(row) and not row[0].startswith("#")]
+
+
+def finite_or_nan(text: str) -> float:
+    """Return the finite number of a text, NaN for all else."""
+    try:
+        value = float(text)
+    except ValueError:
+        return math.nan
+    return value if math.isfinite(value) else math.nan
 
 
 def own_or_new(name: str, path: Path, mark: str) -> None:

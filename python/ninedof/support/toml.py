@@ -19,19 +19,15 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
         Naming the file, if it cannot be read or is not TOML.
 
     """
-    name = str(path_argument("path", path))
-    try:
-        import tomllib  # when it is needed, as it takes time to load
+    import tomllib  # when it is needed, as it takes time to load
 
-        return tomllib.loads(read_text(path))
-    except OSError as error:
-        raise ValueError(f"{name}: cannot be read ({error.strerror})") from None
-    except UnicodeDecodeError:
-        raise ValueError(f"{name}: cannot be read (not UTF-8 text)") from None
+    text = read_text(file := path_argument("path", path))
+    try:
+        return tomllib.loads(text)
     except RecursionError:
-        raise ValueError(f"{name}: not a TOML file we can read: nested too deep") from None
+        raise ValueError(f"{file}: not a TOML file we can read: nested too deep") from None
     except ValueError as error:  # invalid TOML, or an integer of thousands of digits
-        raise ValueError(f"{name}: not a TOML file: {error}") from None
+        raise ValueError(f"{file}: not a TOML file: {error}") from None
 
 
 def write_toml(path: str | os.PathLike[str], tables: Mapping[str, Any]) -> None:

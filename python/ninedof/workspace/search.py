@@ -108,7 +108,7 @@ def workspace(
         The home pose, with its O. The middle of the box or region by default, with O by the rule.
     characteristic_length : float
         Of the condition number, length units; 1 by default; a Result and a Design have their own,
-        `found.characteristic_length`.
+        `result.characteristic_length`.
     method : {"octree", "grid", "sample"}
         "grid" judges resolution^3 cells by their centres. "sample" counts points of a low-discrepancy sequence with
         random shifts.

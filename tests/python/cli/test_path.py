@@ -85,7 +85,7 @@ def test_a_run_with_its_limits(capsys):
     [
         ("path", "path: got none, expected one of a CSV file, --circle, --line and --spiral"),
         ("path --circle 1 --line 1 0 0", "path: got --circle and --line, expected one"),
-        ("path poses.csv", "poses.csv, line 1: got yaw_deg as rotation"),
+        ("path poses.csv", "poses.csv: line 1: got yaw_deg as rotation"),
         ("path none.csv", "none.csv: cannot be read"),
         ("path poses.csv --points 7", "--points: got 7, expected none with a file"),
         ("path --circle 1 --points 2", "points: got 2"),

@@ -155,7 +155,7 @@ def test_bad_arguments(published):
     line = nd.Trajectory.line(HOME, (0.3, 0.1, 0.2), points=21)
     with pytest.raises(ValueError, match="internal_point: got 'stay'"):
         nd.follow(published, line, HOME, "stay")
-    with pytest.raises(ValueError, match="trajectory: got 3"):
+    with pytest.raises(ValueError, match="trajectory: got int"):
         nd.follow(published, 3, HOME)
     with pytest.raises(ValueError, match="limits: got 5 to 2"):
         nd.follow(published, line, HOME, limits=(5.0, 2.0))

@@ -14,7 +14,7 @@ import ninedof as nd
 from ninedof.cli.commands.certify import certificate_table
 from ninedof.design.limits import ROWS, split_label
 from ninedof.export.latex import _limits as latex_limits
-from ninedof.motion.followed import stretches
+from ninedof.motion.follow import stretches
 from ninedof.proof.machine import certify
 from ninedof.sheet.limit_rows import limit_rows
 from ninedof.sheet.pose_limits import pose_limits
