@@ -48,8 +48,7 @@ from ninedof.optimize.optimize import Trace, optimize, trace
 from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.paper.sweeps import sweep_figure
 from ninedof.pareto import Front, pareto
-from ninedof.position.forward_position import AssemblyModes, PositionStatus, forward_position
-from ninedof.position.tracking import Tracked, TrackStatus, track
+from ninedof.position.position import AssemblyModes, PositionStatus, Tracked, TrackStatus, forward_position, track
 from ninedof.proof.bounds import (
     Bounds,
     DeterminantBounds,

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.motion.trajectory import Trajectory
+from ninedof.redundancy.redundancy import leg_limits
 from ninedof.redundancy.rules import RULES
-from ninedof.redundancy.search_arguments import leg_limits
 from ninedof.robot.configuration import Configuration, operands_with, single
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.robot.idle import idle_names

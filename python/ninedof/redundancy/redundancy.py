@@ -2,24 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, Unpack
+from typing import Any, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.redundancy.search_arguments import PointOptions, poses_of, problem_of, starts_of
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats, as_floats, as_number, thread_argument
+from ninedof.support.arguments import choice, instance, pair
+from ninedof.support.arrays import Floats, as_floats, as_number, one_or_each, thread_argument
 from ninedof.support.short import short_repr
 from ninedof.support.structs import options_of
 
+CRITERIA = ("condition_number", "singularity", "leg_centring")
+
+
+class PointOptions(TypedDict, total=False):
+    """Options that the searches for an internal point share; `best_internal_point` says what they mean."""
+
+    characteristic_length: float
+    start: ArrayLike | None
+    clearance: float | None
+
 
 class InternalPointStatus(StrEnum):
-    """How the search for an internal point ended."""
+    """The end of a search for an internal point."""
 
     FOUND = "found"
     """Within the limits and stationary by independent checks, and no worse than any point of a scan of the chamber.
@@ -127,12 +138,11 @@ def best_internal_point(
     (<InternalPointStatus.FOUND: 'found'>, True)
 
     """
-    given = options_of("best_internal_point", PointOptions, options, characteristic_length=1.0)
+    values = options_of("best_internal_point", PointOptions, options, characteristic_length=1.0)
     shape, p, q = poses_of(geometry, position, rotation)
-    problem = problem_of(criterion, limits, given)
-    starts = starts_of(given["start"], shape)
-    found = _core.best_internal_point(geometry, p, q, starts, problem, thread_argument(threads))
-    return InternalPoint(**point_fields(shape, p, q, found))
+    problem, starts = problem_of(criterion, limits, values), starts_of(values["start"], shape)
+    points = _core.best_internal_point(geometry, p, q, starts, problem, thread_argument(threads))
+    return InternalPoint(**point_fields(shape, p, q, points))
 
 
 def best_internal_path(
@@ -201,14 +211,11 @@ def best_internal_path(
     shape, p, q = poses_of(geometry, position, rotation)
     if len(shape) != 1:
         raise ValueError(f"position: got shape {(*shape, 3)}, expected a path of shape (n, 3)")
-    given = options_of("best_internal_path", PointOptions, options, characteristic_length=1.0)
-    problem = problem_of(criterion, limits, given)
-    weight, start = as_number("smoothness", smoothness), given["start"]
-    if start is not None:
-        start = as_floats("start", start, (3,))
-        if start.ndim != 1:
-            raise ValueError(f"start: got shape {start.shape}, expected shape (3,)")
-    return InternalPoint(**point_fields(shape, p, q, _core.best_internal_path(geometry, p, q, start, problem, weight)))
+    values = options_of("best_internal_path", PointOptions, options, characteristic_length=1.0)
+    problem, weight = problem_of(criterion, limits, values), as_number("smoothness", smoothness)
+    start = None if values["start"] is None else starts_of(values["start"], ())[0]
+    points = _core.best_internal_path(geometry, p, q, start, problem, weight)
+    return InternalPoint(**point_fields(shape, p, q, points))
 
 
 def point_fields(shape: tuple[int, ...], p: Floats, q: Floats, points: _core.InternalPoints) -> dict[str, Any]:
@@ -222,3 +229,46 @@ def point_fields(shape: tuple[int, ...], p: Floats, q: Floats, points: _core.Int
         "status": STATUSES[points.status].reshape(shape)[()],
         "active": names[inverse.reshape(-1)].reshape(shape)[()],
     }
+
+
+def poses_of(geometry: Geometry, position: ArrayLike, rotation: Any) -> tuple[tuple[int, ...], Floats, Floats]:
+    """Check a stack of poses as a configuration would; return its shape and flat arrays."""
+    instance("geometry", geometry, Geometry)
+    c = Configuration(position, rotation, np.zeros(3))
+    return c.shape, c.position.reshape(-1, 3), c.rotation.reshape(-1, 3, 3)
+
+
+def starts_of(start: ArrayLike | None, shape: tuple[int, ...]) -> Floats:
+    """Return one start for each pose, or no rows for the default."""
+    if start is None:
+        return np.empty((0, 3))
+    points = as_floats("start", start, (3,))
+    try:
+        return np.ascontiguousarray(np.broadcast_to(points, (*shape, 3))).reshape(-1, 3)
+    except ValueError:
+        raise ValueError(f"start: got shape {points.shape}, expected one that broadcasts to {(*shape, 3)}") from None
+
+
+def problem_of(criterion: str, limits: Any, options: Mapping[str, Any]) -> _core.InternalPointProblem:
+    """Return the problem of an internal point; the default clearance depends on the criterion."""
+    clearance = options["clearance"]
+    if clearance is None:
+        clearance = 1e-2 if criterion == "leg_centring" else 1e-10
+    low, high = leg_limits(limits)
+    return _core.InternalPointProblem(
+        criterion=choice("criterion", criterion, CRITERIA),
+        limits=_core.LegLimits(low=low, high=high),
+        characteristic_length=as_number("characteristic_length", options["characteristic_length"]),
+        clearance=as_number("clearance", clearance),
+    )
+
+
+def leg_limits(limits: Any, name: str = "limits") -> tuple[Floats, Floats]:
+    """Return least and greatest lengths of the nine legs from (low, high), each a number or nine."""
+    if limits is None:
+        return np.zeros(9), np.full(9, np.inf)
+    ends = dict(zip(("low", "high"), pair(name, limits, "(low, high), each a number or nine"), strict=True))
+    low, high = (one_or_each(f"{name} ({side})", end, 9) for side, end in ends.items())
+    if low.ndim + high.ndim > 2:
+        raise ValueError(f"{name}: got shapes {low.shape} and {high.shape}, expected numbers or shape (9,)")
+    return low, high

@@ -8,8 +8,7 @@ from typing import Any, Unpack
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.redundancy.redundancy import InternalPoint, point_fields
-from ninedof.redundancy.search_arguments import PointOptions, poses_of, problem_of, starts_of
+from ninedof.redundancy.redundancy import InternalPoint, PointOptions, point_fields, poses_of, problem_of, starts_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import thread_argument
@@ -21,7 +20,7 @@ from ninedof.support.structs import from_core, options_of
 @short_repr
 @dataclass(frozen=True)
 class MapAudit:
-    """How often continuation missed a better point, from searches of poses drawn at random."""
+    """Share of the poses where continuation missed a better point, from searches of poses drawn at random."""
 
     poses: int
     """Number of poses searched, without the seeds."""
@@ -128,16 +127,15 @@ def best_internal_map(
     ((21, 21), 0)
 
     """
-    given = options_of("best_internal_map", MapOptions, options, **MAP_DEFAULTS)
+    values = options_of("best_internal_map", MapOptions, options, **MAP_DEFAULTS)
     shape, p, q = poses_of(geometry, position, rotation)
     settings = _core.MapSettings(
-        seed_every=whole("seed_every", given["seed_every"], 1),
-        audit_every=whole("audit_every", given["audit_every"], 1),
-        audit_seed=whole("audit_seed", given["audit_seed"], 0),
+        seed_every=whole("seed_every", values["seed_every"], 1),
+        audit_every=whole("audit_every", values["audit_every"], 1),
+        audit_seed=whole("audit_seed", values["audit_seed"], 0),
         threads=thread_argument(threads),
     )
-    problem = problem_of(criterion, limits, given)
-    starts = starts_of(given["start"], shape)
-    found = _core.best_internal_map(geometry, p, q, shape, starts, problem, settings, progress_argument(progress))
-    fields, audit = point_fields(shape, p, q, found.points), from_core(MapAudit, found.audit)
-    return InternalPointMap(**fields, audit=audit, searched=found.searched, followed=found.followed)
+    problem, starts = problem_of(criterion, limits, values), starts_of(values["start"], shape)
+    best = _core.best_internal_map(geometry, p, q, shape, starts, problem, settings, progress_argument(progress))
+    fields = point_fields(shape, p, q, best.points) | {"audit": from_core(MapAudit, best.audit)}
+    return InternalPointMap(**fields, searched=best.searched, followed=best.followed)

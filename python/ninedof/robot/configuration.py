@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof import _core
 from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats, as_floats, broadcast_leading, frozen, without_infinity
 
 
@@ -81,9 +83,9 @@ class Configuration:
             bring no gain is not correct.
 
         """
-        given = {"zp": zp, "zs": zs, "theta_z": theta_z}
-        shape, arrays = broadcast_leading({name: (as_floats(name, value, ()), 0) for name, value in given.items()})
-        flat_zp, flat_zs, flat_theta_z = (a.reshape(-1) for a in arrays)
+        arguments = {"zp": zp, "zs": zs, "theta_z": theta_z}
+        shape, arrays = broadcast_leading({name: (as_floats(name, x, ()), 0) for name, x in arguments.items()})
+        flat_zp, flat_zs, flat_theta_z = (array.reshape(-1) for array in arrays)
         return cls._shaped(shape, *_core.neutral(flat_zp, flat_zs, flat_theta_z, bool(shape)))
 
     @classmethod
@@ -108,10 +110,8 @@ class Configuration:
             against the configuration.
 
         """
-        shape, flat, t = broadcast_flat(
-            self, tangent=(without_infinity("tangent", as_floats("tangent", tangent, (9,))), 1)
-        )
-        return Configuration(*(a.reshape(shape + a.shape[1:]) for a in _core.moved(*flat, t[0].reshape(-1, 9))))
+        shape, flat, (t,) = broadcast_flat(self, tangent=(tangent, 9))
+        return Configuration(*(a.reshape(shape + a.shape[1:]) for a in _core.moved(*flat, t)))
 
     @property
     def position(self) -> Floats:
@@ -185,49 +185,11 @@ def arrays_of(configuration: Configuration) -> dict[str, Floats]:
 
 
 def broadcast_flat(
-    configuration: Configuration, **others: tuple[Floats, int]
+    configuration: Configuration, **others: tuple[ArrayLike, int]
 ) -> tuple[tuple[int, ...], Flat, list[Floats]]:
-    """Broadcast a configuration against arrays, each given with its number of trailing dimensions.
-
-    Return the leading shape, the flat arrays of the configuration, and the other arrays.
-    """
-    own = {name: (array, array.ndim - len(configuration.shape)) for name, array in arrays_of(configuration).items()}
-    shape, (p, q, s, *rest) = broadcast_leading(own | others)
-    return shape, _flat(p, q, s), rest
-
-
-def require_geometry(geometry: Any) -> None:
-    """Raise ValueError unless it is a Geometry."""
-    if not isinstance(geometry, Geometry):
-        raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
-
-
-def require_configuration(name: str, configuration: Any) -> None:
-    """Raise ValueError, naming the argument, unless it is a Configuration."""
-    if not isinstance(configuration, Configuration):
-        raise ValueError(f"{name}: got {type(configuration).__name__}, expected a Configuration")
-
-
-def require_single(name: str, configuration: Any) -> None:
-    """Raise ValueError, naming the argument, unless it is one Configuration and no stack."""
-    require_configuration(name, configuration)
-    if configuration.shape:
-        raise ValueError(f"{name}: got a stack of shape {configuration.shape}, expected a single one")
-
-
-def operands(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:
-    """Return the operands of the core, checked: geometry and configuration."""
-    require_geometry(geometry)
-    require_configuration(name, configuration)
-    return geometry, configuration
-
-
-def operands_with(
-    geometry: Geometry, configuration: Configuration, **others: tuple[ArrayLike, int]
-) -> tuple[tuple[int, ...], Operands, list[Floats]]:
     """Broadcast a configuration against arrays of shape (..., k), each given with its k.
 
-    Return the leading shape, the operands of the core, and the other arrays as (n, k).
+    Return the leading shape, the flat arrays of the configuration, and the other arrays as (n, k).
 
     Raises
     ------
@@ -235,14 +197,34 @@ def operands_with(
         Naming the argument that has another shape or an infinite number.
 
     """
-    operands(geometry, configuration)
+    own = {name: (array, array.ndim - len(configuration.shape)) for name, array in arrays_of(configuration).items()}
     arrays = {name: (without_infinity(name, as_floats(name, values, (k,))), 1) for name, (values, k) in others.items()}
-    shape, flat, rest = broadcast_flat(configuration, **arrays)
-    return shape, (geometry, flat), [a.reshape(-1, a.shape[-1]) for a in rest]
+    shape, (p, q, s, *rest) = broadcast_leading(own | arrays)
+    return shape, _flat(p, q, s), [a.reshape(math.prod(shape), a.shape[-1]) for a in rest]
+
+
+def require_single(name: str, configuration: Any) -> None:
+    """Raise ValueError, naming the argument, unless it is one Configuration and no stack."""
+    if (shape := instance(name, configuration, Configuration).shape) != ():
+        raise ValueError(f"{name}: got a stack of shape {shape}, expected a single one")
+
+
+def operands(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:
+    """Return the operands of the core, checked: geometry and configuration."""
+    return instance("geometry", geometry, Geometry), instance(name, configuration, Configuration)
+
+
+def operands_with(
+    geometry: Geometry, configuration: Configuration, **others: tuple[ArrayLike, int]
+) -> tuple[tuple[int, ...], Operands, list[Floats]]:
+    """Return the leading shape, the operands of the core, and the other arrays, as `broadcast_flat`."""
+    operands(geometry, configuration)
+    shape, flat, arrays = broadcast_flat(configuration, **others)
+    return shape, (geometry, flat), arrays
 
 
 def single(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:
     """Return the operands of the core for a single configuration; a stack raises ValueError."""
-    require_geometry(geometry)
+    both = operands(geometry, configuration, name)
     require_single(name, configuration)
-    return operands(geometry, configuration, name)
+    return both

@@ -13,7 +13,7 @@ from ninedof.conditioning.conditioning import condition_number
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.rotations import from_vectors, to_quaternions, vectors_between
 from ninedof.motion.trajectory import Trajectory
-from ninedof.position.forward_position import PositionStatus, forward_position
+from ninedof.position.position import PositionStatus, forward_position
 from ninedof.records.design_file import Design
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.redundancy.rules import RULES

@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.design.limit_numbers import PARTS
 from ninedof.design.limits import Row
-from ninedof.redundancy.search_arguments import leg_limits
-from ninedof.robot.configuration import Configuration, require_geometry
+from ninedof.redundancy.redundancy import leg_limits
+from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.support.arguments import choice, known_keys, pair, shown, vector, whole
+from ninedof.support.arguments import choice, instance, known_keys, pair, shown, vector, whole
 from ninedof.support.arrays import Floats, as_floats, as_number
 
 SETS = ("reachable", "inclusive", "dexterous")
@@ -81,7 +81,7 @@ def spread_rotations(count: int, angle: float = math.pi) -> Floats:
 
 def question_of(geometry: Geometry, box: Any, arguments: Mapping[str, Any]) -> _core.WorkspaceQuestion:
     """Return what is asked of the core; raise ValueError for an argument that is not valid."""
-    require_geometry(geometry)
+    instance("geometry", geometry, Geometry)
     home = arguments["home"]
     if home is not None and (not isinstance(home, Configuration) or home.shape != ()):
         raise ValueError(f"home: got {shown(home)}, expected one Configuration")

@@ -17,8 +17,7 @@ from ninedof.cli.options import Lc, LegLimits
 from ninedof.cli.posed import Looked, PosesOptions, length_at_home
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.redundancy.redundancy import InternalPoint, best_internal_point
-from ninedof.redundancy.search_arguments import CRITERIA
+from ninedof.redundancy.redundancy import CRITERIA, InternalPoint, best_internal_point
 from ninedof.sheet.pose_words import decimals_of, fixed, vector_words
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats

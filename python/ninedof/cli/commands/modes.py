@@ -13,7 +13,7 @@ from ninedof.cli.posed import Looked, PoseOptions, length_at_home, poses_data, s
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.position.forward_position import AssemblyModes, forward_position
+from ninedof.position.position import AssemblyModes, forward_position
 from ninedof.robot.configuration import Configuration
 from ninedof.sheet.pose_words import decimals_of, fixed, turn_deg
 from ninedof.support.arrays import Floats
