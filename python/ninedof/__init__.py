@@ -38,9 +38,16 @@ from ninedof.design.pose import Pose
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.export.export import export
-from ninedof.kinematics.acceleration import forward_acceleration, inverse_acceleration, jacobian_rate
 from ninedof.kinematics.kinematics import VelocityMatrices, jacobian, leg_lengths, velocity_matrices
-from ninedof.kinematics.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
+from ninedof.kinematics.velocity import (
+    forward_acceleration,
+    forward_velocity,
+    internal_velocity,
+    inverse_acceleration,
+    inverse_velocity,
+    jacobian_rate,
+    null_motion,
+)
 from ninedof.motion import Followed, LimitBreak, Trajectory, follow
 from ninedof.optimize.bounds import LowerBound, applicable_bounds
 from ninedof.optimize.check import check
@@ -72,7 +79,6 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.sheet import Sheet, sheet
-from ninedof.singularity.nearest_singularity import NearestSingularity, nearest_singularity
 from ninedof.singularity.singularity import (
     Mechanism,
     Singularity,
@@ -81,10 +87,22 @@ from ninedof.singularity.singularity import (
     singularity_margins,
     uncontrolled_motions,
 )
-from ninedof.singularity.singularity_distance import SingularityDistance, distance_to_singularity
+from ninedof.singularity.singularity_distance import (
+    NearestSingularity,
+    SingularityDistance,
+    distance_to_singularity,
+    nearest_singularity,
+)
 from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_map, error_samples
-from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
-from ninedof.statics.statics import LegForces, leg_forces, self_stress, stiffness
+from ninedof.statics.statics import (
+    Ellipsoid,
+    LegForces,
+    force_ellipsoid,
+    leg_forces,
+    self_stress,
+    stiffness,
+    velocity_ellipsoid,
+)
 from ninedof.sweep import SweepResult, atlas, sweep, sweep_designs
 from ninedof.viewer import view
 from ninedof.workspace import (

@@ -45,19 +45,18 @@ def resolve_length(geometry: Geometry, configuration: Configuration, length: Arr
     """Return a characteristic length as a flat array of one value, or one value per configuration."""
     operands(geometry, configuration)
     if isinstance(length, str):
-        choice("characteristic_length", length, KINDS)
-        found = np.reshape(characteristic_length(geometry, configuration, length), -1)
+        kind = choice("characteristic_length", length, KINDS)
+        lengths = np.reshape(characteristic_length(geometry, configuration, kind), -1)
         # Singular and missing poses have no such length: their results are infinite or NaN with any length.
-        return np.where(np.isnan(found), 1.0, found)
-    value = as_floats("characteristic_length", length, ())
-    if value.size == 1:
-        return value.reshape(-1)
+        return np.where(np.isnan(lengths), 1.0, lengths)
+    lengths, shape = as_floats("characteristic_length", length, ()), configuration.shape
+    if lengths.size == 1:
+        return lengths.reshape(-1)
     try:
-        return np.ascontiguousarray(np.broadcast_to(value, configuration.shape)).reshape(-1)
+        return np.ascontiguousarray(np.broadcast_to(lengths, shape)).reshape(-1)
     except ValueError:
-        raise ValueError(
-            f"characteristic_length: got shape {value.shape}, expected one that broadcasts to {configuration.shape}"
-        ) from None
+        got = f"got shape {lengths.shape}, expected one that broadcasts to {shape}"
+        raise ValueError(f"characteristic_length: {got}") from None
 
 
 def operands_and_length(

@@ -47,8 +47,8 @@ def singular_values(
         free motions with all legs locked.
 
     """
-    found: Floats = _index(_core.singular_values, geometry, configuration, characteristic_length, threads, out, (6,))
-    return found
+    poses = geometry, configuration, characteristic_length
+    return _index(_core.singular_values, *poses, threads, out, (6,))  # type: ignore[no-any-return]
 
 
 def axis_singular_values(
@@ -81,8 +81,8 @@ def axis_singular_values(
         Naming what violates the symmetry.
 
     """
-    given = operands_and_length(geometry, configuration, characteristic_length)
-    return _core.axis_singular_values(*given, 0).reshape(*configuration.shape, 6)
+    poses = operands_and_length(geometry, configuration, characteristic_length)
+    return _core.axis_singular_values(*poses, 0).reshape(*configuration.shape, 6)
 
 
 def condition_number(
@@ -183,6 +183,5 @@ def _index(
     out: Floats | None,
     tail: tuple[int, ...] = (),
 ) -> Any:
-    given = operands_and_length(geometry, configuration, length)
-    count = thread_argument(threads)
-    return filled(out, (*configuration.shape, *tail), lambda array: core(*given, count, array))
+    poses, count = operands_and_length(geometry, configuration, length), thread_argument(threads)
+    return filled(out, (*configuration.shape, *tail), lambda array: core(*poses, count, array))

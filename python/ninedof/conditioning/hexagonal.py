@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.support.arrays import Floats, as_floats, checked_out, leading_shape, thread_argument, without_infinity
+from ninedof.support.arrays import Floats, as_floats, filled, leading_shape, thread_argument, without_infinity
 
 HEXAGONAL = ("a1", "a2", "b1", "b2", "zp", "zs")
 GATHERED = 2**16  # designs passed to the core at once, so that they stay in the caches
@@ -61,23 +61,25 @@ def hexagonal_condition_number(
     array([3.911 , 3.9071, 3.911 ])
 
     """
-    given = dict(zip(HEXAGONAL, (a1, a2, b1, b2, zp, zs), strict=True))
-    columns = {name: without_infinity(name, _column(name, value)) for name, value in given.items()}
-    shape = leading_shape({name: (values, 0) for name, values in columns.items()})
-    checked_out(out, shape)
-    found = np.empty(shape) if out is None else out
-    if out is not None:  # the arguments are read while `out` is being filled
-        columns = {name: v.copy() if np.may_share_memory(v, out) else v for name, v in columns.items()}
-    each = [v.reshape(-1) if v.size == 1 else np.broadcast_to(v, shape).reshape(-1) for v in columns.values()]
-    flat, count = found.reshape(-1), thread_argument(threads)
-    designs = np.empty((min(GATHERED, flat.size), len(each)))
-    for first in range(0, flat.size, GATHERED):
-        part = flat[first : first + GATHERED]
-        rows = designs[: part.size]
-        for k, values in enumerate(each):
-            rows[:, k] = values if values.size == 1 else values[first : first + GATHERED]
-        _core.hexagonal_condition_numbers(rows, count, part)
-    return found if out is not None else found[()]
+    arguments = dict(zip(HEXAGONAL, (a1, a2, b1, b2, zp, zs), strict=True))
+    columns = {name: without_infinity(name, _column(name, value)) for name, value in arguments.items()}
+    shape, count = leading_shape({name: (values, 0) for name, values in columns.items()}), thread_argument(threads)
+
+    def compute(array: Floats | None) -> Floats:
+        results = np.empty(shape) if array is None else array
+        pieces: Any = np.nditer(
+            [*columns.values(), results],
+            flags=["external_loop", "buffered", "zerosize_ok", "copy_if_overlap"],
+            op_flags=[["readonly"]] * 6 + [["writeonly"]],  # type: ignore[call-overload]
+            buffersize=GATHERED,
+            order="C",
+        )
+        with pieces:
+            for *designs, piece in pieces:
+                _core.hexagonal_condition_numbers(np.stack(designs, axis=1), count, piece)
+        return results
+
+    return filled(out, shape, compute)
 
 
 def _column(name: str, value: ArrayLike) -> Floats:

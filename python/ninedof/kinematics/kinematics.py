@@ -63,9 +63,9 @@ def leg_lengths(
     array([4.9304, 2.2772, 4.151 ])
 
     """
-    given, count = operands(geometry, configuration), thread_argument(threads)
-    found: Floats = filled(out, (*configuration.shape, 9), lambda array: _core.leg_lengths(*given, count, array))
-    return found
+    poses, count = operands(geometry, configuration), thread_argument(threads)
+    lengths = filled(out, (*configuration.shape, 9), lambda array: _core.leg_lengths(*poses, count, array))
+    return lengths  # type: ignore[no-any-return]  # an array: the shape is never ()
 
 
 def velocity_matrices(
@@ -90,13 +90,10 @@ def velocity_matrices(
 
     """
     flat = _core.velocity_matrices(*operands_and_length(geometry, configuration, characteristic_length), 0)
-    sizes = {"A": (3, 6), "B": (3, 3), "C": (3, 3), "D": (3, 3), "E": (3, 6), "F": (6, 6), "G": (6, 9)}
-    parts = np.split(flat, np.cumsum([rows * columns for rows, columns in sizes.values()])[:-1], axis=1)
-    shaped = (
-        np.ascontiguousarray(part).reshape(*configuration.shape, *size)
-        for part, size in zip(parts, sizes.values(), strict=True)
-    )
-    return VelocityMatrices(*shaped)
+    sizes = [(3, 6), (3, 3), (3, 3), (3, 3), (3, 6), (6, 6), (6, 9)]
+    parts = np.split(flat, np.cumsum([rows * columns for rows, columns in sizes])[:-1], axis=1)
+    matrices = (part.reshape(*configuration.shape, *size).copy() for part, size in zip(parts, sizes, strict=True))
+    return VelocityMatrices(*matrices)
 
 
 def jacobian(geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0) -> Floats:

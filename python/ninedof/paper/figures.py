@@ -16,7 +16,7 @@ from ninedof.paper.sweeps import sweep_figure
 from ninedof.plot import style
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.statics.ellipsoid import velocity_ellipsoid
+from ninedof.statics.statics import velocity_ellipsoid
 from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:

@@ -94,9 +94,9 @@ def singularity_margins(
     array([ 0.    , -0.9994])
 
     """
-    operands_of = operands(geometry, configuration)
+    poses = operands(geometry, configuration)
     checked_out(out, (*configuration.shape, 3))
-    flat = _core.singularity_margins(*operands_of, thread_argument(threads), out)
+    flat = _core.singularity_margins(*poses, thread_argument(threads), out)
     return _margins(flat.reshape(-1, 3), configuration.shape)
 
 
@@ -139,17 +139,9 @@ def singularity(geometry: Geometry, configuration: Configuration, threads: int |
     True
 
     """
-    flat = _core.singularity(*operands(geometry, configuration), thread_argument(threads))
-    shape = configuration.shape
-    omega, pdot, sdot = (flat[:, k : k + 3].reshape(*shape, 3) for k in (7, 10, 13))
-    return Singularity(
-        _margins(flat[:, :3], shape),
-        flat[:, 3:6].reshape(*shape, 3),
-        mechanisms_of(flat[:, 6], shape),
-        omega,
-        pdot,
-        sdot,
-    )
+    flat, shape = _core.singularity(*operands(geometry, configuration), thread_argument(threads)), configuration.shape
+    smallest, omega, pdot, sdot = (flat[:, k : k + 3].reshape(*shape, 3) for k in (3, 7, 10, 13))
+    return Singularity(_margins(flat[:, :3], shape), smallest, mechanisms_of(flat[:, 6], shape), omega, pdot, sdot)
 
 
 def uncontrolled_motions(geometry: Geometry, configuration: Configuration, tolerance: float = 1e-9) -> Floats:

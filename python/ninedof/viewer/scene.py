@@ -12,7 +12,7 @@ from ninedof.motion.rotations import to_quaternions
 from ninedof.plot import style
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.leg_names import LEGS
-from ninedof.statics.ellipsoid import Ellipsoid
+from ninedof.statics.statics import Ellipsoid
 from ninedof.support.arrays import Floats
 from ninedof.viewer import shapes
 from ninedof.viewer.body import Body

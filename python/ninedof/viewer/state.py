@@ -18,7 +18,7 @@ from ninedof.records.design_file import Design
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration
-from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
+from ninedof.statics.statics import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.support.arguments import choice, known_keys
 from ninedof.support.arrays import Floats
 from ninedof.viewer.body import Body

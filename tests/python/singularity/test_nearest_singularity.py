@@ -5,7 +5,7 @@ import pytest
 from sizes import size
 
 import ninedof as nd
-from ninedof.singularity.nearest_singularity import nearest_singularity
+from ninedof.singularity.singularity_distance import nearest_singularity
 
 
 def robot(rng):

@@ -15,9 +15,13 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import arrays_of
 from ninedof.sheet.pose_words import pose_words
 from ninedof.sheet.tables import MECHANISMS
-from ninedof.singularity.nearest_singularity import PARTS, NearestSingularity, nearest_singularity
 from ninedof.singularity.singularity import singularity as singularity_of
-from ninedof.singularity.singularity_distance import distance_to_singularity
+from ninedof.singularity.singularity_distance import (
+    PARTS,
+    NearestSingularity,
+    distance_to_singularity,
+    nearest_singularity,
+)
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 from ninedof.tables import RIGHT, Column, Table
