@@ -10,22 +10,17 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
-from ninedof.export.model import Model
-from ninedof.robot.geometry import triples
-from ninedof.robot.leg_names import LEGS
+from ninedof.export.model import LEGS, Model, O, P, in_metres
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import Floats
-
-METRES = {"mm": (1, 1000), "cm": (1, 100), "m": (1, 1), "in": (254, 10000), "ft": (3048, 10000), "": (1, 1)}
-"""A unit in metres as a fraction, so that 850 mm is 0.85 and not 0.8500000000000001; none is taken as it is."""
 
 LEG_MASS, PLATFORM_MASS = 1.0, 5.0
 FREE = (0.7, 1.3)  # of the neutral length: the range of a leg that nothing limits, which one stage can have
 LEAST_STROKE = 0.01  # of the neutral length: simulators take no range that is a point
-ROOTS = {"l": ("base", "base_external"), "q": ("platform", "platform_internal"), "r": ("base", "base_internal")}
 COLOURS = {
     "l": "0 0.447 0.698 1",  # the legs as in the figures
     "q": "0.835 0.369 0 1",
@@ -34,47 +29,39 @@ COLOURS = {
     "plate": "0.55 0.6 0.65 1",
     "joint": "0.15 0.15 0.15 1",
 }
-Angles = tuple[float, float, float]
-"""Roll, pitch and yaw as URDF and SDFormat have them: R = Rz(yaw) Ry(pitch) Rx(roll)."""
 LEVEL = (0.0, 0.0, 0.0)
 RADIUS = 0.012  # of a rod, by the mean length of the legs; for the eye and for its inertia about its axis
 
 
-@dataclass(frozen=True, eq=False)
 class Leg:
-    """One leg at the neutral configuration."""
+    """One leg at the neutral configuration: a cylinder and a rod that overlap in the whole range, where they can."""
 
-    name: str
-    root: str
-    """The body that it starts from: "base" or "platform"."""
-    root_joint: str
-    """The name of its joint there: "base_external1"."""
-    tip: str
-    """The body that it ends at: "platform" or "O"."""
-    tip_joint: str
-    start: Floats
-    """Its first end, base frame, shape (3,)."""
-    end: Floats
-    shortest: float
-    longest: float
-    part: float
-    """Length of the cylinder and of the rod, each: they overlap in the whole range where that can be."""
-
-    @property
-    def length(self) -> float:
-        """At the neutral configuration."""
-        return float(np.linalg.norm(self.end - self.start))
-
-    @property
-    def direction(self) -> Floats:
-        """From start to end, a unit vector, base frame."""
-        return np.asarray((self.end - self.start) / self.length)
+    def __init__(self, name: str, root: str, tip: str, at: dict[str, Floats], stroke: Any) -> None:
+        self.name, self.root_joint, self.tip_joint = name, root, tip
+        self.root = root.partition("_")[0]
+        """The body that it starts from: "base" or "platform"."""
+        self.tip = tip.partition("_")[0]
+        """The body that it ends at: "platform" or "O"."""
+        self.start, self.end = at[root], at[tip]
+        length = self.length = float(np.linalg.norm(self.end - self.start))
+        if length == 0.0:
+            raise ValueError(f"design: leg {name} has the length 0 at the neutral configuration and no direction")
+        self.direction: Floats = (self.end - self.start) / length
+        low, high = (FREE[0] * length, FREE[1] * length) if stroke is None else stroke
+        low, high = min(float(low), length), max(float(high), length)
+        if high - low < LEAST_STROKE * length:
+            low, high = low - 0.5 * LEAST_STROKE * length, high + 0.5 * LEAST_STROKE * length
+        self.shortest, self.longest = low, high
+        self.part = min(0.95 * low, 0.55 * high)
+        """Length of the cylinder and of the rod, each."""
 
 
 @dataclass(frozen=True, eq=False)
 class Bodies:
     """The robot in metres and kilograms."""
 
+    unit: str
+    """Of lengths, for people."""
     base: dict[str, Floats]
     """Joints of the base by name, base frame."""
     platform: dict[str, Floats]
@@ -95,6 +82,11 @@ class Bodies:
         return 0.2 * self.part_mass
 
     @property
+    def point_inertia(self) -> tuple[float, float]:
+        """Moments of the body O, a ball of twice the radius of a rod."""
+        return ball_inertia(self.point_mass, 2.0 * self.radius)
+
+    @property
     def platform_inertia(self) -> tuple[float, float]:
         """Moments about an axis in the plate and about its normal: a disc through the outermost joint."""
         square = max(float(np.sum(point[:2] ** 2)) for point in self.platform.values())
@@ -105,17 +97,11 @@ class Bodies:
         square = (1.5 * self.radius) ** 2
         return self.part_mass * (3.0 * square + leg.part**2) / 12.0, 0.5 * self.part_mass * square
 
-
-def in_metres(values: Floats, unit: str) -> Floats:
-    """Return lengths in metres; as they are without a unit."""
-    above, below = METRES[unit]
-    return np.asarray(values, dtype=np.float64) * above / below
-
-
-def from_metres(values: Floats, unit: str) -> Floats:
-    """Undo `in_metres`, to rounding."""
-    above, below = METRES[unit]
-    return np.asarray(values, dtype=np.float64) * below / above
+    def root_of(self, leg: Leg) -> tuple[Floats, Floats]:
+        """Return the start of a leg and its direction in the frame of the body that it starts from."""
+        if leg.root == "base":
+            return leg.start, leg.direction
+        return self.platform[leg.root_joint], leg.direction @ self.rotation
 
 
 def bodies_of(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS) -> Bodies:
@@ -123,22 +109,19 @@ def bodies_of(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = P
     for name, mass in (("leg_mass", leg_mass), ("platform_mass", platform_mass)):
         if not finite(name, mass) > 0.0:
             raise ValueError(f"{name}: got {mass:g}, expected a mass above 0")
-    c, unit = model.configuration, model.unit
-    p, s = in_metres(c.position, unit), in_metres(c.internal_point, unit)
-    joints = {
-        f"{name}{i}": in_metres(point, unit)
-        for name, points in triples(model.geometry).items()
-        for i, point in enumerate(points, start=1)
-    }
-    at = {n: p + c.rotation @ x if n.startswith("platform") else x for n, x in joints.items()} | {"O": s}
-    ranges = [None] * 9 if model.leg_ranges is None else list(model.leg_ranges)
-    legs = tuple(_leg(name, at, between, unit) for name, between in zip(LEGS, ranges, strict=True))
+    metric = model.in_metres()
+    at, own = ({_site(name): x for name, x in points.items()} for points in (metric.base_frame, metric.own_frame))
+    ranges = [None] * 9 if model.leg_ranges is None else in_metres(model.leg_ranges, model.unit)
+    legs = tuple(
+        Leg(name, _site(root), _site(tip), at, stroke) for (name, root, tip), stroke in zip(LEGS, ranges, strict=True)
+    )
     return Bodies(
-        base={name: x for name, x in joints.items() if name.startswith("base")},
-        platform={name: x for name, x in joints.items() if name.startswith("platform")},
-        position=p,
-        rotation=c.rotation,
-        internal_point=s,
+        unit="metres" if model.unit else "the design's own, without a unit",
+        base={name: x for name, x in own.items() if name.startswith("base")},
+        platform={name: x for name, x in own.items() if name.startswith("platform")},
+        position=at[P],
+        rotation=metric.configuration.rotation,
+        internal_point=at[O],
         legs=legs,
         part_mass=0.5 * float(leg_mass),
         platform_mass=float(platform_mass),
@@ -146,25 +129,14 @@ def bodies_of(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = P
     )
 
 
-def _leg(name: str, at: dict[str, Floats], between: tuple[float, float] | None, unit: str) -> Leg:
-    kind, i = name[0], name[1]
-    root, triple = ROOTS[kind]
-    tip, tip_joint = ("platform", f"platform_external{i}") if kind == "l" else ("O", "O")
-    start, end = at[f"{triple}{i}"], at[tip_joint]
-    length = float(np.linalg.norm(end - start))
-    if length == 0.0:
-        raise ValueError(f"design: leg {name} has the length 0 at the neutral configuration and no direction")
-    low, high = (FREE[0] * length, FREE[1] * length) if between is None else in_metres(np.array(between), unit)
-    low, high = min(float(low), length), max(float(high), length)
-    if high - low < LEAST_STROKE * length:
-        low, high = low - 0.5 * LEAST_STROKE * length, high + 0.5 * LEAST_STROKE * length
-    part = min(0.95 * low, 0.55 * high)
-    return Leg(name, root, f"{triple}{i}", tip, tip_joint, start, end, low, high, part)
+def _site(name: str) -> str:
+    """Return the name of a joint in simulators, base_external1 for base_external_1."""
+    return "".join(name.rsplit("_", 1))
 
 
-def length_words(model: Model) -> str:
-    """Return the unit of lengths of a file of a simulator, for people."""
-    return "metres" if model.unit else "the design's own, without a unit"
+def ball_inertia(mass: float, radius: float) -> tuple[float, float]:
+    """Return the moments of a ball, twice the same."""
+    return (moment := 0.4 * mass * radius**2), moment
 
 
 def numbers(values: Iterable[float] | float) -> str:
@@ -177,8 +149,11 @@ def _short(value: float) -> str:
     return repr(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
 
 
-def angles(rotation: Floats) -> Angles:
-    """Return roll, pitch and yaw of a rotation, radians; yaw is 0 where the pitch is a right angle."""
+def angles(rotation: Floats) -> tuple[float, float, float]:
+    """Return roll, pitch and yaw of a rotation R = Rz(yaw) Ry(pitch) Rx(roll), as URDF and SDFormat have them, radians.
+
+    The yaw is 0 where the pitch is a right angle.
+    """
     level = math.hypot(rotation[0, 0], rotation[1, 0])
     pitch = math.atan2(-rotation[2, 0], level)
     if level < 1e-12:
@@ -186,22 +161,20 @@ def angles(rotation: Floats) -> Angles:
     return math.atan2(rotation[2, 1], rotation[2, 2]), pitch, math.atan2(rotation[1, 0], rotation[0, 0])
 
 
-def rotation_of(rpy: Angles) -> Floats:
-    """Return the rotation of roll, pitch and yaw."""
-    (cr, cp, cy), (sr, sp, sy) = ([f(a) for a in rpy] for f in (math.cos, math.sin))
-    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
-    about_y = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
-    about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
-    return np.asarray(about_z @ about_y @ about_x)
-
-
-def pointing(direction: Floats) -> Angles:
-    """Return the angles of a frame whose z axis has a direction."""
+def pointing(direction: Floats) -> tuple[float, float, float]:
+    """Return the angles of a frame whose z axis has a direction; the roll is 0."""
     x, y, z = (float(v) for v in direction)
     return 0.0, math.atan2(math.hypot(x, y), z), math.atan2(y, x)
 
 
-def bars(joints: Iterable[Floats]) -> Iterator[tuple[Floats, Angles, float]]:
+def frame_along(direction: Floats) -> Floats:
+    """Return the rotation of the frame of `pointing`."""
+    _, pitch, yaw = pointing(direction)
+    (cp, cy), (sp, sy) = ([f(a) for a in (pitch, yaw)] for f in (math.cos, math.sin))
+    return np.array([[cy * cp, -sy, cy * sp], [sy * cp, cy, sy * sp], [-sp, 0.0, cp]])
+
+
+def bars(joints: Iterable[Floats]) -> Iterator[tuple[Floats, tuple[float, float, float], float]]:
     """Yield middle, angles and length of bars around a plate, from joint to joint; z is along the bar.
 
     Joints in the order of their angles about their mean; two at the same place have no bar.

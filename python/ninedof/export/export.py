@@ -53,9 +53,9 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
     --------
     >>> import pathlib, tempfile
     >>> import ninedof as nd
-    >>> found = nd.optimize(nd.Study.paper())
+    >>> result = nd.optimize(nd.Study.paper())
     >>> with tempfile.TemporaryDirectory() as empty:
-    ...     nd.export(found, "mjcf", pathlib.Path(empty) / "robot.xml").name
+    ...     nd.export(result, "mjcf", pathlib.Path(empty) / "robot.xml").name
     'robot.xml'
 
     """
@@ -91,11 +91,8 @@ def readable() -> list[str]:
 def read_design(path: Path) -> Fields:
     """Return the design in a file; ValueError naming the file and what is wrong with it."""
     (read,) = (one.read for one in formats().values() if one.suffix == path.suffix.lower() and one.read is not None)
+    text = read_text(path)
     try:
-        return read(read_text(path))
-    except OSError as error:
-        raise ValueError(f"{path}: cannot be read ({error.strerror or error})") from None
-    except UnicodeDecodeError as error:
-        raise ValueError(f"{path}: not a text file ({error})") from None
+        return read(text)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None

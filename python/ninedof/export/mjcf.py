@@ -14,18 +14,8 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.export.bodies import (
-    COLOURS,
-    LEG_MASS,
-    PLATFORM_MASS,
-    Bodies,
-    Leg,
-    bodies_of,
-    from_metres,
-    length_words,
-    numbers,
-)
-from ninedof.export.model import Fields, Format, Model
+from ninedof.export.bodies import COLOURS, LEG_MASS, PLATFORM_MASS, Bodies, Leg, bodies_of, numbers
+from ninedof.export.model import Fields, Format, Model, from_metres
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.support.arguments import finite, shown
@@ -43,16 +33,9 @@ PLATE = "0.62 0.66 0.70 0.55"
 
 def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS, gravity: float = 0.0) -> str:
     """Return the MJCF text of a design; masses in kg, gravity in m/s² downward."""
-    b, unit = bodies_of(model, leg_mass, platform_mass), length_words(model)
-    down = finite("gravity", gravity)
-    hung = {root: "".join(_leg(b, leg) for leg in b.legs if leg.root == root) for root in ("base", "platform")}
-    across, normal = b.platform_inertia
-    ball = 0.4 * b.point_mass * (2.0 * b.radius) ** 2
-    length = (
-        model.characteristic_length
-        if isinstance(model.characteristic_length, str)
-        else repr(float(model.characteristic_length))
-    )
+    b, down, length = bodies_of(model, leg_mass, platform_mass), finite("gravity", gravity), model.characteristic_length
+    legs = {root: "".join(_leg(b, leg) for leg in b.legs if leg.root == root) for root in ("base", "platform")}
+    (across, normal), (ball, _) = b.platform_inertia, b.point_inertia
     slides = "".join(
         f"""
       <joint name="O_{axis}" type="slide" axis="{direction}" ref="{numbers(at)}"/>"""
@@ -62,7 +45,7 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
         f"""    <connect name="{leg.name}_end" site1="{leg.name}_tip" site2="{leg.tip_joint}"/>""" for leg in b.legs
     )
     return f"""<mujoco model={quoteattr(model.name)}>
-  <!-- The nine-degree-of-freedom manipulator, written by ninedof. Lengths: {unit}; masses: kilograms.
+  <!-- The nine-degree-of-freedom manipulator, written by ninedof. Lengths: {b.unit}; masses: kilograms.
        Controls are the lengths of the legs l1 l2 l3 q1 q2 q3 r1 r2 r3, their ranges the strokes. Start from the
        keyframe "neutral": without it MuJoCo sets all controls to zero. Under gravity the actuators give way. -->
   <compiler angle="radian" inertiafromgeom="false"/>
@@ -73,7 +56,7 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
   <custom>
     <text name="format" data="{MARK}"/>
     <text name="unit" data="{model.unit or "none"}"/>
-    <text name="characteristic_length" data="{length}"/>
+    <text name="characteristic_length" data="{length if isinstance(length, str) else repr(float(length))}"/>
   </custom>
   <default>
     <geom contype="0" conaffinity="0" group="1"/>
@@ -88,7 +71,7 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
   <worldbody>
     <light pos="{numbers([*b.position[:2], 3 * _extent(b)])}" dir="0 0 -1" castshadow="false"/>
     <geom name="base" type="mesh" mesh="base" rgba="{PLATE}"/>
-    {_sites(b.base)}{hung["base"]}
+    {_sites(b.base)}{legs["base"]}
     <body name="O" pos="{numbers(b.internal_point)}">{slides}
       <inertial pos="0 0 0" mass="{numbers(b.point_mass)}" diaginertia="{numbers([ball] * 3)}"/>
       <geom name="O" type="sphere" size="{numbers(2.2 * b.radius)}" rgba="{COLOURS["joint"]}"/>
@@ -99,7 +82,7 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
       <inertial pos="0 0 0" mass="{numbers(b.platform_mass)}" diaginertia="{numbers([across, across, normal])}"/>
       <geom name="platform" type="mesh" mesh="platform" rgba="{PLATE}"/>
       <site name="platform" size="{numbers(0.2 * b.radius)}"/>
-      {_sites(b.platform)}{hung["platform"]}
+      {_sites(b.platform)}{legs["platform"]}
     </body>
   </worldbody>
   <equality>
@@ -121,17 +104,15 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
 
 
 def _leg(b: Bodies, leg: Leg) -> str:
-    start, along = leg.start, leg.direction
-    if leg.root == "platform":
-        start, along = b.platform[leg.root_joint], along @ b.rotation
+    start, along = b.root_of(leg)
     across, axial = b.part_inertia(leg)
     mass = f'mass="{numbers(b.part_mass)}" diaginertia="{numbers([across, across, axial])}"'
-    drawn, rod, half = COLOURS[leg.name[0]], COLOURS["rod"], 0.5 * leg.part
+    colour, rod, half = COLOURS[leg.name[0]], COLOURS["rod"], 0.5 * leg.part
     return f"""
     <body name="{leg.name}_cylinder" pos="{numbers(start)}" zaxis="{numbers(along)}">
       <joint name="{leg.name}_ball" type="ball" damping="{numbers(SPIN_DECAY * axial)}"/>
       <inertial pos="0 0 {numbers(half)}" {mass}/>
-      <geom type="cylinder" fromto="0 0 0 0 0 {numbers(leg.part)}" size="{numbers(1.5 * b.radius)}" rgba="{drawn}"/>
+      <geom type="cylinder" fromto="0 0 0 0 0 {numbers(leg.part)}" size="{numbers(1.5 * b.radius)}" rgba="{colour}"/>
       <body name="{leg.name}_rod" pos="0 0 {numbers(leg.length)}">
         <joint name="{leg.name}" type="slide" axis="0 0 1" ref="{numbers(leg.length)}"
           range="{numbers([leg.shortest, leg.longest])}" limited="true"/>

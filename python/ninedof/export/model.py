@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ninedof.design.leg_limits import leg_limits_of
 from ninedof.design.study import Study
@@ -19,6 +20,9 @@ from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_argument
+
+METRES = {"mm": (1, 1000), "cm": (1, 100), "m": (1, 1), "in": (254, 10000), "ft": (3048, 10000), "": (1, 1)}
+"""A unit in metres as a fraction, so that 850 mm is 0.85 and not 0.8500000000000001; none is taken as it is."""
 
 P, O = "p", "O"
 """Origin of the platform frame, and the internal point."""
@@ -76,6 +80,14 @@ class Model:
     source: Any = None
     """The argument of `model_of`: a Result, a Design, ..."""
 
+    def in_metres(self) -> Model:
+        """Return geometry and neutral configuration in metres; as they are without a unit."""
+        c, unit = self.configuration, self.unit
+        geometry = Geometry(*(in_metres(points, unit) for points in triples(self.geometry).values()))
+        return Model(
+            geometry, Configuration(in_metres(c.position, unit), c.rotation, in_metres(c.internal_point, unit))
+        )
+
     @cached_property
     def own_frame(self) -> dict[str, Floats]:
         """The twelve joints in the frame of their plate, by name."""
@@ -117,6 +129,18 @@ class Model:
         low, high = leg_limits_of(self.study, float(self.configuration.position[2]))
         limits = tuple((float(a), float(b)) for a, b in zip(low, high, strict=True))
         return limits if all(0.0 < a < b < math.inf for a, b in limits) else None
+
+
+def in_metres(values: ArrayLike, unit: str) -> Floats:
+    """Return lengths in metres; as they are without a unit."""
+    above, below = METRES[unit]
+    return np.asarray(values, dtype=np.float64) * above / below
+
+
+def from_metres(values: ArrayLike, unit: str) -> Floats:
+    """Undo `in_metres`, to rounding."""
+    above, below = METRES[unit]
+    return np.asarray(values, dtype=np.float64) * below / above
 
 
 def model_of(design: Any, name: str = "ninedof", unit: str | None = None) -> Model:

@@ -14,13 +14,11 @@ from ninedof.export.bodies import (
     LEG_MASS,
     LEVEL,
     PLATFORM_MASS,
-    Angles,
     Bodies,
     Leg,
     angles,
     bars,
     bodies_of,
-    length_words,
     numbers,
     pointing,
 )
@@ -33,12 +31,10 @@ CARRIER = "q1"  # the leg whose rod O is fixed to
 
 def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS) -> str:
     """Return the SDFormat text of a design; masses in kg."""
-    b, unit = bodies_of(model, leg_mass, platform_mass), length_words(model)
-    ball = 0.4 * b.point_mass * (2.0 * b.radius) ** 2
-    legs = "".join(_leg(b, leg) for leg in b.legs)
+    b = bodies_of(model, leg_mass, platform_mass)
     return f"""<?xml version="1.0"?>
 <sdf version="{VERSION}">
-  <!-- The nine-degree-of-freedom manipulator, written by ninedof. Lengths: {unit}; masses: kilograms.
+  <!-- The nine-degree-of-freedom manipulator, written by ninedof. Lengths: {b.unit}; masses: kilograms.
        The joints l1 to r3 are the actuators; they read the length of the leg less the neutral one. -->
   <model name={quoteattr(model.name)}>
     <link name="base">
@@ -55,9 +51,9 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
     </link>
     <link name="O">
       {_pose(b.internal_point)}
-      {_inertial(LEVEL, b.point_mass, (ball, ball))}
+      {_inertial(LEVEL, b.point_mass, b.point_inertia)}
       {_visual("O", LEVEL, LEVEL, f"<sphere><radius>{numbers(2.0 * b.radius)}</radius></sphere>", COLOURS["joint"])}
-    </link>{legs}
+    </link>{"".join(_leg(b, leg) for leg in b.legs)}
   </model>
 </sdf>
 """
@@ -100,7 +96,7 @@ def _leg(b: Bodies, leg: Leg) -> str:
     </joint>"""
 
 
-def _pose(at: Iterable[float], rpy: Angles = LEVEL) -> str:
+def _pose(at: Iterable[float], rpy: Iterable[float] = LEVEL) -> str:
     return f"<pose>{numbers(at)} {numbers(rpy)}</pose>"
 
 
@@ -120,12 +116,14 @@ def _bars(b: Bodies, joints: Iterable[Floats]) -> str:
     )
 
 
-def _cylinder(name: str, middle: Iterable[float], rpy: Angles, radius: float, length: float, colour: str) -> str:
+def _cylinder(
+    name: str, middle: Iterable[float], rpy: Iterable[float], radius: float, length: float, colour: str
+) -> str:
     shape = f"<cylinder><radius>{numbers(radius)}</radius><length>{numbers(length)}</length></cylinder>"
     return _visual(name, middle, rpy, shape, colour)
 
 
-def _visual(name: str, at: Iterable[float], rpy: Angles, shape: str, colour: str) -> str:
+def _visual(name: str, at: Iterable[float], rpy: Iterable[float], shape: str, colour: str) -> str:
     return f"""<visual name="{name}">
         {_pose(at, rpy)}
         <geometry>{shape}</geometry>

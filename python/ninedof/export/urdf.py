@@ -15,16 +15,15 @@ from ninedof.export.bodies import (
     LEG_MASS,
     LEVEL,
     PLATFORM_MASS,
-    Angles,
     Bodies,
     Leg,
     angles,
+    ball_inertia,
     bars,
     bodies_of,
-    length_words,
+    frame_along,
     numbers,
     pointing,
-    rotation_of,
 )
 from ninedof.export.model import Format, Model
 from ninedof.support.arrays import Floats
@@ -39,15 +38,14 @@ CROSS = 0.02  # mass of the part between two axes of a joint, by that of a cylin
 
 def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS) -> str:
     """Return the URDF text of a design; masses in kg."""
-    b, unit = bodies_of(model, leg_mass, platform_mass), length_words(model)
-    legs = "".join(_leg(b, leg) for leg in b.legs)
+    b = bodies_of(model, leg_mass, platform_mass)
     return f"""<?xml version="1.0"?>
 <robot name={quoteattr(model.name)}>
-  <!-- The nine-degree-of-freedom manipulator as a tree, written by ninedof. Lengths: {unit}; masses: kilograms.
+  <!-- The nine-degree-of-freedom manipulator as a tree, written by ninedof. Lengths: {b.unit}; masses: kilograms.
        Its loops are in the file of the same name that ends in {TABLE}: without them the legs hang free.
        All joints at zero is the neutral configuration; a slide reads the length of its leg less the neutral one. -->
   <mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>
-{_link("base", *_bars(b, b.base.values()))}{legs}{_platform(b)}
+{_link("base", *_bars(b, b.base.values()))}{"".join(_leg(b, leg) for leg in b.legs)}{_platform(b)}
 {_point("O", b.point_mass, 2.0 * b.radius)}
 {_joint("q1_O", "fixed", "q1_rod", "O")}
 </robot>
@@ -56,16 +54,18 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
 
 def table(model: Model) -> str:
     """Return the table of the loops, JSON."""
-    b = bodies_of(model)
-    zero = [0.0, 0.0, 0.0]
-    legs, loops = [], []
-    for leg in b.legs:
-        ends = {"length_at_zero": leg.length, "shortest": leg.shortest, "longest": leg.longest}
-        legs.append({"name": leg.name, "joint": f"{leg.name}_slide"} | ends)
-        if leg.name not in CARRIERS:
-            at = b.platform[leg.tip_joint] if leg.tip == "platform" else zero
-            first = {"name": leg.name, "link_1": f"{leg.name}_rod", "point_1": zero}
-            loops.append(first | {"link_2": leg.tip, "point_2": at})
+    b, zero = bodies_of(model), [0.0, 0.0, 0.0]
+    legs = [
+        {"name": leg.name, "joint": f"{leg.name}_slide"}
+        | {"length_at_zero": leg.length, "shortest": leg.shortest, "longest": leg.longest}
+        for leg in b.legs
+    ]
+    loops = [
+        {"name": leg.name, "link_1": f"{leg.name}_rod", "point_1": zero}
+        | {"link_2": leg.tip, "point_2": b.platform.get(leg.tip_joint, zero)}
+        for leg in b.legs
+        if leg.name not in CARRIERS
+    ]
     contents = {
         "format": MARK,
         "robot": model.name,
@@ -79,9 +79,7 @@ def table(model: Model) -> str:
 
 def _leg(b: Bodies, leg: Leg) -> str:
     """Return two axes across the leg, the cylinder, and the rod, whose frame is at its tip."""
-    at, along = leg.start, leg.direction
-    if leg.root == "platform":
-        at, along = b.platform[leg.root_joint], along @ b.rotation
+    at, along = b.root_of(leg)
     n, low, high = leg.name, leg.shortest - leg.length, leg.longest - leg.length
     slide = f"""<origin xyz="0 0 {numbers(leg.length)}"/>
     <axis xyz="0 0 1"/>
@@ -98,7 +96,7 @@ def _leg(b: Bodies, leg: Leg) -> str:
 def _platform(b: Bodies) -> str:
     """Return three axes of the platform at the tip of leg l1, the plate, and the frame of the platform at p."""
     first = b.platform["platform_external1"]
-    turn = rotation_of(pointing(b.legs[0].direction)).T @ b.rotation  # the platform's axes, seen from the rod
+    turn = frame_along(b.legs[0].direction).T @ b.rotation  # the platform's axes, seen from the rod
     small, joints = CROSS * b.part_mass, [at - first for at in b.platform.values()]
     return f"""
 {_axis("platform_turn1", "l1_rod", "platform_cross1", "1 0 0", rpy=angles(turn))}
@@ -142,12 +140,11 @@ def _strut(b: Bodies, leg: Leg, name: str, middle: float, radius: float, colour:
 
 def _point(name: str, mass: float, radius: float) -> str:
     """Return a link that is a ball."""
-    square = 0.4 * mass * radius**2
     ball = f"""<visual>
       <geometry><sphere radius="{numbers(radius)}"/></geometry>
       <material name="joint"><color rgba="{COLOURS["joint"]}"/></material>
     </visual>"""
-    return _link(name, _inertial(LEVEL, mass, (square, square)), ball)
+    return _link(name, _inertial(LEVEL, mass, ball_inertia(mass, radius)), ball)
 
 
 def _bars(b: Bodies, joints: Iterable[Floats]) -> list[str]:
@@ -164,7 +161,9 @@ def _inertial(centre: Iterable[float], mass: float, inertia: tuple[float, float]
     </inertial>"""
 
 
-def _cylinder(middle: Iterable[float], rpy: Angles, radius: float, length: float, material: str, colour: str) -> str:
+def _cylinder(
+    middle: Iterable[float], rpy: Iterable[float], radius: float, length: float, material: str, colour: str
+) -> str:
     return f"""<visual>
       <origin xyz="{numbers(middle)}" rpy="{numbers(rpy)}"/>
       <geometry><cylinder radius="{numbers(radius)}" length="{numbers(length)}"/></geometry>
