@@ -72,14 +72,6 @@ def _round_up(value: float) -> float:
     return float(f"{step * math.ceil(value / step):.2g}")
 
 
-class Side(NamedTuple):
-    """A side of a hexagonal plate, and the two joints that it connects."""
-
-    name: str
-    start: Floats
-    end: Floats
-
-
 class Plate(NamedTuple):
     """One plate, seen from +z of its frame."""
 
@@ -88,8 +80,8 @@ class Plate(NamedTuple):
     """E1 E2 E3, the external ones, and I1 I2 I3, the internal ones; shape (3,)."""
     outline: Floats
     """Corners of the convex hull of the joints in plan, shape (n, 2); none where they lie on a line in plan."""
-    sides: list[Side]
-    """a1 and a2, or b1 and b2, where the plate is a hexagon of the paper; without those of length 0."""
+    sides: dict[str, tuple[Floats, Floats]]
+    """The ends of a1 and a2, or b1 and b2, where the plate is a hexagon of the paper; without those of length 0."""
     radii: list[float]
     """Of the circles about the origin on which the external and the internal joints lie, where they do; each once."""
 
@@ -111,38 +103,28 @@ def _plate(title: str, external: Floats, internal: Floats, names: tuple[str, str
     joints = {f"{kind}{i + 1}": row for kind, rows in (("E", external), ("I", internal)) for i, row in enumerate(rows)}
     flat = np.vstack([external, internal]) * [1.0, 1.0, 0.0]
     faces = outlines(flat) if np.ptp(flat) > 0.0 else []
-    outline = faces[0][:, :2] if faces else np.empty((0, 2))
-    return Plate(title, joints, outline, _sides(external, internal, names), _radii(external, internal))
+    radii: list[float] = []
+    for circle in np.linalg.norm(flat.reshape(2, 3, 3)[..., :2], axis=2):
+        same = SAME * float(circle.max())
+        if np.ptp(circle) <= same and not any(abs(circle[0] - other) <= same for other in radii):
+            radii.append(float(circle[0]))
+    return Plate(
+        title, joints, faces[0][:, :2] if faces else np.empty((0, 2)), _sides(external, internal, names), radii
+    )
 
 
-def _sides(external: Floats, internal: Floats, names: tuple[str, str]) -> list[Side]:
+def _sides(external: Floats, internal: Floats, names: tuple[str, str]) -> dict[str, tuple[Floats, Floats]]:
     """Return the sides of a hexagon: the first to the internal joint of the same number, the second to the one before.
 
     The joints lie on one circle about the origin in one plane z = constant, and each of the two sides has one length.
     """
-    before = np.roll(internal, 1, axis=0)
-    all_joints = np.vstack([external, internal])
-    distances = [np.linalg.norm(external - other, axis=1) for other in (internal, before)]
-    scale = SAME * float(np.abs(all_joints).max())
-    on_one = [np.linalg.norm(all_joints[:, :2], axis=1), all_joints[:, 2], *distances]
-    if any(np.ptp(values) > scale for values in on_one):
-        return []
-    ends = (internal[0], before[0])
-    return [
-        Side(name, external[0], end)
-        for name, length, end in zip(names, distances, ends, strict=True)
-        if length[0] > scale
-    ]
-
-
-def _radii(external: Floats, internal: Floats) -> list[float]:
-    circles: list[float] = []
-    for joints in (external, internal):
-        radii = np.linalg.norm(joints[:, :2], axis=1)
-        limit = SAME * float(radii.max())
-        if np.ptp(radii) <= limit and not any(abs(radii[0] - other) <= limit for other in circles):
-            circles.append(float(radii[0]))
-    return circles
+    others, joints = (internal, np.roll(internal, 1, axis=0)), np.vstack([external, internal])
+    lengths = [np.linalg.norm(external - other, axis=1) for other in others]
+    scale = SAME * float(np.abs(joints).max())
+    if any(np.ptp(values) > scale for values in (np.linalg.norm(joints[:, :2], axis=1), joints[:, 2], *lengths)):
+        return {}
+    sides = zip(names, others, lengths, strict=True)
+    return {name: (external[0], other[0]) for name, other, length in sides if length[0] > scale}
 
 
 class _Drawing:
@@ -153,16 +135,14 @@ class _Drawing:
 
     def plate(self, plate: Plate, bottom: float) -> None:
         """Draw a plate, and its table of coordinates below y = bottom."""
-        if len(plate.outline):
-            self.space.add_lwpolyline(
-                (plate.outline + self.origin).tolist(), close=True, dxfattribs={"layer": "OUTLINE"}
-            )
+        if len(corners := plate.outline + self.origin):
+            self.space.add_lwpolyline(corners.tolist(), close=True, dxfattribs={"layer": "OUTLINE"})
         self._axes(0.25 * plate.size)
         for radius in plate.radii:
             self.space.add_circle(self.origin, radius, dxfattribs={"layer": "CENTRE"})
         self._joints(plate)
-        for side in plate.sides:
-            self._side(side)
+        for name, ends in plate.sides.items():
+            self._side(name, *ends)
         for radius, angle in zip(plate.radii, np.degrees(_free_angles(plate)), strict=False):
             self.space.add_radius_dim(center=self.origin, radius=radius, angle=angle, **_STYLED).render()
         self._table(plate, bottom)
@@ -175,11 +155,11 @@ class _Drawing:
 
     def _joints(self, plate: Plate) -> None:
         """Draw a circle at each centre, one where joints coincide, and its name, toward the origin if there is room."""
-        shared: dict[tuple[float, ...], list[str]] = {}
+        centres: dict[tuple[float, ...], list[str]] = {}
         for name, joint in plate.joints.items():
-            near = next((at for at in shared if np.linalg.norm(joint - at) <= 1e-9 * plate.size), None)
-            shared.setdefault(near or tuple(joint.tolist()), []).append(name)
-        for at, names in shared.items():
+            near = next((at for at in centres if np.linalg.norm(joint - at) <= SAME * plate.size), None)
+            centres.setdefault(near or tuple(joint.tolist()), []).append(name)
+        for at, names in centres.items():
             centre, label = np.array(at[:2]), " ".join(names)
             self.space.add_circle(self.origin + centre, 0.4 * self.height, dxfattribs={"layer": "JOINTS"})
             reach, radius = self.height * (1.2 + 0.75 * len(label)), float(np.linalg.norm(centre))
@@ -187,19 +167,16 @@ class _Drawing:
             step = -reach if reach < 0.4 * radius else reach
             self._text(label, self.origin + centre + step * away, "TEXT", "MIDDLE_CENTER")
 
-    def _side(self, side: Side) -> None:
+    def _side(self, name: str, start: Floats, end: Floats) -> None:
         """Dimension a side, on the side away from the origin."""
-        a, b = sorted([side.start[:2], side.end[:2]], key=lambda end: end.round(9).tolist())  # words left to right
+        a, b = sorted([start[:2], end[:2]], key=lambda point: point.round(9).tolist())  # words left to right
         left = np.array([a[1] - b[1], b[0] - a[0]])
         outward = left * math.copysign(1.0, left @ (a + b)) / np.linalg.norm(left)
         distance = 4.0 * self.height * math.copysign(1.0, left @ outward)
-        words, length = f"{side.name} = <>", float(np.linalg.norm(b - a))
-        dimension = self.space.add_aligned_dim(
-            p1=self.origin + a, p2=self.origin + b, distance=distance, text=words, **_STYLED
-        )
-        if length < self.height * (len(words) + self.decimals):  # no room between the extension lines
-            beyond = 5.4 * self.height
-            dimension.set_location(self.origin + 0.5 * (a + b) + beyond * outward)
+        words, ends = f"{name} = <>", {"p1": self.origin + a, "p2": self.origin + b}
+        dimension = self.space.add_aligned_dim(**ends, distance=distance, text=words, **_STYLED)
+        if np.linalg.norm(b - a) < self.height * (len(words) + self.decimals):  # no room between the extension lines
+            dimension.set_location(self.origin + 0.5 * (a + b) + 5.4 * self.height * outward)
         dimension.render()
 
     def _table(self, plate: Plate, bottom: float) -> None:
@@ -210,8 +187,9 @@ class _Drawing:
         place = "" if x == 0.0 else f"; its origin is at x = {x:g} of the drawing"
         heads = ["joint", *(with_unit(axis, self.unit) for axis in "xyz")]
         rows = [
-            [f"{name}  {JOINT_WORDS[name[0]]} {name[1]}", *(f"{value:.{self.decimals}f}" for value in rounded)]
-            for name, rounded in ((name, joint.round(self.decimals) + 0.0) for name, joint in plate.joints.items())
+            [f"{name}  {JOINT_WORDS[name[0]]} {name[1]}"]
+            + [f"{value:.{self.decimals}f}" for value in joint.round(self.decimals) + 0.0]
+            for name, joint in plate.joints.items()
         ]
         self._text(f"{plate.title} from +z, in its own frame{place}", start, "TEXT", "LEFT", scale=1.2)
         for k, row in enumerate([heads, *rows], start=1):
@@ -233,7 +211,7 @@ def _free_angles(plate: Plate) -> Floats:
     angles = np.unique([round(math.atan2(y, x) % math.tau, 9) for x, y, _ in plate.joints.values()])
     gaps = np.diff(np.append(angles, angles[0] + math.tau))
     middles = angles + 0.5 * gaps
-    outward = [(side.start + side.end)[:2] for side in plate.sides]
+    outward = [(start + end)[:2] for start, end in plate.sides.values()]
     beside_sides = [any(np.cos(angle - math.atan2(y, x)) > 0.99 for x, y in outward) for angle in middles]
     beside_axes = -np.abs(np.sin(2.0 * middles)).round(6)
     return np.asarray(middles[np.lexsort((beside_axes, -gaps.round(6), np.array(beside_sides)))])

@@ -22,11 +22,10 @@ SYMBOLS = {
     "platform_internal": r"\tilde{\mathbf{u}}",
 }
 """The joints as in the paper, vectors bold: the letter r is a joint there and the length of a leg."""
-SPECIAL = {c: "\\" + c for c in "&%$#_{}"} | {
-    "\\": r"\textbackslash{}",
-    "~": r"\textasciitilde{}",
-    "^": r"\textasciicircum{}",
-}
+SPECIAL = str.maketrans(
+    {c: "\\" + c for c in "&%$#_{}"}
+    | {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
+)
 AXES = ("$x$", "$y$", "$z$")
 DIGITS = 6  # of the largest number of a column
 
@@ -39,21 +38,25 @@ def text(model: Model) -> str:
     return "\n".join([HEAD.format(title=model.name), *tables])
 
 
-def escaped(words: str) -> str:
+def escape(words: str) -> str:
     """Return words with the characters that LaTeX treats as commands written so that it prints them."""
-    return "".join(SPECIAL.get(c, c) for c in words)
+    return words.translate(SPECIAL)
 
 
 def _joints(model: Model) -> str:
     numbers = _columns([*model.own_frame.values()])
     rows = [[_joint_words(name), *row] for name, row in zip(JOINTS, numbers, strict=True)]
-    heads = [with_unit("joint", model.unit), *AXES]
-    return _tabular("Joints in the frame of their plate", "lrrr", [_row(heads)], rows, after=(3, 6, 9))
+    return _tabular("Joints in the frame of their plate", "lrrr", [with_unit("joint", model.unit), *AXES], rows)
 
 
 def _joint_words(name: str) -> str:
+    return f"{name[:-2].replace('_', ' ')} {_symbol(name)}"
+
+
+def _symbol(name: str) -> str:
+    """Return the symbol of a joint, or that of O."""
     kind, _, number = name.rpartition("_")
-    return f"{kind.replace('_', ' ')} ${SYMBOLS[kind]}_{number}$"
+    return f"${SYMBOLS[kind]}_{number}$" if kind else f"${name}$"
 
 
 def _pose(model: Model) -> str:
@@ -63,28 +66,20 @@ def _pose(model: Model) -> str:
     labels = [*words.values(), *(rf"row {i} of $\mathbf{{Q}}$" for i in (1, 2, 3))]
     numbers = [*_columns([model.base_frame[name] for name in words]), *_columns(list(model.configuration.rotation))]
     rows = [[label, *row] for label, row in zip(labels, numbers, strict=True)]
-    heads = [with_unit("point", model.unit), *AXES]
-    return _tabular("Neutral pose in the base frame", "lrrr", [_row(heads)], rows, after=(2, 5, 8))
+    return _tabular("Neutral pose in the base frame", "lrrr", [with_unit("point", model.unit), *AXES], rows, first=2)
 
 
 def _legs(model: Model) -> str:
-    heads = ["neutral"]
-    lengths = [[float(x)] for x in model.neutral_lengths]
+    heads, lengths = ["neutral"], [[float(x)] for x in model.neutral_lengths]
     if model.leg_ranges:
         heads += ["shortest", "longest", "stroke"]
         lengths = [[x, a, b, b - a] for (x,), (a, b) in zip(lengths, model.leg_ranges, strict=True)]
-    numbers = _columns(lengths)
     rows = [
-        [f"${leg[0]}_{leg[1]}$", _end_symbol(a), _end_symbol(b), *row]
-        for (leg, a, b), row in zip(LEGS, numbers, strict=True)
+        [f"${leg[0]}_{leg[1]}$", _symbol(a), _symbol(b), *row]
+        for (leg, a, b), row in zip(LEGS, _columns(lengths), strict=True)
     ]
-    header = _row([with_unit("leg", model.unit), "from", "to", *heads])
-    return _tabular("Legs: lengths", "lll" + "r" * len(heads), [header], rows, after=(3, 6))
-
-
-def _end_symbol(name: str) -> str:
-    kind, _, number = name.rpartition("_")
-    return f"${SYMBOLS[kind]}_{number}$" if kind else f"${name}$"
+    heads = [with_unit("leg", model.unit), "from", "to", *heads]
+    return _tabular("Legs: lengths", "lll" + "r" * (len(heads) - 3), heads, rows)
 
 
 def _limits(limits: Sequence[LimitRow], unit: str) -> str:
@@ -92,8 +87,8 @@ def _limits(limits: Sequence[LimitRow], unit: str) -> str:
     for one in limits:
         margin = f"${margin_words(one.margin, one.unit).replace(' %', percent)}$"
         sign = r"$\geq$" if one.side == "min" else r"$\leq$"
-        rows.append([escaped(one.name), sign, *(_measure(one, x, unit) for x in (one.limit, one.value)), margin])
-    return _tabular("Limits of the study", "lcrrr", [_row(["limit", "", "allowed", "here", "margin"])], rows)
+        rows.append([escape(one.name), sign, *(_measure(one, x, unit) for x in (one.limit, one.value)), margin])
+    return _tabular("Limits of the study", "lcrrr", ["limit", "", "allowed", "here", "margin"], rows, len(rows))
 
 
 def _measure(row: LimitRow, value: float, unit: str) -> str:
@@ -114,13 +109,11 @@ def _row(entries: Sequence[str]) -> str:
     return " & ".join(entries) + r" \\"
 
 
-def _tabular(
-    title: str, columns: str, header: Sequence[str], rows: Sequence[Sequence[str]], after: Sequence[int] = ()
-) -> str:
-    """Return a table, with space after the rows of the given counts."""
-    lines = [f"% {title}", rf"\begin{{tabular}}{{{columns}}}", r"\toprule", *header, r"\midrule"]
+def _tabular(title: str, columns: str, heads: Sequence[str], rows: Sequence[Sequence[str]], first: int = 3) -> str:
+    """Return a table, with space after the first rows and then after each three, but the last."""
+    lines = [f"% {title}", rf"\begin{{tabular}}{{{columns}}}", r"\toprule", _row(heads), r"\midrule"]
     for count, row in enumerate(rows, start=1):
-        lines += [_row(row), *[r"\addlinespace"] * (count in after)]
+        lines += [_row(row), *[r"\addlinespace"] * (first <= count < len(rows) and (count - first) % 3 == 0)]
     return "\n".join([*lines, r"\bottomrule", r"\end{tabular}", ""])
 
 

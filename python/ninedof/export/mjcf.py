@@ -7,6 +7,7 @@ robot and nine spins of the legs about themselves.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
@@ -16,10 +17,12 @@ import numpy as np
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.export.bodies import COLOURS, LEG_MASS, PLATFORM_MASS, Bodies, Leg, bodies_of, numbers
 from ninedof.export.model import Fields, Format, Model, from_metres
+from ninedof.motion.rotations import from_quaternions
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.support.arguments import finite, shown
 from ninedof.support.arrays import Floats
+from ninedof.support.files import finite_or_nan
 from ninedof.support.units import unit_argument
 
 MARK = "ninedof-mjcf-1"
@@ -36,13 +39,12 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
     b, down, length = bodies_of(model, leg_mass, platform_mass), finite("gravity", gravity), model.characteristic_length
     legs = {root: "".join(_leg(b, leg) for leg in b.legs if leg.root == root) for root in ("base", "platform")}
     (across, normal), (ball, _) = b.platform_inertia, b.point_inertia
-    slides = "".join(
-        f"""
-      <joint name="O_{axis}" type="slide" axis="{direction}" ref="{numbers(at)}"/>"""
-        for axis, direction, at in zip("xyz", ("1 0 0", "0 1 0", "0 0 1"), b.internal_point, strict=True)
+    slides = "\n      ".join(
+        f'<joint name="O_{axis}" type="slide" axis="{numbers(direction)}" ref="{numbers(at)}"/>'
+        for axis, direction, at in zip("xyz", np.eye(3), b.internal_point, strict=True)
     )
-    ends = "\n".join(
-        f"""    <connect name="{leg.name}_end" site1="{leg.name}_tip" site2="{leg.tip_joint}"/>""" for leg in b.legs
+    ends = "\n    ".join(
+        f'<connect name="{leg.name}_end" site1="{leg.name}_tip" site2="{leg.tip_joint}"/>' for leg in b.legs
     )
     return f"""<mujoco model={quoteattr(model.name)}>
   <!-- The nine-degree-of-freedom manipulator, written by ninedof. Lengths: {b.unit}; masses: kilograms.
@@ -72,7 +74,8 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
     <light pos="{numbers([*b.position[:2], 3 * _extent(b)])}" dir="0 0 -1" castshadow="false"/>
     <geom name="base" type="mesh" mesh="base" rgba="{PLATE}"/>
     {_sites(b.base)}{legs["base"]}
-    <body name="O" pos="{numbers(b.internal_point)}">{slides}
+    <body name="O" pos="{numbers(b.internal_point)}">
+      {slides}
       <inertial pos="0 0 0" mass="{numbers(b.point_mass)}" diaginertia="{numbers([ball] * 3)}"/>
       <geom name="O" type="sphere" size="{numbers(2.2 * b.radius)}" rgba="{COLOURS["joint"]}"/>
       <site name="O"/>
@@ -86,10 +89,10 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
     </body>
   </worldbody>
   <equality>
-{ends}
+    {ends}
   </equality>
   <actuator>
-{_actuators(b)}
+    {_actuators(b)}
   </actuator>
   <sensor>
     <framepos name="position" objtype="xbody" objname="platform"/>
@@ -125,8 +128,8 @@ def _leg(b: Bodies, leg: Leg) -> str:
 
 def _actuators(b: Bodies) -> str:
     kp, kv = STIFFNESS * b.part_mass / TIMESTEP**2, DAMPING * b.part_mass / TIMESTEP
-    return "\n".join(
-        f'    <position name="{leg.name}" joint="{leg.name}" kp="{kp:.6g}" kv="{kv:.6g}" '
+    return "\n    ".join(
+        f'<position name="{leg.name}" joint="{leg.name}" kp="{kp:.6g}" kv="{kv:.6g}" '
         f'ctrlrange="{numbers([leg.shortest, leg.longest])}" ctrllimited="true"/>'
         for leg in b.legs
     )
@@ -167,7 +170,10 @@ def read(text: str) -> Fields:
     joints = {name: np.array([_position(sites, f"{name}{i}") for i in (1, 2, 3)]) for name in TRIPLES}
     geometry = Geometry(**{name: from_metres(points, unit) for name, points in joints.items()})
     p, s = (from_metres(_position(bodies, name), unit) for name in ("platform", "O"))
-    return geometry, Configuration(p, _rotation(bodies["platform"]), s), _length(words), unit
+    length: float | str = words.get("characteristic_length", "1.0")
+    if not math.isnan(number := finite_or_nan(str(length))):
+        length = number
+    return geometry, Configuration(p, _rotation(bodies["platform"]), s), length_argument(length), unit
 
 
 def _position(items: Mapping[str | None, ElementTree.Element], name: str) -> Floats:
@@ -177,17 +183,14 @@ def _position(items: Mapping[str | None, ElementTree.Element], name: str) -> Flo
 
 
 def _rotation(body: ElementTree.Element) -> Floats:
-    """Return Q from its first two columns, as `mjcf` writes it, or from a quaternion, as MuJoCo saves it."""
+    """Return Q from its first two columns, as `text` writes it, or from a quaternion, as MuJoCo saves it."""
     if body.get("xyaxes") is not None:
         x, y = _numbers(body, "xyaxes", 6).reshape(2, 3)
         return np.stack([x, y, np.cross(x, y)], axis=-1)
-    w, *v = _numbers(body, "quat", 4, (1.0, 0.0, 0.0, 0.0))
-    square = w * w + np.dot(v, v)
-    if not square > 0.0:
+    quaternion = _numbers(body, "quat", 4, (1.0, 0.0, 0.0, 0.0))
+    if not quaternion.any():
         raise ValueError("platform: got a quaternion of length 0, expected a rotation")
-    x, y, z = v
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(np.eye(3) + (2.0 / square) * (w * cross + cross @ cross))
+    return np.asarray(from_quaternions(quaternion[None])[0])
 
 
 def _numbers(item: ElementTree.Element, key: str, count: int, default: tuple[float, ...] | None = None) -> Floats:
@@ -198,14 +201,6 @@ def _numbers(item: ElementTree.Element, key: str, count: int, default: tuple[flo
         return np.array([float(part) for part in (text or "").split()]).reshape(count)
     except ValueError:
         raise ValueError(f"{item.get('name')}: got {key}={shown(text)}, expected {count} numbers") from None
-
-
-def _length(words: Mapping[str | None, str]) -> float | str:
-    length = words.get("characteristic_length", "1.0")
-    try:
-        return length_argument(float(length))
-    except ValueError:
-        return length_argument(length)
 
 
 FORMAT = Format("mjcf", ".xml", "MuJoCo model with closed loops and nine actuators", text, read)

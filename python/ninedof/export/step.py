@@ -110,13 +110,13 @@ class Entities:
         )
 
     def _length_unit(self, unit: str) -> str:
-        metric = f"(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT({PREFIXES.get(unit, PREFIXES[ASSUMED])},.METRE.))"
-        known = self.add(metric)
+        prefix = PREFIXES.get(unit, PREFIXES[ASSUMED])
+        metric = self.add(f"(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT({prefix},.METRE.))")
         if unit in PREFIXES:
-            return known
+            return metric
         name, millimetres = CONVERTED[unit]
         power = self.add("DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)")
-        factor = self.add(f"LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({_real(millimetres)}),{known})")
+        factor = self.add(f"LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({_real(millimetres)}),{metric})")
         return self.add(f"(CONVERSION_BASED_UNIT('{name}',{factor})LENGTH_UNIT()NAMED_UNIT({power}))")
 
     def product(self, name: str) -> str:

@@ -1,4 +1,4 @@
-"""Which legs never move."""
+"""Legs that never move."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ IDLE: float = _core.idle_share
 
 def idle_legs(lengths: Floats) -> NDArray[np.bool_]:
     """Return which legs have the same length at all poses, of which there are several; lengths (n, 9)."""
-    found = np.array(_core.idle_legs(lengths.min(axis=0), lengths.max(axis=0)))
-    return np.asarray(found & (len(lengths) > 1))
+    return np.asarray(_core.idle_legs(lengths.min(axis=0), lengths.max(axis=0))) & (len(lengths) > 1)
 
 
 def idle_names(lengths: Floats) -> tuple[str, ...]:

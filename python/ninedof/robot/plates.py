@@ -14,11 +14,11 @@ _TOLERANCE = 1e-9  # relative to the size of the plate
 def distinct(points: Floats) -> Floats:
     """Return the points without those that coincide with an earlier one, such as coupled joints."""
     size = float(np.ptp(points, axis=0).max())
-    kept: list[Floats] = []
+    out: list[Floats] = []
     for point in points:
-        if all(np.linalg.norm(point - other) > _TOLERANCE * size for other in kept):
-            kept.append(point)
-    return np.array(kept)
+        if all(np.linalg.norm(point - other) > _TOLERANCE * size for other in out):
+            out.append(point)
+    return np.array(out)
 
 
 def outlines(joints: Floats) -> list[Floats]:

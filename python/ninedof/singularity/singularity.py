@@ -132,10 +132,10 @@ def singularity(geometry: Geometry, configuration: Configuration, threads: int |
     --------
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
-    >>> found = nd.singularity(g, nd.Configuration.neutral(3.9828, 0.0))
-    >>> found.mechanism
+    >>> weakest = nd.singularity(g, nd.Configuration.neutral(3.9828, 0.0))
+    >>> weakest.mechanism
     <Mechanism.B: 'b'>
-    >>> bool(abs(found.sdot[2]) > 1.0)
+    >>> bool(abs(weakest.sdot[2]) > 1.0)
     True
 
     """

@@ -81,8 +81,8 @@ def distance_to_singularity(
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> c = nd.Configuration.neutral(3.9828, 2.4432)
-    >>> found = nd.distance_to_singularity(g, c, [0, 0, 0, 0, 0, 0, 0, 0, -1.0], most=5.0)
-    >>> round(float(found.distance), 10), found.mechanism
+    >>> ahead = nd.distance_to_singularity(g, c, [0, 0, 0, 0, 0, 0, 0, 0, -1.0], most=5.0)
+    >>> round(float(ahead.distance), 10), ahead.mechanism
     (2.4432, <Mechanism.B: 'b'>)
 
     """
@@ -156,8 +156,8 @@ def nearest_singularity(
 
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
-    >>> found = nd.nearest_singularity(g, nd.Configuration.neutral(3.9828, 2.4432), "internal_point")
-    >>> round(found.distance, 6), found.mechanism
+    >>> nearest = nd.nearest_singularity(g, nd.Configuration.neutral(3.9828, 2.4432), "internal_point")
+    >>> round(nearest.distance, 6), nearest.mechanism
     (1.5396, <Mechanism.C: 'c'>)
 
     """

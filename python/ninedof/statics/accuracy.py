@@ -96,8 +96,8 @@ def error_bounds(
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=0.58124, b1=0.29062, b2=0.0)
     >>> c = nd.Configuration.neutral(0.39828, 0.24432)
-    >>> found = nd.error_bounds(g, c, leg_errors=10e-6, joint_errors=20e-6)  # metres
-    >>> print(f"{1e6 * found.position:.1f} um, {1e3 * found.rotation:.3f} mrad")
+    >>> bounds = nd.error_bounds(g, c, leg_errors=10e-6, joint_errors=20e-6)  # metres
+    >>> print(f"{1e6 * bounds.position:.1f} um, {1e3 * bounds.rotation:.3f} mrad")
     152.5 um, 1.284 mrad
 
     """
@@ -162,13 +162,11 @@ def error_samples(
 
     """
     single(geometry, configuration)
-    count = whole("samples", samples, 0, MOST_SAMPLES)
-    key = whole("seed", seed, 0)
-    workers = thread_argument(threads)
-    shape, flat, tolerances = _with_tolerances(geometry, configuration, leg_errors, joint_errors)
+    count, key = whole("samples", samples, 0, MOST_SAMPLES), whole("seed", seed, 0)
+    shape, poses, tolerances = _with_tolerances(geometry, configuration, leg_errors, joint_errors)
     if shape:
         raise ValueError(f"leg_errors, joint_errors: got a stack of shape {shape}, expected those of one robot")
-    return _core.error_samples(*flat, tolerances, count, key, workers)
+    return _core.error_samples(*poses, tolerances, count, key, thread_argument(threads))
 
 
 def _with_tolerances(

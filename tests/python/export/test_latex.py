@@ -64,7 +64,7 @@ def test_limits_and_ranges_of_a_result():
 
 
 def test_special_characters_are_escaped():
-    assert latex.escaped("50 % of a_1 & {b} $c^2$ ~ #\\") == (
+    assert latex.escape("50 % of a_1 & {b} $c^2$ ~ #\\") == (
         r"50 \% of a\_1 \& \{b\} \$c\textasciicircum{}2\$ \textasciitilde{} \#\textbackslash{}"
     )
 
