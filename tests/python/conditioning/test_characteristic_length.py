@@ -108,12 +108,6 @@ def test_singular_and_missing_poses_do_not_spoil_a_stack(published, kind):
     assert np.isnan(found[2])
 
 
-@pytest.mark.parametrize("kind", ["", "mean leg", "OPTIMAL", None, 1, 1.0], ids=repr)
-def test_bad_kind(published, neutral, kind):
-    with pytest.raises(ValueError, match=r"^kind: got .+, expected .+"):
-        nd.characteristic_length(published, neutral, kind)
-
-
 def test_a_wrong_kind_is_named_by_the_argument_that_has_it(published):
     with pytest.raises(
         ValueError, match="characteristic_length: got 'mean', expected one of optimal, natural, mean_leg"

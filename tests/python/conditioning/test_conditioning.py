@@ -242,7 +242,9 @@ def test_characteristic_lengths_in_out(published, stack):
     [
         ([0.0] * 5, "got 'list'"),
         (np.zeros(4), r"got shape \(4,\)"),
+        (np.zeros((1, 5)), r"got shape \(1, 5\)"),
         (np.zeros(5, np.float32), "got dtype float32"),
+        (np.zeros(5, ">f8"), "got dtype >f8"),
         (np.zeros(10)[::2], r"got strides \(16,\)"),
         (np.broadcast_to(np.zeros(5), 5), "got a read-only array"),
         (np.frombuffer(bytearray(41), np.uint8)[1:].view(np.float64), "got a misaligned array"),

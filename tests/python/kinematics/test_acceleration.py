@@ -216,28 +216,3 @@ def test_missing_pose_stays_alone(published):
 
 
 NAMES = ("omega", "pdot", "sdot", "alpha", "pddot", "sddot")
-
-
-@pytest.mark.parametrize("bad", [np.ones(2), np.ones((2, 3)), None, 1j * np.ones(3)], ids=range(4))
-@pytest.mark.parametrize("name", NAMES)
-def test_bad_motion(published, stack, name, bad):
-    motion = dict.fromkeys(NAMES, np.zeros(3)) | {name: bad}
-    with pytest.raises(ValueError, match=name):
-        nd.inverse_acceleration(published, stack, **motion)
-    if name in NAMES[:3]:
-        with pytest.raises(ValueError, match=name):
-            nd.jacobian_rate(published, stack, *(motion[n] for n in NAMES[:3]))
-
-
-@pytest.mark.parametrize("name", ["leg_rates", "leg_accelerations"])
-@pytest.mark.parametrize("bad", [np.ones(8), np.ones((2, 9)), None, "abc"], ids=range(4))
-def test_bad_leg_arguments(published, stack, name, bad):
-    legs = {"leg_rates": np.zeros(9), "leg_accelerations": np.zeros(9)} | {name: bad}
-    with pytest.raises(ValueError, match=name):
-        nd.forward_acceleration(published, stack, **legs)
-
-
-@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf, "metre", None, 1j, [1.0, 2.0]], ids=str)
-def test_bad_characteristic_length(published, stack, bad):
-    with pytest.raises(ValueError, match=r"(characteristic_length|kind): got"):
-        nd.jacobian_rate(published, stack, *np.eye(3), bad)

@@ -207,34 +207,3 @@ def test_singular_configuration_has_no_jacobian(published):
     assert np.isnan(nd.forward_velocity(published, c, np.ones(9))[0][0]).all()
     assert np.isfinite(nd.leg_lengths(published, c)).all()
     assert np.isfinite(nd.inverse_velocity(published, c, [1, 0, 0], [0, 1, 0], [0, 0, 1])).all()
-
-
-@pytest.mark.parametrize("bad", [np.ones(8), np.ones((2, 9)), None, "abc", np.ones(9) * 1j, [["1"] * 9]], ids=range(6))
-def test_bad_leg_rates(published, stack, bad):
-    with pytest.raises(ValueError, match="leg_rates"):
-        nd.forward_velocity(published, stack, bad)
-
-
-@pytest.mark.parametrize("name", ["omega", "pdot", "sdot"])
-def test_bad_velocity(published, stack, name):
-    for bad in (np.ones(2), np.ones((2, 3)), "fast", 1j * np.ones(3), *([] if name == "sdot" else [None])):
-        motion = dict.fromkeys(("omega", "pdot", "sdot"), np.zeros(3)) | {name: bad}
-        with pytest.raises(ValueError, match=name):
-            nd.inverse_velocity(published, stack, **motion)
-
-
-@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf, "metre", None, 1j, [1.0, 2.0], [1, 1, 1, 1, -1]], ids=str)
-@pytest.mark.parametrize("function", [nd.jacobian, nd.velocity_matrices], ids=["jacobian", "velocity_matrices"])
-def test_bad_characteristic_length(published, stack, function, bad):
-    with pytest.raises(ValueError, match=r"(characteristic_length|kind): got"):
-        function(published, stack, bad)
-
-
-@pytest.mark.parametrize("arguments", [(None, None), ("g", "c"), (1, 2)])
-def test_wrong_objects_are_named(published, neutral, arguments):
-    """The message names a swapped or missing argument."""
-    wrong_geometry, wrong_configuration = arguments
-    with pytest.raises((TypeError, ValueError), match="geometry"):
-        nd.leg_lengths(wrong_geometry, neutral)
-    with pytest.raises((TypeError, ValueError), match="configuration"):
-        nd.leg_lengths(published, wrong_configuration)

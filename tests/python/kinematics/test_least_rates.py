@@ -156,24 +156,3 @@ def test_missing_pose_stays_alone(published):
     one = nd.internal_velocity(published, c[0], [[1, 0, 0], [np.nan, 0, 0]], [0, 1, 0])
     assert np.isfinite(one[0]).all()
     assert np.isnan(one[1]).all()
-
-
-@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
-def test_invalid_weight(published, neutral, bad):
-    weights = np.ones((3, 9))
-    weights[1, 4] = bad
-    for function in (nd.internal_velocity, lambda *a: nd.inverse_velocity(*a[:4], weights=a[4])):
-        with pytest.raises(ValueError, match=r"^weights: got .+, expected .+"):
-            function(published, neutral, [0, 0, 1], [0, 0, 0], weights)
-
-
-def test_bad_arguments(published, stack, neutral):
-    for bad in (np.ones(3), np.ones((2, 9)), "heavy", 1j * np.ones(9)):
-        with pytest.raises(ValueError, match="weights"):
-            nd.internal_velocity(published, stack, [0, 0, 1], [0, 0, 0], bad)
-    with pytest.raises(ValueError, match=r"^weights: got .+, expected .+"):
-        nd.inverse_velocity(published, neutral, [0, 0, 1], [0, 0, 0], [0, 0, 0], np.ones(9))
-    for name in ("omega", "pdot"):
-        motion = dict.fromkeys(("omega", "pdot"), np.zeros(3)) | {name: np.ones(2)}
-        with pytest.raises(ValueError, match=name):
-            nd.internal_velocity(published, neutral, **motion)

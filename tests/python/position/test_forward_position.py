@@ -487,20 +487,3 @@ def test_what_comes_back_is_a_configuration(published, neutral):
     assert (again.status, again.count) == (modes.status, modes.count)
     assert repr(modes) == "<32 assembly modes: found>"
     assert "lower internal" in repr(nd.forward_position(published, lengths * np.repeat([1.0, 0.1], [6, 3])))
-
-
-@pytest.mark.parametrize(
-    "wrong",
-    [np.ones(8), -np.ones(9), np.zeros(9), np.full(9, np.inf), np.full(9, np.nan), "abc", None, np.ones(9) * 1j],
-    ids=["eight", "negative", "zeros", "infinite", "nan", "text", "nothing", "complex"],
-)
-def test_wrong_lengths_are_named(published, wrong):
-    with pytest.raises(ValueError, match=r"^leg_lengths: got "):
-        nd.forward_position(published, wrong)
-
-
-def test_wrong_geometry_and_threads_are_named(published):
-    with pytest.raises(ValueError, match=r"^geometry: got "):
-        nd.forward_position("robot", np.ones(9))
-    with pytest.raises(ValueError, match=r"^threads: got "):
-        nd.forward_position(published, np.ones(9), threads=0)

@@ -307,17 +307,6 @@ def test_what_comes_back(published, home):
     assert (again.status, again.certificate) == (there.status, there.certificate)
 
 
-@pytest.mark.parametrize("wrong", [np.ones(8), -np.ones(9), np.full(9, np.inf), "x"], ids=str)
-def test_wrong_lengths_are_named(published, home, wrong):
-    with pytest.raises(ValueError, match=r"^leg_lengths: got "):
-        nd.track(published, wrong, home)
-
-
-def test_wrong_start_is_named(published):
-    with pytest.raises(ValueError, match=r"^start: got "):
-        nd.track(published, np.ones(9), np.ones(15))
-
-
 @pytest.mark.parametrize("plate", [1, 3], ids=["base", "platform"])
 @pytest.mark.parametrize(("width", "status"), [(1e-4, "tracked"), (1e-13, "unproved"), (1e-15, "unproved")])
 def test_a_plate_too_small_to_place_o_proves_nothing(plate, width, status):

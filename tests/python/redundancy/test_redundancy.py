@@ -282,28 +282,6 @@ def test_no_point_of_a_grid_is_better_with_limits():
 # --- Arguments --------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("name", "wrong"),
-    [
-        ("criterion", {"criterion": "best"}),
-        ("limits", {"limits": 3.0}),
-        (r"limits \(low\)", {"limits": (np.ones(4), 2.0)}),
-        ("limits of l1", {"limits": (3.0, 2.0)}),
-        ("limits of q1", {"criterion": "leg_centring"}),
-        ("characteristic_length", {"characteristic_length": 0.0}),
-        ("characteristic_length", {"characteristic_length": [1.0, 2.0]}),
-        ("criterion", {"criterion": None}),
-        ("clearance", {"clearance": 0.0}),
-        ("start", {"start": [1.0, 2.0]}),
-        ("threads", {"threads": 0}),
-        ("rotation", {"rotation": 2.0 * np.eye(3)}),
-    ],
-)
-def test_wrong_arguments_are_named(published, name, wrong):
-    with pytest.raises(ValueError, match=rf"^{name}: got "):
-        nd.best_internal_point(published, [0.0, 0.0, 3.98], **wrong)
-
-
 def test_a_symmetric_machine_does_not_flicker_along_z():
     """At its lower internal joints the condition number is below the minimum on the axis, in a few directions only."""
 

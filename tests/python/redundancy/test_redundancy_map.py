@@ -275,29 +275,3 @@ def test_same_bits_for_any_number_of_threads(published):
         assert_array_equal(other.configuration.internal_point, maps[0].configuration.internal_point)
         assert_array_equal(other.value, maps[0].value)
         assert (other.audit, other.searched, other.followed) == (maps[0].audit, maps[0].searched, maps[0].followed)
-
-
-# --- Arguments --------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("name", "wrong"),
-    [
-        ("criterion", {"criterion": "best"}),
-        ("limits", {"limits": 3.0}),
-        ("limits of q1", {"criterion": "leg_centring"}),
-        ("characteristic_length", {"characteristic_length": 0.0}),
-        ("clearance", {"clearance": -1.0}),
-        ("start", {"start": np.zeros((2, 3))}),
-        ("threads", {"threads": 0}),
-        ("seed_every", {"seed_every": 0}),
-        ("seed_every", {"seed_every": 2.5}),
-        ("audit_every", {"audit_every": True}),
-        ("audit_seed", {"audit_seed": -1}),
-        ("progress", {"progress": 3}),
-        ("rotation", {"rotation": 2.0 * np.eye(3)}),
-    ],
-)
-def test_wrong_arguments_are_named(published, name, wrong):
-    with pytest.raises(ValueError, match=rf"^{name}: got "):
-        nd.best_internal_map(published, plane(3), **wrong)

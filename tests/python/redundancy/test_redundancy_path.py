@@ -99,12 +99,3 @@ def test_limits_on_a_path(published):
     path = nd.best_internal_path(published, p, limits=(0.0, high))
     assert (nd.leg_lengths(published, path.configuration) <= high * (1.0 + 1e-9)).all()
     assert any(path.active)
-
-
-def test_wrong_paths_are_named(published):
-    with pytest.raises(ValueError, match=r"^position: got "):
-        nd.best_internal_path(published, [0.0, 0.0, 3.98])
-    with pytest.raises(ValueError, match=r"^smoothness: got "):
-        nd.best_internal_path(published, loop(5), smoothness=0.0)
-    with pytest.raises(ValueError, match=r"^start: got "):
-        nd.best_internal_path(published, loop(5), start=np.zeros((5, 3)))

@@ -209,21 +209,3 @@ def test_what_is_not_settled_is_not_claimed():
     assert not found.resolved
     assert 1e3 < found.distance < 3e6
     assert found.mechanism != nd.Mechanism.NONE
-
-
-@pytest.mark.parametrize(
-    "bad", [np.ones(8), np.full(9, np.inf), None, "down", np.ones((3, 9)), 1j * np.ones(9)], ids=str
-)
-def test_bad_direction(published, stack, bad):
-    with pytest.raises(ValueError, match=r"direction"):
-        nd.distance_to_singularity(published, stack, bad)
-
-
-def test_other_bad_arguments(published, neutral):
-    for bad in (0.0, -1.0, np.nan, np.inf, "far", None, [1.0, 2.0]):
-        with pytest.raises((ValueError, TypeError), match=r"most|converted|length"):
-            nd.distance_to_singularity(published, neutral, np.ones(9), most=bad)
-    with pytest.raises(ValueError, match="threads"):
-        nd.distance_to_singularity(published, neutral, np.ones(9), threads=-1)
-    with pytest.raises(ValueError, match="geometry"):
-        nd.distance_to_singularity(neutral, published, np.ones(9))

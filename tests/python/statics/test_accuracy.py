@@ -326,35 +326,3 @@ def test_collinear_joints_give_nan():
     found = nd.error_samples(g, nd.Configuration.neutral(4.0, 2.2), joint_errors=5.0, samples=500)
     assert np.isnan(found).any()
     assert np.isnan(nd.error_samples(g, nd.Configuration.neutral(4.0, 2.2), joint_errors=np.nan, samples=3)).all()
-
-
-# --- Bad input --------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("function", [nd.error_bounds, nd.error_samples])
-@pytest.mark.parametrize("name", ["leg_errors", "joint_errors"])
-@pytest.mark.parametrize("bad", [-1e-9, np.inf, None, "fine", [1.0] * 8, [[1.0, 2.0], [1.0]], 1j], ids=str)
-def test_bad_tolerances_are_named(published, neutral, function, name, bad):
-    with pytest.raises(ValueError, match=f"^{name}: got"):
-        function(published, neutral, **{name: bad})
-
-
-@pytest.mark.parametrize(
-    ("bad", "name"),
-    [
-        ({"samples": -1}, "samples"),
-        ({"samples": 2.5}, "samples"),
-        ({"seed": -1}, "seed"),
-        ({"seed": "x"}, "seed"),
-        ({"threads": 0}, "threads"),
-        ({"leg_errors": np.zeros((2, 9))}, "leg_errors, joint_errors"),
-    ],
-)
-def test_bad_sampling_is_named(published, neutral, bad, name):
-    with pytest.raises(ValueError, match=f"^{name}: got"):
-        nd.error_samples(published, neutral, **bad)
-
-
-def test_samples_of_a_stack_are_rejected(published, stack):
-    with pytest.raises(ValueError, match=r"^configuration: got a stack of shape \(5,\)"):
-        nd.error_samples(published, stack, 1e-3)

@@ -214,15 +214,3 @@ def test_rows_are_independent(published, stack, function, part):
     for rows in function(published, c, part):
         assert np.isnan(rows[1]).all()
         assert np.isfinite(rows[[0, 2]]).all()
-
-
-@pytest.mark.parametrize("function", [nd.velocity_ellipsoid, nd.force_ellipsoid])
-def test_bad_input_is_named(published, stack, function):
-    for bad in ("translations", None, 3, ["twist"]):
-        with pytest.raises(ValueError, match=r"^part: got"):
-            function(published, stack, bad)
-    for bad in (0.0, -1.0, np.nan, [1.0, 2.0]):
-        with pytest.raises(ValueError, match=r"^characteristic_length: got"):
-            function(published, stack, "twist", bad)
-    with pytest.raises(ValueError, match=r"^geometry: got"):
-        function(stack, published)

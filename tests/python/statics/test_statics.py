@@ -331,27 +331,3 @@ def test_stiffness_of_a_stack(published, stack):
     for i in range(3):
         for n in range(5):
             assert_array_equal(K[i, n], nd.stiffness(published, stack[n], k[i, 0]))
-
-
-# --- Bad input --------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("bad", [-1.0, np.inf, None, "stiff", [1.0] * 8, [[1.0] * 9] * 3, [[1.0], [1.0, 2.0]]], ids=str)
-def test_bad_stiffness_is_named(published, stack, bad):
-    with pytest.raises(ValueError, match=r"leg_stiffness.* ?got|leading dimensions.*leg_stiffness"):
-        nd.stiffness(published, stack, bad)
-
-
-@pytest.mark.parametrize("name", ["moment", "force", "force_at_o"])
-@pytest.mark.parametrize("bad", [1.0, [1.0, 2.0], None, "up", [[0.0] * 3] * 3], ids=str)
-def test_bad_load_is_named(published, stack, name, bad):
-    load = {key: [0.0, 0.0, 1.0] for key in ("moment", "force", "force_at_o")} | {name: bad}
-    with pytest.raises(ValueError, match=rf"\b{name}\b"):
-        nd.leg_forces(published, stack, **load)
-
-
-def test_self_stress_of_a_stack_is_rejected(published, stack):
-    with pytest.raises(ValueError, match=r"^configuration: got a stack of shape \(5,\)"):
-        nd.self_stress(published, stack)
-    with pytest.raises(ValueError, match=r"^geometry: got"):
-        nd.self_stress(stack, published)
