@@ -125,13 +125,3 @@ def test_a_report_takes_no_certificate_of_another_machine_nor_a_changed_one(run,
     (ours / "certify.json").write_text(text.replace('"which": "det N"', '"which": "det B"'))
     with pytest.raises(ValueError, match=r"certify\.json: got no file as ninedof wrote it"):
         nd.report(ours)
-
-
-def test_a_place_that_is_none_is_named(tmp_path):
-    with pytest.raises(ValueError, match="nowhere: cannot be read"):
-        nd.load_certificate(tmp_path / "nowhere")
-
-
-def test_a_progress_that_cannot_be_called_is_named(run):
-    with pytest.raises(ValueError, match="progress: got 3, expected a callable"):
-        nd.load(run).certify(progress=3)

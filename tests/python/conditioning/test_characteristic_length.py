@@ -106,10 +106,3 @@ def test_singular_and_missing_poses_do_not_spoil_a_stack(published, kind):
     assert found[0] == np.inf
     assert found[1] == nd.condition_number(published, good[1], kind)
     assert np.isnan(found[2])
-
-
-def test_a_wrong_kind_is_named_by_the_argument_that_has_it(published):
-    with pytest.raises(
-        ValueError, match="characteristic_length: got 'mean', expected one of optimal, natural, mean_leg"
-    ):
-        nd.condition_number(published, nd.Configuration.neutral(3.9828, 2.4435), "mean")

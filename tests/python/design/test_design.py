@@ -149,14 +149,3 @@ def test_gradient_close_to_a_singular_design(scale):
     expected = differences(log_kappa, x, h=1e-3 * scale)
     found = values(point(x).gradient) / point(x).condition_number
     assert_allclose(found, expected, rtol=1e-4, atol=1e-4 * np.abs(expected).max())
-
-
-def test_bad_values():
-    good = dict(zip(NAMES, designs("neutral")[0], strict=True))
-    for name, bad in {"a1": -1.0, "a2": math.nan, "zp": math.inf, "zs": None, "b1": "1", "b2": True}.items():
-        with pytest.raises(ValueError, match=rf"^{name}: got .+, expected .+"):
-            STUDY.evaluate(good | {name: bad})
-    with pytest.raises(ValueError, match=r"^variables: got the entry 'b3'"):
-        STUDY.evaluate(good | {"b3": 1.0})
-    with pytest.raises(ValueError, match="zs: got no value"):
-        STUDY.evaluate({name: good[name] for name in NAMES if name != "zs"})

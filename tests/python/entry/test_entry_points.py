@@ -83,7 +83,7 @@ def names():
                 yield name, thing
             for member in members(thing):
                 yield f"{name}.{member}", getattr(thing, member)
-    for name in set(poses.__all__) - set(nd.__all__):
+    for name in sorted(set(poses.__all__) - set(nd.__all__)):  # the same order in every worker
         yield f"poses.{name}", getattr(poses, name)
 
 

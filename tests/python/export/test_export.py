@@ -1,7 +1,6 @@
 """`nd.export`, the table of formats, and what a writer knows of a design."""
 
 import sys
-from dataclasses import replace
 
 import exported
 import numpy as np
@@ -28,35 +27,6 @@ def test_the_file_is_the_path_given_and_is_replaced(name, tmp_path):
     assert file.read_bytes() == first  # nothing in it depends on the day
     assert b'"my_robot"' in first
     assert len(list(tmp_path.iterdir())) == (2 if name == "urdf" else 1)
-
-
-def test_bad_arguments_are_named(tmp_path):
-    design = exported.general()
-    with pytest.raises(ValueError, match=r"format: got 'mjfc', .*did you mean 'mjcf'"):
-        nd.export(design, "mjfc", tmp_path / "a.xml")
-    with pytest.raises(ValueError, match="options: got the entry 'gravity', expected only leg_mass, platform_mass"):
-        nd.export(design, "urdf", tmp_path / "a.urdf", gravity=9.81)
-    with pytest.raises(ValueError, match="expected a file in a folder that exists"):
-        nd.export(design, "mjcf", tmp_path / "none" / "a.xml")
-    for name, value in (("leg_mass", 0.0), ("platform_mass", -1.0), ("leg_mass", np.nan), ("gravity", "much")):
-        with pytest.raises(ValueError, match=f"{name}: got"):
-            nd.export(design, "mjcf", tmp_path / "a.xml", **{name: value})
-    with pytest.raises(ValueError, match="unit: got 'mile'"):
-        nd.export(design, "mjcf", tmp_path / "a.xml", unit="mile")
-    with pytest.raises(ValueError, match="design: got int, expected a result or a design"):
-        nd.export(3, "mjcf", tmp_path / "a.xml")
-    stack = design._replace(configuration=nd.Configuration.neutral([4.0, 5.0], 2.0))
-    with pytest.raises(ValueError, match="got a stack of configurations"):
-        nd.export(stack, "mjcf", tmp_path / "a.xml")
-    infeasible = replace(exported.machine(), candidates=())
-    with pytest.raises(ValueError, match="got a result without a design"):
-        nd.export(infeasible, "mjcf", tmp_path / "a.xml")
-    no_leg = nd.Design(nd.Geometry.hexagonal(0.0, 5.0, 2.5, 0.0), nd.Configuration.neutral(4.0, 4.0))
-    s = no_leg.configuration.position + no_leg.geometry.platform_internal[0]
-    at_joint = no_leg._replace(configuration=nd.Configuration(no_leg.configuration.position, np.eye(3), s))
-    with pytest.raises(ValueError, match="leg q1 has the length 0"):
-        nd.export(at_joint, "mjcf", tmp_path / "a.xml")
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_every_row_has_a_suffix_of_its_own():

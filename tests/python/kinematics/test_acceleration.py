@@ -213,6 +213,3 @@ def test_missing_pose_stays_alone(published):
     ):
         assert np.isfinite(result[[0, 2]]).all()
         assert np.isnan(result[1]).all()
-
-
-NAMES = ("omega", "pdot", "sdot", "alpha", "pddot", "sddot")

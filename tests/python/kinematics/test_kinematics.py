@@ -15,7 +15,6 @@ from scipy.spatial.transform import Rotation
 
 import ninedof as nd
 
-EPS = np.finfo(float).eps
 SEEDS = st.integers(0, 2**32 - 1)
 
 

@@ -136,33 +136,6 @@ def test_shapes_start_where_they_should():
     assert np.linalg.norm(circle.position - HOME.position, axis=1) == pytest.approx(0.5)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (([0.0, 1.0], np.zeros((2, 3))), "time: got"),
-        (([0.0, 1.0, 1.0], np.zeros((3, 3))), "got 1 after 1"),
-        (([0.0, 1.0, 2.0], np.zeros((4, 3))), "internal_point"),
-        (([0.0, 1.0, 2.0], np.full((3, 3), np.nan)), "NaN"),
-        (([0.0, 1.0, 2.0], np.zeros((3, 3)), 2.0 * np.eye(3)), "rotation"),
-    ],
-)
-def test_bad_trajectories(arguments, words):
-    with pytest.raises(ValueError, match=words):
-        nd.Trajectory(*arguments)
-
-
-def test_bad_arguments(published):
-    line = nd.Trajectory.line(HOME, (0.3, 0.1, 0.2), points=21)
-    with pytest.raises(ValueError, match="internal_point: got 'stay'"):
-        nd.follow(published, line, HOME, "stay")
-    with pytest.raises(ValueError, match="trajectory: got int"):
-        nd.follow(published, 3, HOME)
-    with pytest.raises(ValueError, match="limits: got 5 to 2"):
-        nd.follow(published, line, HOME, limits=(5.0, 2.0))
-    with pytest.raises(ValueError, match=r"no position of O is allowed at t = 0 \(l1 high"):
-        nd.follow(published, line, HOME, "best", limits=(0.0, 3.0))
-
-
 def test_the_best_o_is_interpolated_between_the_poses_searched(published):
     circle = nd.Trajectory.circle(HOME, 0.8, points=601)  # every third is searched, 201
     found = nd.follow(published, circle, HOME, "best")

@@ -148,12 +148,6 @@ def test_bad_ratio_is_named(ratio):
         planar_leg_ratio_bound(ratio)
 
 
-def test_result_without_a_design_is_named():
-    nothing = nd.optimize(nd.Study(constraints={"leg_ratio": (None, 0.5)}))
-    with pytest.raises(ValueError, match=r"^result: got one without a design \(infeasible\)"):
-        applicable_bounds(nothing)
-
-
 def test_the_distance_bound_is_omitted_where_it_does_not_hold():
     """Below |s - p| = 0.5 l_c two threefold singular values do better than the family kappa_star is the least of."""
     near = nd.optimize(nd.Study(variables={"zp": 1.0, "zs": 0.8}), starts=4)

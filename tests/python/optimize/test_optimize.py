@@ -223,22 +223,3 @@ def test_units_do_not_matter(paper, unit):
 def test_condition_number_agrees_with_numpy(paper):
     m = model.robot(paper.geometry, paper.configuration)
     assert model.condition_number(m) == pytest.approx(paper.condition_number, rel=1e-13)
-
-
-@pytest.mark.parametrize(
-    ("argument", "bad"),
-    [
-        ("study", None),
-        ("study", "paper"),
-        ("study", {}),
-        *[("starts", x) for x in (0, -1, 1.5, "3", True, 2**40)],
-        *[("seed", x) for x in (-1, 1.5, "3", True, 2**64)],
-        *[("threads", x) for x in (0, -1, 1.0, "2", True, 2**40)],
-        ("progress", 3),
-    ],
-    ids=str,
-)
-def test_bad_arguments(argument, bad):
-    arguments = {"study": nd.Study.paper()} | {argument: bad}
-    with pytest.raises(ValueError, match=rf"^{argument}: got .+, expected .+"):
-        nd.optimize(**arguments)

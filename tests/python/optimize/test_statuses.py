@@ -211,14 +211,6 @@ def test_one_free_variable():
     assert result.active == ()
 
 
-def test_plate_without_size():
-    """Both sides of a plate fixed at 0 is no robot: said when the study is made or solved, in the study's words."""
-    with pytest.raises(ValueError, match=r"a1.*a2"):
-        solve({"a1": 0.0, "a2": 0.0})
-    with pytest.raises(ValueError, match=r"b1.*b2"):
-        solve({"b1": 0.0, "b2": (0.0, 0.0)})
-
-
 def test_sides_that_may_both_vanish_are_no_error():
     result = solve({"a1": (0.0, 1e-3), "a2": (0.0, 1e-3)})
     assert result.status in ("optimal", "stopped")

@@ -113,17 +113,3 @@ def test_run_that_ends_at_an_invalid_robot(start):
     t = nd.trace(study, dict(zip(START, start, strict=True)))
     assert t.best
     assert t.end.condition_number > 4.0
-
-
-def test_bad_arguments():
-    for formulation in ("", "SQP", None):
-        with pytest.raises(ValueError, match=r"^formulation: got .+, expected .+"):
-            nd.trace(STUDY, START, formulation)
-    with pytest.raises(ValueError, match="zs: got no value"):
-        nd.trace(STUDY, {name: x for name, x in START.items() if name != "zs"})
-    with pytest.raises(ValueError, match=r"^start: a1: got nan"):
-        nd.trace(STUDY, START | {"a1": math.nan})
-    with pytest.raises(ValueError, match=r"^start: variables: got the entry 'c1'"):
-        nd.trace(STUDY, START | {"c1": 1.0})
-    with pytest.raises(ValueError, match=r"^study: got .+, expected .+"):
-        nd.trace("paper", START)

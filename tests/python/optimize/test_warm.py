@@ -1,7 +1,6 @@
 """Warm starts: the result of one study starts another."""
 
 import dataclasses
-import math
 
 import numpy as np
 import pytest
@@ -55,23 +54,3 @@ def test_a_warm_start_next_to_an_optimum_goes_straight_there(result):
     solved = nd.optimize(STUDY, starts=1, warm=near)
     assert solved.evaluations == nd.optimize(STUDY, starts=1).evaluations
     assert solved.objective == pytest.approx(result.objective, rel=1e-12)
-
-
-BAD = {
-    "number": 3,
-    "text": "best",
-    "text inside": ["best"],
-    "numbers": [1.0, 2.0],
-    "array": np.zeros((2, 7)),
-    "unknown name": {"a9": 1.0},
-    "variable missing": {"a1": 1.0},
-    "nan": dict.fromkeys(("a1", "a2", "b1", "b2", "zp", "zs"), math.nan),
-    "bool": dict.fromkeys(("a1", "a2", "b1", "b2", "zp", "zs"), True),
-    "text value": dict.fromkeys(("a1", "a2", "b1", "b2", "zp", "zs"), "1"),
-}
-
-
-@pytest.mark.parametrize("bad", BAD.values(), ids=BAD.keys())
-def test_bad_warm_starts(bad):
-    with pytest.raises(ValueError, match=r"(?s)^warm: .*got .+, expected .+"):
-        nd.optimize(STUDY, warm=bad)

@@ -369,28 +369,3 @@ def test_same_front_for_any_number_of_threads():
 
 
 # --- Bad input --------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"study": "paper"}, r"^study: got str, expected a Study"),
-        ({"against": "radius_ratoi"}, r"^against: got 'radius_ratoi', .* \(did you mean 'radius_ratio'\?\)"),
-        ({"against": "joint_spacing"}, r"^against: got 'joint_spacing', expected a constraint with a max"),
-        ({"against": "leg_ratio at neutrl"}, r"^against: .* \(did you mean 'leg_ratio at neutral'\?\)"),
-        ({"against": "stroke at neutral"}, r"^stroke\.at: got \"neutral\", expected \"poses\""),
-        ({"against": 3}, r"^against: got 3, expected a constraint"),
-        ({"against": "condition_number"}, r"^against: got 'condition_number' for a study of the index 'condition"),
-        ({"against": "condition_limit"}, r"^against: got 'condition_limit' for a study of the index 'condition"),
-        ({"values": []}, r"^values: got \[\], expected one or more limits above 0"),
-        ({"values": [2.0, -1.0]}, r"^values: got \[2.0, -1.0\], expected one or more limits above 0"),
-        ({"values": [2.0, math.nan]}, r"^values\[1\]: got nan, expected a finite number"),
-        ({"values": 2.0}, r"^values: got 2.0, expected a sequence of limits"),
-        ({"points": 1}, r"^points: got 1, expected a whole number from 2"),
-        ({"threads": -1}, r"^threads: got -1, expected"),
-        ({"progress": 1}, r"^progress: got 1, expected a callable"),
-    ],
-)
-def test_bad_input_is_named(options, message):
-    with pytest.raises(ValueError, match=message):
-        pareto(**({"study": PAPER, "against": "radius_ratio", "values": [2.0]} | options))

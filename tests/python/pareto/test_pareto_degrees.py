@@ -53,20 +53,6 @@ def test_limits_found_are_in_degrees():
     assert front.results[-1].study.constraints["base_cone"]["max"] == pytest.approx(math.radians(front.limits[-1]))
 
 
-@pytest.mark.parametrize(
-    ("against", "values", "words"),
-    [
-        ("base_cone", [35], 'values: got 35 radians, expected at most pi .*against="base_cone_deg"'),
-        ("base_cone_deg", [200], "200 degrees"),
-        ("radius_ratio_deg", [2], "against: got 'radius_ratio_deg'"),
-        ("base_cones_deg", [2], "against: got 'base_cones_deg'.*did you mean 'base_cone'"),
-    ],
-)
-def test_wrong_values_and_names(against, values, words):
-    with pytest.raises(ValueError, match=words):
-        nd.pareto(STUDY, against, values=values)
-
-
 def test_names_with_degrees():
     assert without_degrees("base_cone_deg at neutral") == ("base_cone at neutral", True)
     assert with_degrees("base_cone at neutral") == "base_cone_deg at neutral"

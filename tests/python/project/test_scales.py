@@ -107,42 +107,6 @@ def test_a_design_that_only_the_closed_form_tells_from_a_singular_one():
     assert_allclose(nd.hexagonal_condition_number(*x), 34641.0161514, rtol=1e-9)
 
 
-RANGE = r", expected .*1e(\+|-)100"
-
-
-@pytest.mark.parametrize("size", [1e-160, 1e-101, 1.1e100, 1e158])
-def test_robots_outside_the_range_are_refused(size):
-    with pytest.raises(ValueError, match=rf"^base_external: got .*{RANGE}"):
-        nd.Geometry.hexagonal(a1=0.0, a2=5.8124 * size, b1=2.9062 * size, b2=0.0) if size < 1.0 else nd.Geometry(
-            *(size * np.array([[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]]) for _ in range(4))
-        )
-
-
-@pytest.mark.parametrize("name", ["position", "internal_point"])
-@pytest.mark.parametrize("stack", [False, True])
-def test_configurations_outside_the_range_are_refused(name, stack):
-    given = {"position": np.zeros(3), "internal_point": np.ones(3)}
-    given[name] = np.array([0.0, -2e100, 0.0])
-    if stack:
-        given[name] = np.array([[0.0, 0.0, 1.0], given[name]])
-    with pytest.raises(ValueError, match=rf"^{name}: got -2e\+100{RANGE}"):
-        nd.Configuration(**given)
-    with pytest.raises(ValueError, match=rf"^zs: got 1e\+200{RANGE}"):
-        nd.Configuration.neutral(1.0, 1e200)
-
-
-def test_lengths_outside_the_range_are_refused(published, neutral):
-    lengths = nd.leg_lengths(published, neutral)
-    lengths[4] = 1e120
-    for call in (lambda: nd.forward_position(published, lengths), lambda: nd.track(published, lengths, neutral)):
-        with pytest.raises(ValueError, match=rf"^leg_lengths: got 1e\+120{RANGE}"):
-            call()
-    for length in (1e-120, 1e120):
-        for index in (nd.condition_number, nd.singular_values, nd.jacobian, nd.condition_number_bounds):
-            with pytest.raises(ValueError, match=rf"^characteristic_length: got 1e.120{RANGE}"):
-                index(published, neutral, length)
-
-
 def test_plates_of_very_different_size():
     """1e80 beside 1e-80: singular to rounding where they are compared, and no mode is missed with certainty."""
     for base, platform in ((1e80, 1e-80), (1e-80, 1e80)):

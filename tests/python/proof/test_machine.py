@@ -267,19 +267,6 @@ def test_what_the_record_holds_comes_back():
     assert MachineCertificate.from_dict(certificate.to_dict()) == certificate
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"gap": 0.0}, "^gap: got 0.0, expected a finite number at least 1e-09"),
-        ({"time_limit": -1.0}, "^time_limit: got -1.0"),
-        ({"condition_number": 0.5}, "^condition_number: got 0.5"),
-    ],
-)
-def test_bad_options_are_named(options, message):
-    with pytest.raises(ValueError, match=message):
-        proved(REGIONS["box"], **options)
-
-
 @pytest.mark.skipif(not LONG, reason="ten minutes: NINEDOF_LONG=1")
 def test_ten_million_poses_of_the_region():
     region = REGIONS["box"]

@@ -114,29 +114,6 @@ def test_a_symmetric_study_has_a_bound_at_any_time():
         proof.save("nowhere")
 
 
-@pytest.mark.parametrize(
-    ("study", "options", "words"),
-    [
-        (3, {}, "study: got int, expected a Study"),
-        (nd.Study("general"), {}, "family: got general"),
-        (nd.Study(characteristic_length="mean_leg"), {}, "characteristic_length: got no number"),
-        (nd.Study(objective=nd.Objective(poses=[nd.Pose(position=(0.1, 0.0, 0.0))])), {}, "objective: got 1 poses"),
-        (nd.Study(variables={"zp": (0.0, 5.0)}), {}, r"zp: got \[0, 5\]"),
-        (nd.Study(objective=nd.Objective(index="speed")), {}, "objective: got another index"),
-        (PAPER, {"gap": -1.0}, "gap: got -1.0"),
-        (PAPER, {"gap": 1.0}, "more than 1 to be proved"),
-        (PAPER, {"time_limit": math.nan}, "time_limit"),
-        (PAPER, {"progress": 3}, "progress"),
-    ],
-)
-def test_what_cannot_be_proved_is_said(study, options, words):
-    with pytest.raises(ValueError, match=words):
-        nd.prove_optimum(study, 3.0, **options)
-    if isinstance(study, nd.Study) and not options:
-        with pytest.raises(ValueError, match=words):
-            nd.optimize(study, certify=True)
-
-
 @pytest.mark.slow
 def test_records_keep_the_proof_and_the_certificate(proved, tmp_path):
     path = nd.save(proved, tmp_path / "run")

@@ -363,26 +363,5 @@ def test_text_is_escaped_wherever_it_is_put():
     assert tag("p", Html("<i>x</i>")) == "<p><i>x</i></p>"
 
 
-@pytest.mark.parametrize(
-    ("run", "said"),
-    [
-        ("nowhere", "nowhere: cannot be read"),
-        ("design.toml", "expected a run folder"),
-        (3, "run: got 3, expected a path"),
-    ],
-)
-def test_bad_input_is_one_line(run, said):
-    with pytest.raises(ValueError, match=re.escape(said)) as error:
-        nd.report(run)
-    assert "\n" not in str(error.value)
-
-
-def test_a_result_in_memory_needs_a_path(result, tmp_path):
-    with pytest.raises(ValueError, match="path: got none, expected the file"):
-        nd.report(result)
-    with pytest.raises(ValueError, match="a file in a folder that exists"):
-        nd.report(result, tmp_path / "none" / "it.html")
-
-
 def test_every_family_of_designs_has_its_words():
     assert set(FAMILIES) == set(_core.design_family_names())

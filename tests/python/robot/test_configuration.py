@@ -68,48 +68,6 @@ def test_empty_stacks(shape):
 
 # --- Validation -------------------------------------------------------------------------------------------------------
 
-# Other kinds of values are those of the entry tests.
-BAD_VECTORS = {"nan": [0.0, math.nan, 1.0], "infinite": [0.0, math.inf, 1.0], "two numbers": [0.0, 1.0]}
-BAD_ROTATIONS = {
-    "reflection": np.diag([1.0, 1.0, -1.0]),
-    "point reflection": -ONE,
-    "scaled": 2.0 * ONE,
-    "sheared": ONE + np.diag([1e-6, 0.0], k=1),
-    "infinite": np.full((3, 3), math.inf),
-    "overflowing": 1e200 * ONE,
-    "zero": np.zeros((3, 3)),
-    "4x4": np.eye(4),
-    "quaternion": [0.0, 0.0, 0.0, 1.0],
-}
-
-
-@pytest.mark.parametrize("bad", BAD_VECTORS.values(), ids=BAD_VECTORS.keys())
-def test_bad_position_and_internal_point(bad):
-    with pytest.raises(ValueError, match=message("position")):
-        nd.Configuration(bad, ONE, S)
-    with pytest.raises(ValueError, match=message("internal_point")):
-        nd.Configuration(P, ONE, bad)
-
-
-@pytest.mark.parametrize("bad", BAD_ROTATIONS.values(), ids=BAD_ROTATIONS.keys())
-def test_bad_rotation(bad):
-    with pytest.raises(ValueError, match=message("rotation")):
-        nd.Configuration(P, bad, S)
-
-
-@pytest.mark.parametrize("name", ["zp", "zs", "theta_z"])
-@pytest.mark.parametrize("bad", [math.nan, math.inf, "1", None, 1j, pytest.param(10**400, id="huge whole number")])
-def test_bad_neutral(name, bad):
-    with pytest.raises(ValueError, match=message(name)):
-        nd.Configuration.neutral(**({"zp": 2.0, "zs": 1.0, "theta_z": 0.0} | {name: bad}))
-
-
-def test_shapes_that_do_not_broadcast():
-    with pytest.raises(ValueError, match=r"position \(2,\), rotation \(3,\), internal_point \(\)"):
-        nd.Configuration(np.zeros((2, 3)), np.broadcast_to(ONE, (3, 3, 3)), S)
-    with pytest.raises(ValueError, match=r"zp \(2,\), zs \(3,\)"):
-        nd.Configuration.neutral([1.0, 2.0], [0.1, 0.2, 0.3])
-
 
 def test_rotation_tolerance():
     almost = ONE + np.diag([4e-10, 0.0], k=1)

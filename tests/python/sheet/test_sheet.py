@@ -269,25 +269,6 @@ def test_csv_and_plain_values_are_in_degrees():
     assert np.allclose(placed, c.position[0] + c.rotation[0] @ g.platform_internal[1])
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"poses": None}, "poses: got none"),
-        ({"poses": nd.Configuration.neutral(3.0, 1.0)}, "poses: got"),
-        ({"design": 3.0}, "design: got float"),
-        ({"linear_speed": -1.0}, "linear_speed"),
-        ({"internal": "fast"}, "internal"),
-        ({"loads": [1.0, 2.0]}, "loads: got"),
-        ({"leg_errors": -1.0}, "leg_errors"),
-    ],
-)
-def test_wrong_arguments_are_named(change, words):
-    g = nd.Geometry.hexagonal(a1=0.0, a2=3.0, b1=1.5, b2=0.0)
-    given = {"design": g, "poses": nd.Configuration.neutral(3.0, [1.0])} | change
-    with pytest.raises(ValueError, match=words):
-        nd.sheet(**given)
-
-
 def test_poses_are_said_as_they_are_typed_and_numbered_once(capsys, tmp_path):
     """What terminal, page and JSON say of a pose, given to a command, is that pose; turns about other axes differ."""
     rng = np.random.default_rng(7)

@@ -146,20 +146,3 @@ def test_no_way_meets_a_singularity_before_the_nearest(seed):
     plane = nd.sheet(nd.Geometry.hexagonal(0.0, 5.0, 2.0, 0.0), high, internal="held").singularities["internal"]
     assert plane.distance == pytest.approx(0.5)  # from O to the plane of the upper joints
     assert plane.mechanism == "c"
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"twist_rate": [0.0] * 6}, "twist_rate: got"),
-        ({"twist": [1.0, 2.0]}, "twist: got"),
-        ({"centre": [0, 0, 1]}, "centre: got .* without a mass"),
-        ({"mass": -1.0}, "mass"),
-        ({"mass": 1.0, "gravity": [1.0]}, "gravity"),
-        ({"samples": 0}, "samples"),
-    ],
-)
-def test_wrong_arguments_are_named(change, words):
-    g = nd.Geometry.hexagonal(a1=0.0, a2=3.0, b1=1.5, b2=0.0)
-    with pytest.raises(ValueError, match=words):
-        nd.sheet(g, nd.Configuration.neutral(3.0, [1.0]), **change)

@@ -286,11 +286,6 @@ def test_stack_equals_one_by_one_and_missing_rows_stay_alone(published, stack):
     assert nd.singularity_margins(published, stack[:0]).det_b.shape == (0,)
 
 
-def test_motions_of_a_pose_without_data_are_refused(published):
-    with pytest.raises(ValueError, match="configuration: got NaN"):
-        nd.uncontrolled_motions(published, nd.Configuration([[np.nan, 0, 4]], internal_point=[[0, 0, 2]])[0])
-
-
 def test_similar_hexagons_det_n_is_odd_in_the_twist_and_the_internal_legs_do_not_see_it():
     rng = np.random.default_rng(6)
     g = nd.Geometry.hexagonal(1.0, 2.0, 0.5, 1.0)

@@ -244,19 +244,6 @@ def test_a_machine_without_a_family_is_shown_without_sliders():
     assert math.isfinite(numbers(state).condition_number)
 
 
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        (3, "design: got 3, expected a design file"),
-        ("nowhere.toml", "nowhere.toml: cannot be read"),
-        (nd.Study.paper(), "expected a design file, a Design or a run"),
-    ],
-)
-def test_bad_designs_are_named(given, words):
-    with pytest.raises(ValueError, match=words):
-        machine_of(given)
-
-
 def test_a_path_is_played_at_its_own_times_and_between_its_poses():
     state = State(machine_of())
     home = state.variant.home

@@ -175,11 +175,6 @@ def test_a_grid_errs_by_less_than_it_says(published):
         assert abs(found.volume - reference.volume) <= found.error
 
 
-def test_a_grid_larger_than_allowed_is_refused(published):
-    with pytest.raises(ValueError, match=r"resolution: got 64, expected a grid of at most most_evaluations"):
-        nd.workspace(published, BOX, criteria=LEGS, method="grid", resolution=64, most_evaluations=100_000)
-
-
 def test_every_pixel_of_a_slice_is_its_cell(published):
     found = nd.workspace(published, BOX, criteria=LEGS | {"condition_number": 5.0}, tolerance=0.02)
     c = found.cells

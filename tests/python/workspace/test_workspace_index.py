@@ -106,21 +106,6 @@ def test_interrupted_in_an_index_keeps_the_map():
     assert found.volume == nd.workspace(G, criteria=LIMITS, method="grid", resolution=8, **BOX).volume
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"index": "dexterity"}, r"^index: got 'dexterity', expected"),
-        ({"index": ""}, r"^index: got ''"),
-        ({"index": 0}, r"^index: got 0, expected"),
-        ({"index": "speed", "archetype": "reachable"}, r"^index: .* expected none for the reachable workspace"),
-        ({"index": "speed", "internal_point": "best"}, r"^index: .* expected none with the best internal point"),
-    ],
-)
-def test_refused(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        nd.workspace(G, **BOX, **arguments)
-
-
 def test_at_the_terminal(tmp_path, capsys):
     arguments = ["workspace", "--legs", "1.5", "6.5", "--method", "grid", "--resolution", "12", "--no-figures"]
     with pytest.raises(SystemExit) as ended:

@@ -78,12 +78,6 @@ def test_a_slice_shows_the_cells_it_cuts(found):
     assert not edge.state.any()
 
 
-@pytest.mark.parametrize(("axis", "at"), [("w", 0.0), ("x", 9.0), ("x", np.nan)])
-def test_slices_outside_the_map_are_rejected(found, axis, at):
-    with pytest.raises(ValueError, match=r"axis: got|at: got"):
-        found.slice(axis, at)
-
-
 def test_save_and_load(found, tmp_path):
     path = found.save(tmp_path / "map.npz")
     again = nd.WorkspaceMap.load(path)
@@ -164,64 +158,6 @@ def test_the_number_of_evaluations_is_limited(published):
     assert limited.status == "limited"
     assert limited.evaluations <= 60_000
     assert limited.error > 1e-6 * limited.volume
-
-
-@pytest.mark.parametrize(
-    ("name", "wrong"),
-    [
-        ("archetype", {"archetype": "dextrous"}),
-        (r"box \(x\)", {"box": ([1, 0, 0], [0, 1, 1])}),
-        (r"box \(z\)", {"box": ([0, 0, 0], [1, 1, np.nan])}),
-        (r"box \(low\)", {"box": ([0, 0], [1, 1, 1])}),
-        ("box", {"box": None}),
-        ("criteria", {"criteria": {"leg_limit": (1, 2)}}),
-        ("leg_limits", {"criteria": {"leg_limits": 3.0}}),
-        (r"leg_limits \(l1\)", {"criteria": {"leg_limits": (3.0, 2.0)}}),
-        (r"leg_limits \(l1\)", {"criteria": {"leg_limits": (np.nan, 2.0)}}),
-        (r"leg_limits \(r2\)", {"criteria": {"leg_limits": (np.where(np.arange(9) == 7, np.inf, 0.0), np.inf)}}),
-        ("condition_number", {"criteria": {"condition_number": True}}),
-        ("leg_clearance", {"criteria": {"leg_clearance": True}}),
-        ("platform_cone", {"criteria": {"platform_cone": True}}),
-        ("orientations", {"archetype": "reachable", "orientations": np.zeros((0, 3, 3))}),
-        ("orientations", {"archetype": "reachable", "orientations": []}),
-        ("condition_number", {"criteria": {"condition_number": 0.5}}),
-        ("base_cone", {"criteria": {"base_cone": -1.0}}),
-        ("base_cone", {"criteria": {"base_cone": {"axis": [0, 0, 1]}}}),
-        (r"platform_cone \(axis\)", {"criteria": {"platform_cone": {"max": 1.0, "axis": [0, 0, 0]}}}),
-        ("leg_clearance", {"criteria": {"leg_clearance": 0.0}}),
-        ("singularity_free", {"criteria": {"singularity_free": 1.5}}),
-        ("method", {"method": "sample", "criteria": {"singularity_free": True}}),
-        ("method", {"method": "tree"}),
-        ("internal_point", {"internal_point": "worst"}),
-        ("internal_point", {"internal_point": [1.0, 2.0]}),
-        ("internal_point", {"internal_point": np.nan}),
-        ("orientations", {"orientations": 5}),
-        ("rotation", {"rotation": 2.0 * np.eye(3)}),
-        ("position", {"position": [0, 0, 1]}),
-        ("region", {"archetype": "orientation", "box": None, "position": [0, 0, 4]}),
-        ("region", {"archetype": "orientation", "box": None, "position": [0, 0, 4], "region": {"tilt": 1.0}}),
-        (
-            r"region \(angle\)",
-            {"archetype": "orientation", "box": None, "position": [0, 0, 4], "region": {"angle": 4.0}},
-        ),
-        ("home", {"home": nd.Configuration.neutral(zp=[1.0, 2.0], zs=1.0)}),
-        ("tolerance", {"tolerance": 0.0}),
-        ("resolution", {"resolution": 1}),
-        ("resolution", {"resolution": 400}),
-        ("threads", {"threads": 0}),
-        ("progress", {"progress": 3}),
-        ("characteristic_length", {"characteristic_length": -1.0}),
-    ],
-)
-def test_wrong_arguments_are_named(published, name, wrong):
-    with pytest.raises(ValueError, match=rf"^{name}: "):
-        nd.workspace(published, **({"box": BOX, "criteria": LEGS} | wrong))
-
-
-@pytest.mark.parametrize(("method", "most"), [("octree", 128), ("grid", 512)])
-def test_the_greatest_resolution_is_checked_first(published, method, most):
-    with pytest.raises(ValueError, match=f"^resolution: got 600, expected a whole number from 2 to {most}$"):
-        nd.workspace(published, BOX, criteria=LEGS, method=method, resolution=600)
 
 
 def test_the_figure_has_the_given_sections_and_limits(found):
