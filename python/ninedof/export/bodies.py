@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -18,7 +17,8 @@ from ninedof.export.model import LEGS, Model, O, P, in_metres
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import Floats
 
-LEG_MASS, PLATFORM_MASS = 1.0, 5.0
+MASSES = (1.0, 5.0)
+"""Of a leg and of the platform, kg."""
 FREE = (0.7, 1.3)  # of the neutral length: the range of a leg that nothing limits, which one stage can have
 LEAST_STROKE = 0.01  # of the neutral length: simulators take no range that is a point
 COLOURS = {
@@ -55,26 +55,40 @@ class Leg:
         self.part = min(0.95 * low, 0.55 * high)
         """Length of the cylinder and of the rod, each."""
 
+    @property
+    def frame(self) -> Floats:
+        """The rotation of the frame of `pointing` along the leg."""
+        _, pitch, yaw = pointing(self.direction)
+        (cp, cy), (sp, sy) = ([f(angle) for angle in (pitch, yaw)] for f in (math.cos, math.sin))
+        return np.array([[cy * cp, -sy, cy * sp], [sy * cp, cy, sy * sp], [-sp, 0.0, cp]])
 
-@dataclass(frozen=True, eq=False)
+
 class Bodies:
-    """The robot in metres and kilograms."""
+    """The robot in metres and kilograms; masses of the arguments in kg, above 0."""
 
-    unit: str
-    """Of lengths, for people."""
-    base: dict[str, Floats]
-    """Joints of the base by name, base frame."""
-    platform: dict[str, Floats]
-    """Joints of the platform by name, platform frame."""
-    position: Floats
-    rotation: Floats
-    internal_point: Floats
-    legs: tuple[Leg, ...]
-    part_mass: float
-    """Of a cylinder and of a rod, each: half a leg."""
-    platform_mass: float
-    radius: float
-    """Of a rod."""
+    def __init__(self, model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSES[1]) -> None:
+        for name, mass in (("leg_mass", leg_mass), ("platform_mass", platform_mass)):
+            if not finite(name, mass) > 0.0:
+                raise ValueError(f"{name}: got {mass:g}, expected a mass above 0")
+        self.unit = "metres" if model.unit else "the design's own, without a unit"
+        """Of lengths, for people."""
+        metric = model.in_metres()
+        at, own = ({_site(name): x for name, x in points.items()} for points in (metric.base_frame, metric.own_frame))
+        self.base = {name: x for name, x in own.items() if name.startswith("base")}
+        """Joints of the base by name, base frame."""
+        self.platform = {name: x for name, x in own.items() if name.startswith("platform")}
+        """Joints of the platform by name, platform frame."""
+        self.position, self.rotation, self.internal_point = at[P], metric.configuration.rotation, at[O]
+        strokes = [None] * 9 if model.leg_ranges is None else in_metres(model.leg_ranges, model.unit)
+        self.legs = [
+            Leg(name, _site(root), _site(tip), at, stroke)
+            for (name, root, tip), stroke in zip(LEGS, strokes, strict=True)
+        ]
+        self.part_mass = 0.5 * float(leg_mass)
+        """Of a cylinder and of a rod, each: half a leg."""
+        self.platform_mass = float(platform_mass)
+        self.radius = RADIUS * float(np.mean([leg.length for leg in self.legs]))
+        """Of a rod."""
 
     @property
     def point_mass(self) -> float:
@@ -102,31 +116,6 @@ class Bodies:
         if leg.root == "base":
             return leg.start, leg.direction
         return self.platform[leg.root_joint], leg.direction @ self.rotation
-
-
-def bodies_of(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS) -> Bodies:
-    """Return the bodies of a design; masses in kg, above 0."""
-    for name, mass in (("leg_mass", leg_mass), ("platform_mass", platform_mass)):
-        if not finite(name, mass) > 0.0:
-            raise ValueError(f"{name}: got {mass:g}, expected a mass above 0")
-    metric = model.in_metres()
-    at, own = ({_site(name): x for name, x in points.items()} for points in (metric.base_frame, metric.own_frame))
-    ranges = [None] * 9 if model.leg_ranges is None else in_metres(model.leg_ranges, model.unit)
-    legs = tuple(
-        Leg(name, _site(root), _site(tip), at, stroke) for (name, root, tip), stroke in zip(LEGS, ranges, strict=True)
-    )
-    return Bodies(
-        unit="metres" if model.unit else "the design's own, without a unit",
-        base={name: x for name, x in own.items() if name.startswith("base")},
-        platform={name: x for name, x in own.items() if name.startswith("platform")},
-        position=at[P],
-        rotation=metric.configuration.rotation,
-        internal_point=at[O],
-        legs=legs,
-        part_mass=0.5 * float(leg_mass),
-        platform_mass=float(platform_mass),
-        radius=RADIUS * float(np.mean([leg.length for leg in legs])),
-    )
 
 
 def _site(name: str) -> str:
@@ -165,13 +154,6 @@ def pointing(direction: Floats) -> tuple[float, float, float]:
     """Return the angles of a frame whose z axis has a direction; the roll is 0."""
     x, y, z = (float(v) for v in direction)
     return 0.0, math.atan2(math.hypot(x, y), z), math.atan2(y, x)
-
-
-def frame_along(direction: Floats) -> Floats:
-    """Return the rotation of the frame of `pointing`."""
-    _, pitch, yaw = pointing(direction)
-    (cp, cy), (sp, sy) = ([f(a) for a in (pitch, yaw)] for f in (math.cos, math.sin))
-    return np.array([[cy * cp, -sy, cy * sp], [sy * cp, cy, sy * sp], [-sp, 0.0, cp]])
 
 
 def bars(joints: Iterable[Floats]) -> Iterator[tuple[Floats, tuple[float, float, float], float]]:

@@ -15,7 +15,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.export.bodies import COLOURS, LEG_MASS, PLATFORM_MASS, Bodies, Leg, bodies_of, numbers
+from ninedof.export.bodies import COLOURS, MASSES, Bodies, Leg, numbers
 from ninedof.export.model import Fields, Format, Model, from_metres
 from ninedof.motion.rotations import from_quaternions
 from ninedof.robot.configuration import Configuration
@@ -34,9 +34,9 @@ SPIN_DECAY = 20.0  # 1/s: the free spin of a leg dies out in a twentieth of a se
 PLATE = "0.62 0.66 0.70 0.55"
 
 
-def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS, gravity: float = 0.0) -> str:
+def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSES[1], gravity: float = 0.0) -> str:
     """Return the MJCF text of a design; masses in kg, gravity in m/s² downward."""
-    b, down, length = bodies_of(model, leg_mass, platform_mass), finite("gravity", gravity), model.characteristic_length
+    b, down, length = Bodies(model, leg_mass, platform_mass), finite("gravity", gravity), model.characteristic_length
     legs = {root: "".join(_leg(b, leg) for leg in b.legs if leg.root == root) for root in ("base", "platform")}
     (across, normal), (ball, _) = b.platform_inertia, b.point_inertia
     slides = "\n      ".join(

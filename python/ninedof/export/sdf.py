@@ -9,19 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
-from ninedof.export.bodies import (
-    COLOURS,
-    LEG_MASS,
-    LEVEL,
-    PLATFORM_MASS,
-    Bodies,
-    Leg,
-    angles,
-    bars,
-    bodies_of,
-    numbers,
-    pointing,
-)
+from ninedof.export.bodies import COLOURS, LEVEL, MASSES, Bodies, Leg, angles, bars, numbers, pointing
 from ninedof.export.model import Format, Model
 from ninedof.support.arrays import Floats
 
@@ -29,9 +17,9 @@ VERSION = "1.9"
 CARRIER = "q1"  # the leg whose rod O is fixed to
 
 
-def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS) -> str:
+def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSES[1]) -> str:
     """Return the SDFormat text of a design; masses in kg."""
-    b = bodies_of(model, leg_mass, platform_mass)
+    b = Bodies(model, leg_mass, platform_mass)
     return f"""<?xml version="1.0"?>
 <sdf version="{VERSION}">
   <!-- The nine-degree-of-freedom manipulator, written by ninedof. Lengths: {b.unit}; masses: kilograms.

@@ -10,21 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
-from ninedof.export.bodies import (
-    COLOURS,
-    LEG_MASS,
-    LEVEL,
-    PLATFORM_MASS,
-    Bodies,
-    Leg,
-    angles,
-    ball_inertia,
-    bars,
-    bodies_of,
-    frame_along,
-    numbers,
-    pointing,
-)
+from ninedof.export.bodies import COLOURS, LEVEL, MASSES, Bodies, Leg, angles, ball_inertia, bars, numbers, pointing
 from ninedof.export.model import Format, Model
 from ninedof.support.arrays import Floats
 from ninedof.support.json import encode
@@ -36,9 +22,9 @@ CARRIERS = ("l1", "q1")
 CROSS = 0.02  # mass of the part between two axes of a joint, by that of a cylinder: programs refuse a mass of 0
 
 
-def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS) -> str:
+def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSES[1]) -> str:
     """Return the URDF text of a design; masses in kg."""
-    b = bodies_of(model, leg_mass, platform_mass)
+    b = Bodies(model, leg_mass, platform_mass)
     return f"""<?xml version="1.0"?>
 <robot name={quoteattr(model.name)}>
   <!-- The nine-degree-of-freedom manipulator as a tree, written by ninedof. Lengths: {b.unit}; masses: kilograms.
@@ -54,7 +40,7 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
 
 def table(model: Model) -> str:
     """Return the table of the loops, JSON."""
-    b, zero = bodies_of(model), [0.0, 0.0, 0.0]
+    b, zero = Bodies(model), [0.0, 0.0, 0.0]
     legs = [
         {"name": leg.name, "joint": f"{leg.name}_slide"}
         | {"length_at_zero": leg.length, "shortest": leg.shortest, "longest": leg.longest}
@@ -96,7 +82,7 @@ def _leg(b: Bodies, leg: Leg) -> str:
 def _platform(b: Bodies) -> str:
     """Return three axes of the platform at the tip of leg l1, the plate, and the frame of the platform at p."""
     first = b.platform["platform_external1"]
-    turn = frame_along(b.legs[0].direction).T @ b.rotation  # the platform's axes, seen from the rod
+    turn = b.legs[0].frame.T @ b.rotation  # the platform's axes, seen from the rod
     small, joints = CROSS * b.part_mass, [at - first for at in b.platform.values()]
     return f"""
 {_axis("platform_turn1", "l1_rod", "platform_cross1", "1 0 0", rpy=angles(turn))}
