@@ -15,7 +15,7 @@ WORDS = {
     "held": "held in the base",
     "best": "placed at its best",
 }
-"""What follows "O is"."""
+"""The words after "O is"."""
 
 MEANING = {
     "carried": "Qᵀ (s - p) stays as at the neutral pose",

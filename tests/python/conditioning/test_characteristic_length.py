@@ -102,7 +102,7 @@ def test_singular_and_missing_poses_do_not_spoil_a_stack(published, kind):
     good = nd.Configuration.neutral(4.0, [0.0, 2.0, 2.5])
     p = np.array(good.position)
     p[2, 0] = np.nan
-    found = nd.condition_number(published, nd.Configuration(p, good.rotation, good.internal_point), kind)
-    assert found[0] == np.inf
-    assert found[1] == nd.condition_number(published, good[1], kind)
-    assert np.isnan(found[2])
+    result = nd.condition_number(published, nd.Configuration(p, good.rotation, good.internal_point), kind)
+    assert result[0] == np.inf
+    assert result[1] == nd.condition_number(published, good[1], kind)
+    assert np.isnan(result[2])

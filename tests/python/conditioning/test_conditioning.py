@@ -41,11 +41,11 @@ def test_singular_values_of_general_robots_against_numpy():
     robots = model.random_robots(rng, 2000)
     lc = np.exp(rng.uniform(-2.0, 2.0, size=2000))
     expected = model.singular_values(robots, lc[:, None, None])
-    found = np.array([singular_values(robots.at(k), lc[k]) for k in range(2000)])
+    result = np.array([singular_values(robots.at(k), lc[k]) for k in range(2000)])
     kappa = expected[:, :1] / expected[:, 5:]
     # numpy inverts F and B one after the other, so its own error grows with both.
     both = kappa * np.linalg.cond(model.matrices(robots)[1])[:, None]
-    assert (np.abs(found / expected - 1.0) <= 20 * EPS * both).all()
+    assert (np.abs(result / expected - 1.0) <= 20 * EPS * both).all()
 
 
 @given(SEEDS, st.floats(0.05, 20.0))
@@ -192,19 +192,19 @@ def test_many_hexagonal_designs_are_gathered_block_by_block():
     b1, zp = rng.uniform(0.5, 5.0, (70_001, 6)).T[:2]  # strided
     b1[7] = np.nan
     tracemalloc.start()
-    found = nd.hexagonal_condition_number(a1, a2, b1, 1, zp, np.float32(0.25))
+    result = nd.hexagonal_condition_number(a1, a2, b1, 1, zp, np.float32(0.25))
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert found.shape == (3, 70_001)
-    assert peak < 5.5 * found.nbytes
-    assert np.isnan(found[:, 7]).all()
+    assert result.shape == (3, 70_001)
+    assert peak < 5.5 * result.nbytes
+    assert np.isnan(result[:, 7]).all()
     for i, j in ((0, 0), (0, 65_535), (0, 65_536), (1, 131_072 - 70_001), (2, 70_000)):
         g = nd.Geometry.hexagonal(a1[i, j], a2[i, j], b1[j], 1.0)
         expected = nd.condition_number(g, nd.Configuration.neutral(zp[j], 0.25))
-        assert_allclose(found[i, j], expected, rtol=1e-10)
-    out = np.zeros_like(found)
+        assert_allclose(result[i, j], expected, rtol=1e-10)
+    out = np.zeros_like(result)
     assert nd.hexagonal_condition_number(a1, a2, b1, 1, zp, 0.25, out=out, threads=1) is out
-    assert out.tobytes() == found.tobytes()
+    assert out.tobytes() == result.tobytes()
 
 
 @pytest.mark.parametrize("shift", [0, 1, 7])
@@ -214,16 +214,16 @@ def test_an_out_that_overlaps_an_argument(shift, threads):
     rng = np.random.default_rng(16)
     memory = rng.uniform(1.0, 2.0, 150_000 + shift)
     a1, out = memory[shift:], memory[: memory.size - shift]
-    found = nd.hexagonal_condition_number(a1.copy(), 2.0, a1[::-1].copy(), 1.0, out.copy(), 0.5)
+    result = nd.hexagonal_condition_number(a1.copy(), 2.0, a1[::-1].copy(), 1.0, out.copy(), 0.5)
     nd.hexagonal_condition_number(a1, 2.0, a1[::-1], 1.0, out, 0.5, threads=threads, out=out)
-    assert out.tobytes() == found.tobytes()
+    assert out.tobytes() == result.tobytes()
 
 
 def test_an_out_that_holds_a_number_of_the_arguments():
     a1, out = np.linspace(1.0, 2.0, 100_000), np.full(100_000, 0.5)
-    found = nd.hexagonal_condition_number(a1, 2.0, 1.0, 1.0, 1.5, 0.5)
+    result = nd.hexagonal_condition_number(a1, 2.0, 1.0, 1.0, 1.5, 0.5)
     nd.hexagonal_condition_number(a1, 2.0, 1.0, 1.0, 1.5, out[:1], out=out)
-    assert out.tobytes() == found.tobytes()
+    assert out.tobytes() == result.tobytes()
 
 
 def test_characteristic_lengths_in_out(published, stack):

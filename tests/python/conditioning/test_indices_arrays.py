@@ -87,10 +87,10 @@ def test_a_geometry_out_of_misaligned_arrays(published):
 @pytest.mark.parametrize("name", ["condition_number_two", "manipulability", "singular_values"])
 def test_misaligned_arrays_are_read(published, stack, name):
     index = getattr(_core, name)
-    given = [stack.position, stack.rotation, stack.internal_point]
+    source = [stack.position, stack.rotation, stack.internal_point]
     lengths = np.array([0.5, 1.0, 2.0, 3.0, 0.1])
-    misaligned = index(published, Flat(*map(off_by_one, given)), off_by_one(lengths), 1, None)
-    assert_array_equal(misaligned, index(published, Flat(*map(np.ascontiguousarray, given)), lengths, 1, None))
+    misaligned = index(published, Flat(*map(off_by_one, source)), off_by_one(lengths), 1, None)
+    assert_array_equal(misaligned, index(published, Flat(*map(np.ascontiguousarray, source)), lengths, 1, None))
 
 
 def test_misaligned_designs_are_read():

@@ -69,9 +69,11 @@ def test_against_numpy(robots, closed_form):
 
 @pytest.mark.slow
 def test_against_the_general_path(robots, closed_form):
-    found = np.array([nd.singular_values(robots.at(k).geometry(), robots.at(k).configuration()) for k in range(COUNT)])
-    kappa = found[:, :1] / found[:, 5:]
-    assert (np.abs(closed_form / found - 1.0) <= 20 * EPS * kappa).all()
+    outcome = np.array(
+        [nd.singular_values(robots.at(k).geometry(), robots.at(k).configuration()) for k in range(COUNT)]
+    )
+    kappa = outcome[:, :1] / outcome[:, 5:]
+    assert (np.abs(closed_form / outcome - 1.0) <= 20 * EPS * kappa).all()
 
 
 def test_against_the_formula_of_the_theory(robots, closed_form):
@@ -94,8 +96,8 @@ def test_characteristic_length_scales_the_angular_rows(robots):
         m = robots.at(k)
         for lc in (0.2, 3.0):
             expected = model.singular_values(m, lc)
-            found = nd.axis_singular_values(m.geometry(), m.configuration(), lc)
-            assert_allclose(found, expected, rtol=100 * EPS * expected[0] / expected[5])
+            outcome = nd.axis_singular_values(m.geometry(), m.configuration(), lc)
+            assert_allclose(outcome, expected, rtol=100 * EPS * expected[0] / expected[5])
 
 
 def test_stacks(published, stack, neutral):

@@ -52,14 +52,14 @@ int main(void) {
 """
 
 
-def run(folder, design, program, given=""):
+def run(folder, design, program, source=""):
     """Compile a program that includes the header of a design; return what it prints."""
     (folder / "robot.h").write_text(text_of(c_header, design))
     (folder / "main.c").write_text(program)
     command = [COMPILER, *STRICT, "main.c", "-o", "main", "-lm"]
     built = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert built.returncode == 0, built.stderr
-    return subprocess.run(folder / "main", input=given, capture_output=True, text=True, check=True).stdout
+    return subprocess.run(folder / "main", input=source, capture_output=True, text=True, check=True).stdout
 
 
 @needs_compiler
@@ -73,9 +73,9 @@ def test_leg_lengths_are_those_of_the_package(design, tmp_path):
         np.r_[p, q.ravel(), s] for p, q, s in zip(poses.position, poses.rotation, poses.internal_point, strict=True)
     ]
     printed = run(tmp_path, design, LENGTHS, "\n".join(" ".join(map(repr, row.tolist())) for row in rows))
-    neutral, *found = np.array([line.split() for line in printed.splitlines()], dtype=float)
+    neutral, *result = np.array([line.split() for line in printed.splitlines()], dtype=float)
     np.testing.assert_allclose(neutral, nd.leg_lengths(design.geometry, design.configuration), rtol=1e-15, atol=0.0)
-    np.testing.assert_allclose(found, nd.leg_lengths(design.geometry, poses), rtol=1e-15, atol=0.0)
+    np.testing.assert_allclose(result, nd.leg_lengths(design.geometry, poses), rtol=1e-15, atol=0.0)
 
 
 @needs_compiler

@@ -42,10 +42,10 @@ def load(tmp_path, text):
 @pytest.mark.parametrize("name", DESIGNS)
 def test_a_design_comes_back_to_the_last_bit(name, tmp_path):
     text = text_of(written, DESIGNS[name])
-    found = load(tmp_path, text)
-    assert isinstance(found, nd.Design)
-    assert found == DESIGNS[name]
-    assert text_of(written, found) == text
+    outcome = load(tmp_path, text)
+    assert isinstance(outcome, nd.Design)
+    assert outcome == DESIGNS[name]
+    assert text_of(written, outcome) == text
 
 
 def test_what_is_written_beside_the_joints(tmp_path):
@@ -76,13 +76,13 @@ def test_pandas_reads_the_joints_as_a_table(tmp_path):
 
 
 def test_a_file_written_by_hand(tmp_path):
-    found = load(tmp_path, BY_HAND)
-    assert found.unit == "mm"
-    assert found.characteristic_length == 1.0
-    assert found.configuration == nd.Configuration.neutral(4.0, 2.5)
-    np.testing.assert_array_equal(found.geometry.base_external, [[0, -4, 0], [-3.5, 2, 0], [3.5, 2, 0]])
+    outcome = load(tmp_path, BY_HAND)
+    assert outcome.unit == "mm"
+    assert outcome.characteristic_length == 1.0
+    assert outcome.configuration == nd.Configuration.neutral(4.0, 2.5)
+    np.testing.assert_array_equal(outcome.geometry.base_external, [[0, -4, 0], [-3.5, 2, 0], [3.5, 2, 0]])
     from_a_spreadsheet = "\ufeff" + BY_HAND.replace("\n", ",,,\r\n")
-    assert load(tmp_path, from_a_spreadsheet) == found
+    assert load(tmp_path, from_a_spreadsheet) == outcome
     assert load(tmp_path, BY_HAND.replace(" (mm)", "")).unit == ""
 
 

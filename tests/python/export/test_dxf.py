@@ -46,7 +46,7 @@ def on(document, layer, kind):
 
 
 def shift(document):
-    """Where the origin of the platform lies: it is written in the title of its table."""
+    """The place of the origin of the platform: it is written in the title of its table."""
     titles = [text.dxf.text for text in on(document, "TEXT", "TEXT")]
     (title,) = [words for words in titles if words.startswith("Platform")]
     return np.array([float(title.partition("x = ")[2].split()[0]), 0.0])
@@ -63,9 +63,9 @@ def test_joints_where_they_are_and_no_complaint(name):
     g, away = design.geometry, shift(document)
     joints = np.vstack([g.base_external, g.base_internal])[:, :2]
     above = np.vstack([g.platform_external, g.platform_internal])[:, :2] + away
-    wanted = np.vstack([joints, above])
-    apart = np.linalg.norm(wanted[:, None] - circles, axis=2)
-    tolerance = 1e-12 * np.abs(wanted).max()
+    target = np.vstack([joints, above])
+    apart = np.linalg.norm(target[:, None] - circles, axis=2)
+    tolerance = 1e-12 * np.abs(target).max()
     assert np.all(apart.min(axis=0) <= tolerance)
     assert np.all(apart.min(axis=1) <= tolerance)
     assert joints[:, 0].max() < above[:, 0].min()
@@ -93,19 +93,19 @@ def test_the_outline_goes_around_all_joints(name):
 
 
 def dimensions(name):
-    found = {}
+    result = {}
     for one in on(drawn(name), "DIMENSIONS", "DIMENSION"):
-        found.setdefault(one.dxf.text.partition(" =")[0], []).append(one.get_measurement())
-    return found
+        result.setdefault(one.dxf.text.partition(" =")[0], []).append(one.get_measurement())
+    return result
 
 
 def test_sides_of_hexagons_are_dimensioned():
-    found = dimensions("hexagon")
-    assert {name: found[name][0] for name in ("a1", "a2", "b1", "b2")} == pytest.approx(
+    result = dimensions("hexagon")
+    assert {name: result[name][0] for name in ("a1", "a2", "b1", "b2")} == pytest.approx(
         {"a1": 120.0, "a2": 480.0, "b1": 300.0, "b2": 30.0}, rel=1e-12
     )
     radii = [np.sqrt((a * a + a * b + b * b) / 3.0) for a, b in ((120.0, 480.0), (300.0, 30.0))]
-    assert found["<>"] == pytest.approx(radii, rel=1e-12)
+    assert result["<>"] == pytest.approx(radii, rel=1e-12)
     assert {name for name in dimensions("paper") if name != "<>"} == {"a2", "b1"}  # the others are 0
 
 

@@ -39,8 +39,8 @@ def test_the_name_of_a_file_stays_a_name(tmp_path, format):
             text = file.read_text(encoding="utf-8")
             assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e]", text)
             if file.suffix in (".xml", ".urdf", ".sdf"):
-                made, expected = (ElementTree.fromstring(one) for one in (text, plain))
-                assert [item.tag for item in made.iter()] == [item.tag for item in expected.iter()]
+                twin, expected = (ElementTree.fromstring(one) for one in (text, plain))
+                assert [item.tag for item in twin.iter()] == [item.tag for item in expected.iter()]
             elif file.suffix == ".json":
                 json.loads(text)
             elif file.suffix == ".csv":
@@ -62,14 +62,14 @@ def test_no_cell_of_a_table_is_a_formula(tmp_path):
     followed = nd.follow(DESIGN.geometry, circle, home)
     write_motion(followed, tmp_path, question={"design": "=1+1"})
     tables += [(tmp_path / name).read_text() for name in ("legs.csv", "poses.csv")]
-    seen = 0
+    calls = 0
     for text in tables:
         for cell in (cell for row in csv.reader(io.StringIO(text)) for cell in row if cell):
             assert cell[0] not in "=@\t\r"
             if cell[0] in "+-":
                 float(cell)
-            seen += 1
-    assert seen > 300
+            calls += 1
+    assert calls > 300
     for unit in ("=1+1", "@x", "mm\n=1"):
         with pytest.raises(ValueError, match="unit: got"):
             nd.export(nd.Design(DESIGN.geometry, home, 1.0, unit), "csv", path)

@@ -24,22 +24,22 @@ DOCUMENT = r"""\documentclass{article}
 
 def tables(text):
     """The rows of each table by its title, without rules."""
-    found = {}
+    result = {}
     for title, columns, body in re.findall(
         r"% ([^\n]*)\n\\begin\{tabular\}\{(\w+)\}\n(.*?)\\end\{tabular\}", text, re.DOTALL
     ):
         rows = [line.removesuffix(r" \\").split(" & ") for line in body.splitlines() if line.endswith(r" \\")]
         assert all(len(row) == len(columns) for row in rows)
-        found[title] = rows
-    return found
+        result[title] = rows
+    return result
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_tables_hold_the_design(name):
     design = CASES[name]
-    found = tables(text_of(latex, design))
-    assert list(found) == [JOINTS, POSE, "Legs: lengths"]
-    joints, upper = found[JOINTS][1:], found[POSE][1:]
+    result = tables(text_of(latex, design))
+    assert list(result) == [JOINTS, POSE, "Legs: lengths"]
+    joints, upper = result[JOINTS][1:], result[POSE][1:]
     assert len(joints) == 12
     rows = [[float(x.strip("$")) for x in row[1:4]] for row in joints]
     size = max(abs(x) for row in rows for x in row)
@@ -49,16 +49,16 @@ def test_the_tables_hold_the_design(name):
     expected = [p, design.configuration.internal_point, *(p + design.geometry.platform_external @ q.T)]
     np.testing.assert_allclose(at[:5], expected, atol=1e-5 * np.abs(expected).max())
     np.testing.assert_allclose(at[8:], q, atol=1e-5)
-    legs = [float(row[3].strip("$")) for row in found["Legs: lengths"][1:]]
+    legs = [float(row[3].strip("$")) for row in result["Legs: lengths"][1:]]
     assert legs == pytest.approx(nd.leg_lengths(design.geometry, design.configuration).tolist(), rel=1e-4)
     assert not re.search(r"\$-0\.0*\$", text_of(latex, design))
 
 
 def test_limits_and_ranges_of_a_result():
-    found = tables(text_of(latex, limited()))
-    assert found[JOINTS][0][0] == "joint (mm)"
-    assert found["Legs: lengths"][1][4:] == ["$1.00000$", "$9.00000$", "$8.00000$"]
-    limits = {(row[0], row[1]): row[2:] for row in found["Limits of the study"][1:]}
+    result = tables(text_of(latex, limited()))
+    assert result[JOINTS][0][0] == "joint (mm)"
+    assert result["Legs: lengths"][1][4:] == ["$1.00000$", "$9.00000$", "$8.00000$"]
+    limits = {(row[0], row[1]): row[2:] for row in result["Limits of the study"][1:]}
     assert limits[r"leg\_length", r"$\leq$"][0] == "$9$ mm"
     assert limits[r"radius\_ratio", r"$\leq$"] == ["$2$", "$2$", r"$0.00\,\%$"]
 

@@ -47,8 +47,8 @@ def settle(engine, data, controls):
 
 def errors(data, target, metre, size):
     """Of position and O by the size of the robot, of the rotation in radians."""
-    found = [data.body(name).xpos / metre for name in ("platform", "O")]
-    apart = [np.abs(a - b).max() / size for a, b in zip(found, (target.position, target.internal_point), strict=True)]
+    result = [data.body(name).xpos / metre for name in ("platform", "O")]
+    apart = [np.abs(a - b).max() / size for a, b in zip(result, (target.position, target.internal_point), strict=True)]
     return [*apart, np.abs(data.body("platform").xmat.reshape(3, 3) - target.rotation).max()]
 
 
@@ -68,9 +68,9 @@ def slide_to_twist(engine, data, lc):
     turned = data.body("platform").xmat.reshape(3, 3)
     twist = np.concatenate([lc * turned @ allowed[at + 3 : at + 6], allowed[at : at + 3]])
     rates = allowed[slides(engine)[1]]
-    found = twist @ np.linalg.pinv(rates, rcond=1e-9)
-    assert_allclose(found @ rates, twist, rtol=0.0, atol=1e-12)  # the slides determine the twist
-    return found
+    result = twist @ np.linalg.pinv(rates, rcond=1e-9)
+    assert_allclose(result @ rates, twist, rtol=0.0, atol=1e-12)  # the slides determine the twist
+    return result
 
 
 @EVERY

@@ -10,30 +10,30 @@ from ninedof.robot.geometry import triples
 from ninedof.support.units import UNITS
 
 
-def assert_same(found, design, tolerance):
+def assert_same(outcome, design, tolerance):
     own = {name: np.asarray(values) for name, values in triples(design.geometry).items()}
-    for name, values in triples(found.geometry).items():
+    for name, values in triples(outcome.geometry).items():
         assert_allclose(values, own[name], rtol=tolerance, atol=0.0)
     for name in ("position", "internal_point"):
-        assert_allclose(getattr(found.configuration, name), getattr(design.configuration, name), rtol=tolerance)
-    assert_allclose(found.configuration.rotation, design.configuration.rotation, rtol=0.0, atol=max(tolerance, 1e-15))
+        assert_allclose(getattr(outcome.configuration, name), getattr(design.configuration, name), rtol=tolerance)
+    assert_allclose(outcome.configuration.rotation, design.configuration.rotation, rtol=0.0, atol=max(tolerance, 1e-15))
 
 
 @pytest.mark.parametrize("unit", ["", *UNITS])
 def test_what_was_exported_is_loaded_to_rounding(unit, tmp_path):
     design = exported.general()._replace(unit=unit)
-    found = nd.load(nd.export(design, "mjcf", tmp_path / "robot.xml"))
-    assert isinstance(found, nd.Design)
-    assert_same(found, design, 5e-16)
-    assert (found.unit, found.characteristic_length) == (unit, "optimal")
+    outcome = nd.load(nd.export(design, "mjcf", tmp_path / "robot.xml"))
+    assert isinstance(outcome, nd.Design)
+    assert_same(outcome, design, 5e-16)
+    assert (outcome.unit, outcome.characteristic_length) == (unit, "optimal")
 
 
 def test_a_machine_and_its_sides_in_millimetres_come_back(tmp_path):
     result = exported.machine()
-    found = nd.load(nd.export(result, "mjcf", tmp_path / "robot.xml"))
-    assert_same(found, result, 5e-16)
-    assert (found.unit, found.characteristic_length) == ("mm", 150.0)
-    assert nd.condition_number(*found[:2], 150.0) == pytest.approx(result.condition_number, rel=1e-13)
+    outcome = nd.load(nd.export(result, "mjcf", tmp_path / "robot.xml"))
+    assert_same(outcome, result, 5e-16)
+    assert (outcome.unit, outcome.characteristic_length) == ("mm", 150.0)
+    assert nd.condition_number(*outcome[:2], 150.0) == pytest.approx(result.condition_number, rel=1e-13)
 
 
 def test_what_mujoco_saves_is_read_too(tmp_path):

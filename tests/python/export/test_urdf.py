@@ -75,12 +75,12 @@ def test_the_tree_with_its_loops_closed_has_the_poses_of_the_robot(robot):
             ("platform", target.position, target.rotation),
             ("O", target.internal_point, None),
         ]:
-            placed = tree.get_transform(name, "base")
+            placement = tree.get_transform(name, "base")
             assert_allclose(data.body(name).xpos, at * metre, rtol=0.0, atol=1e-12)
-            assert_allclose(placed[:3, 3], at * metre, rtol=0.0, atol=1e-12)
+            assert_allclose(placement[:3, 3], at * metre, rtol=0.0, atol=1e-12)
             if turned is not None:
                 assert_allclose(data.body(name).xmat.reshape(3, 3), turned, rtol=0.0, atol=1e-12)
-                assert_allclose(placed[:3, :3], turned, rtol=0.0, atol=1e-12)
+                assert_allclose(placement[:3, :3], turned, rtol=0.0, atol=1e-12)
 
 
 def test_all_joints_at_zero_is_the_neutral_configuration_and_limits_are_about_it(robot):

@@ -47,10 +47,10 @@ def derivative(function, h):
 def test_inverse_acceleration_is_the_second_derivative_of_leg_lengths(seed):
     m, rng = random_robot(seed)
     motion = 0.5 * rng.normal(size=(6, 3))
-    found = nd.inverse_acceleration(m.geometry(), m.configuration(), *motion)
+    outcome = nd.inverse_acceleration(m.geometry(), m.configuration(), *motion)
     scale = 1.0 / model.lengths(m).min() ** 3
     expected = second_derivative(lambda t: model.lengths(at_time(m, motion, t)), 1e-2)
-    assert_allclose(found, expected, rtol=0.0, atol=1e-8 * max(1.0, scale))
+    assert_allclose(outcome, expected, rtol=0.0, atol=1e-8 * max(1.0, scale))
 
 
 @given(SEEDS)
@@ -66,8 +66,8 @@ def test_leg_accelerations_differentiate_leg_rates(seed):
         return nd.inverse_velocity(g, c, omega + t * alpha, pdot + t * pddot, sdot + t * sddot)
 
     scale = 1.0 / model.lengths(m).min() ** 3
-    found = nd.inverse_acceleration(g, m.configuration(), *motion)
-    assert_allclose(found, derivative(rates, 3e-3), rtol=0.0, atol=1e-9 * max(1.0, scale))
+    outcome = nd.inverse_acceleration(g, m.configuration(), *motion)
+    assert_allclose(outcome, derivative(rates, 3e-3), rtol=0.0, atol=1e-9 * max(1.0, scale))
 
 
 @given(SEEDS)
@@ -85,10 +85,10 @@ def test_the_derivative_of_the_jacobian(seed, lc):
     m, rng = random_robot(seed)
     motion = 0.5 * rng.normal(size=(6, 3))
     motion[3:] = 0.0
-    found = nd.jacobian_rate(m.geometry(), m.configuration(), *motion[:3], lc)
+    outcome = nd.jacobian_rate(m.geometry(), m.configuration(), *motion[:3], lc)
     kappa = model.condition_number(m) * np.linalg.cond(model.matrices(m)[1])
     expected = derivative(lambda t: model.jacobian(at_time(m, motion, t), lc), 0.03 / kappa)
-    assert_allclose(found, expected, rtol=0.0, atol=1e-8 * kappa * np.abs(expected).max())
+    assert_allclose(outcome, expected, rtol=0.0, atol=1e-8 * kappa * np.abs(expected).max())
 
 
 @given(SEEDS, st.floats(0.1, 10.0))
@@ -97,10 +97,10 @@ def test_the_twist_changes_as_both_derivatives_say(seed, lc):
     m, rng = random_robot(seed)
     g, c, motion = m.geometry(), m.configuration(), rng.normal(size=(6, 3))
     rates, accelerations = nd.inverse_velocity(g, c, *motion[:3]), nd.inverse_acceleration(g, c, *motion)
-    found = nd.jacobian(g, c, lc) @ accelerations + nd.jacobian_rate(g, c, *motion[:3], lc) @ rates
+    outcome = nd.jacobian(g, c, lc) @ accelerations + nd.jacobian_rate(g, c, *motion[:3], lc) @ rates
     lost = 1e-13 * (model.condition_number(m) * np.linalg.cond(model.matrices(m)[1])) ** 2
-    assert_allclose(found[:3] / lc, motion[3], rtol=0.0, atol=lost)
-    assert_allclose(found[3:], motion[4], rtol=0.0, atol=lost)
+    assert_allclose(outcome[:3] / lc, motion[3], rtol=0.0, atol=lost)
+    assert_allclose(outcome[3:], motion[4], rtol=0.0, atol=lost)
 
 
 @pytest.mark.parametrize("unit", [2.0**-20, 2.0**20])
@@ -127,15 +127,15 @@ def test_a_circle_at_constant_speed():
     """The platform rotates about its axis, O at rest on it: only the external legs accelerate (by hand)."""
     g, c, w = nd.Geometry.hexagonal(0.0, 3.0, 2.0, 0.0), nd.Configuration.neutral(2.0, 1.0, 0.3), 1.7
     zero = np.zeros(3)
-    found = nd.inverse_acceleration(g, c, [0, 0, w], zero, zero, zero, zero, zero)
+    outcome = nd.inverse_acceleration(g, c, [0, 0, w], zero, zero, zero, zero, zero)
     # l^2 = R^2 + U^2 - 2 R U cos(phi + w t) + h^2
     r, u = g.base_external[0], g.platform_external[0]
     R, U = np.hypot(*r[:2]), np.hypot(*u[:2])
     phi = np.arctan2(u[1], u[0]) + 0.3 - np.arctan2(r[1], r[0])
     length = np.sqrt(R**2 + U**2 - 2 * R * U * np.cos(phi) + 4.0)
     rate = R * U * np.sin(phi) * w / length
-    assert_allclose(found[:3], (R * U * np.cos(phi) * w**2 - rate**2) / length, rtol=1e-14)
-    assert_allclose(found[3:], 0.0, atol=1e-15)
+    assert_allclose(outcome[:3], (R * U * np.cos(phi) * w**2 - rate**2) / length, rtol=1e-14)
+    assert_allclose(outcome[3:], 0.0, atol=1e-15)
 
 
 def test_singular_configurations():
@@ -154,8 +154,8 @@ def test_singular_configurations():
 
 def test_a_leg_of_zero_length_is_nan_alone():
     c = nd.Configuration([0.1, 0.2, 2.0], None, FLAT.base_internal[1])
-    found = nd.inverse_acceleration(FLAT, c, *np.eye(3), *np.eye(3))
-    assert np.isnan(found).nonzero()[0].tolist() == [7]
+    outcome = nd.inverse_acceleration(FLAT, c, *np.eye(3), *np.eye(3))
+    assert np.isnan(outcome).nonzero()[0].tolist() == [7]
 
 
 def test_stack_equals_one_by_one(published, stack):
@@ -199,8 +199,8 @@ def test_broadcasting(published, stack, neutral):
 def test_a_length_by_its_kind_is_constant(published, neutral):
     """The derivative of J' is taken with the length of this configuration, which is constant along the motion."""
     motion, lc = np.eye(3), nd.characteristic_length(published, neutral, "natural")
-    found = nd.jacobian_rate(published, neutral, *motion, "natural")
-    assert_array_equal(found, nd.jacobian_rate(published, neutral, *motion, lc))
+    outcome = nd.jacobian_rate(published, neutral, *motion, "natural")
+    assert_array_equal(outcome, nd.jacobian_rate(published, neutral, *motion, lc))
 
 
 def test_missing_pose_stays_alone(published):

@@ -74,8 +74,8 @@ def test_forward_velocity_inverts_differences_of_leg_lengths(published, name):
     rng = np.random.default_rng(8)
     c = regime(name, rng)
     motion = rng.normal(size=(3, 3))
-    found = nd.forward_velocity(published, c, rates_by_differences(published, c, *motion))
-    assert_allclose(found, motion, atol=1e-9)
+    outcome = nd.forward_velocity(published, c, rates_by_differences(published, c, *motion))
+    assert_allclose(outcome, motion, atol=1e-9)
 
 
 def random_robot(seed):
@@ -91,8 +91,8 @@ def test_matrices_meet_their_equations(seed, lc):
     m, rng = random_robot(seed)
     g, c = m.geometry(), m.configuration()
     v = nd.velocity_matrices(g, c, lc)
-    for found, expected in zip((v.A, v.B, v.C, v.D), model.matrices(m, lc), strict=True):
-        assert_allclose(found, expected, atol=1e-13 / min(lc, 1.0))
+    for outcome, expected in zip((v.A, v.B, v.C, v.D), model.matrices(m, lc), strict=True):
+        assert_allclose(outcome, expected, atol=1e-13 / min(lc, 1.0))
     assert_array_equal(v.F, np.vstack([v.A, v.E]))
     assert_allclose(v.G[3:, 6:], v.C @ np.linalg.inv(v.B), rtol=0.0, atol=1e-13 * np.linalg.cond(v.B) ** 2)
     assert_array_equal(v.G[:, :6], np.diag([1, 1, 1, -1, -1, -1]))
@@ -138,9 +138,9 @@ def test_moving_the_internal_point_alone_moves_no_platform(seed):
     _, B, C, _ = model.matrices(m)
     sdot = rng.normal(size=3)
     rates = np.concatenate([np.zeros(3), C @ sdot, B @ sdot])
-    omega, pdot, found = nd.forward_velocity(m.geometry(), m.configuration(), rates)
+    omega, pdot, outcome = nd.forward_velocity(m.geometry(), m.configuration(), rates)
     lost = 1e-13 * model.condition_number(m) * np.linalg.cond(B)
-    assert_allclose([omega, pdot, found], [np.zeros(3), np.zeros(3), sdot], atol=lost)
+    assert_allclose([omega, pdot, outcome], [np.zeros(3), np.zeros(3), sdot], atol=lost)
     assert_allclose(
         nd.inverse_velocity(m.geometry(), m.configuration(), np.zeros(3), np.zeros(3), sdot), rates, atol=1e-14
     )

@@ -38,13 +38,13 @@ def least(m, omega, pdot, weights=1.0):
 def test_least_leg_rates_are_the_pseudo_inverse_of_the_jacobian(seed):
     m, rng = random_robot(seed)
     g, c, (omega, pdot) = m.geometry(), m.configuration(), rng.normal(size=(2, 3))
-    found = nd.inverse_velocity(g, c, omega, pdot)
+    outcome = nd.inverse_velocity(g, c, omega, pdot)
     J = model.jacobian(m, 0.7)
     lost = 1e-13 * model.condition_number(m, 0.7) * np.linalg.cond(nd.null_motion(g, c))
-    assert_allclose(found, np.linalg.pinv(J) @ [*(0.7 * omega), *pdot], rtol=0.0, atol=lost)
-    assert_allclose(nd.null_motion(g, c).T @ found, np.zeros(3), rtol=0.0, atol=lost)
+    assert_allclose(outcome, np.linalg.pinv(J) @ [*(0.7 * omega), *pdot], rtol=0.0, atol=lost)
+    assert_allclose(nd.null_motion(g, c).T @ outcome, np.zeros(3), rtol=0.0, atol=lost)
     sdot = nd.internal_velocity(g, c, omega, pdot)
-    assert_array_equal(found, nd.inverse_velocity(g, c, omega, pdot, sdot))
+    assert_array_equal(outcome, nd.inverse_velocity(g, c, omega, pdot, sdot))
 
 
 @given(SEEDS, st.floats(1.0, 1e3))
@@ -80,9 +80,9 @@ def test_finite_up_to_the_plane_and_continuous():
     """Sdot through det B = 0 at distances from 1e-1 to 0: no step, no growth."""
     distances = np.array([1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 0.0])
     c = nd.Configuration([0.1, 0.2, 2.0], None, np.stack(np.broadcast_arrays(0.3, -0.2, distances), axis=-1))
-    found = nd.internal_velocity(FLAT, c, [0.3, -0.1, 0.2], [0.5, 0.7, -0.4])
-    assert_allclose(found[2:], np.broadcast_to(found[-1], (5, 3)), atol=1e-4)
-    assert_allclose(found[3:], np.broadcast_to(found[-1], (4, 3)), atol=1e-7)
+    outcome = nd.internal_velocity(FLAT, c, [0.3, -0.1, 0.2], [0.5, 0.7, -0.4])
+    assert_allclose(outcome[2:], np.broadcast_to(outcome[-1], (5, 3)), atol=1e-4)
+    assert_allclose(outcome[3:], np.broadcast_to(outcome[-1], (4, 3)), atol=1e-7)
 
 
 def test_both_triples_singular_in_one_direction():

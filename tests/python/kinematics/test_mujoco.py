@@ -56,9 +56,9 @@ def pose(data):
     return nd.Configuration(p, Rotation.from_quat([x, y, z, w]), s)
 
 
-def assert_same_pose(found, expected, tolerance):
+def assert_same_pose(result, expected, tolerance):
     for part in ("position", "rotation", "internal_point"):
-        assert_allclose(getattr(found, part), getattr(expected, part), rtol=0.0, atol=tolerance, err_msg=part)
+        assert_allclose(getattr(result, part), getattr(expected, part), rtol=0.0, atol=tolerance, err_msg=part)
 
 
 def nearby(robot, seed):
@@ -154,8 +154,8 @@ def test_jacobian_and_forward_velocity_undo_tendon_rates(robot):
         inverse = np.linalg.inv(rate_matrix(engine, data, c))
         expected = np.concatenate([lc * inverse[:3], inverse[3:6]])
         assert_allclose(nd.jacobian(g, c, lc), expected, rtol=0.0, atol=ROUNDING * np.abs(inverse).max())
-        found = np.concatenate(nd.forward_velocity(g, c, np.eye(9)), axis=-1).T
-        assert_allclose(found, inverse, rtol=0.0, atol=ROUNDING * np.abs(inverse).max())
+        result = np.concatenate(nd.forward_velocity(g, c, np.eye(9)), axis=-1).T
+        assert_allclose(result, inverse, rtol=0.0, atol=ROUNDING * np.abs(inverse).max())
 
 
 @EVERY_ROBOT
@@ -178,8 +178,8 @@ def test_accelerations_are_differences_of_tendon_velocities(robot):
 
     h = 2e-3
     d1, d2, d3 = ((tendon_velocity(k * h) - tendon_velocity(-k * h)) / (2 * k * h) for k in (1, 2, 3))
-    found = nd.inverse_acceleration(g, c, *velocity, *acceleration)
-    assert_allclose(found, 1.5 * d1 - 0.6 * d2 + 0.1 * d3, rtol=0.0, atol=1e-10)
+    result = nd.inverse_acceleration(g, c, *velocity, *acceleration)
+    assert_allclose(result, 1.5 * d1 - 0.6 * d2 + 0.1 * d3, rtol=0.0, atol=1e-10)
 
 
 @EVERY_ROBOT
@@ -222,8 +222,8 @@ def test_jacobian_is_in_the_null_space_of_the_loops(robot):
     rng = np.random.default_rng(6)
     for c in [start, *start.moved(0.3 * rng.normal(size=(4, 9)))]:
         engine, data = loaded(models.closed_loop_model(g, c))
-        found = nd.jacobian(g, c)
-        assert_allclose(found, slide_to_twist(engine, data), rtol=0.0, atol=ROUNDING * np.abs(found).max())
+        result = nd.jacobian(g, c)
+        assert_allclose(result, slide_to_twist(engine, data), rtol=0.0, atol=ROUNDING * np.abs(result).max())
 
 
 @EVERY_ROBOT
@@ -245,8 +245,8 @@ def test_measured_slides_give_the_pose_under_gravity(robot):
     target = nearby(robot, 7)
     engine, data = loaded(models.closed_loop_model(g, start, gravity=9.81, timestep=5e-4))
     settle(engine, data, nd.leg_lengths(g, target), seconds=20.0)
-    reached = pose(data)
+    arrival = pose(data)
     measured = data.qpos[slides(engine)[0]]
     assert np.abs(measured - nd.leg_lengths(g, target)).max() > 1e-4
-    assert_allclose(nd.leg_lengths(g, reached), measured, rtol=0.0, atol=1e-7)
-    assert_same_pose(nd.track(g, measured, start), reached, 1e-6)
+    assert_allclose(nd.leg_lengths(g, arrival), measured, rtol=0.0, atol=1e-7)
+    assert_same_pose(nd.track(g, measured, start), arrival, 1e-6)

@@ -93,12 +93,12 @@ def test_velocity_matrices(case, call):
 def test_determinants(case, call):
     """Signs decide on which side of a singularity a pose lies; values follow to the precision of the matrices."""
     m = call(case, nd.velocity_matrices, case["lc"])
-    found = {name: np.linalg.det(getattr(m, name)) for name in "FBC"}
-    for name, value in found.items():
+    outcome = {name: np.linalg.det(getattr(m, name)) for name in "FBC"}
+    for name, value in outcome.items():
         assert np.sign(value) == np.sign(case[f"det{name}"])
     # det B and det C are at most 1: an absolute bound is appropriate near zero.
-    assert_allclose([found["B"], found["C"]], [case["detB"], case["detC"]], rtol=0.0, atol=100 * EPS)
-    assert_allclose(found["F"], case["detM"] * case["detC"] / case["lc"] ** 3, rtol=100 * EPS * case["kappa_F"])
+    assert_allclose([outcome["B"], outcome["C"]], [case["detB"], case["detC"]], rtol=0.0, atol=100 * EPS)
+    assert_allclose(outcome["F"], case["detM"] * case["detC"] / case["lc"] ** 3, rtol=100 * EPS * case["kappa_F"])
 
 
 def test_jacobian(case, call):
@@ -146,11 +146,11 @@ def leg_accelerations_bound(case):
 
 
 def test_inverse_acceleration(case):
-    found = nd.inverse_acceleration(
+    outcome = nd.inverse_acceleration(
         geometry(case), configuration(case), *motion(case, "omega", "pdot", "sdot", "alpha", "pddot", "sddot")
     )
     expected = vector(case, "lddot", "qddot", "rddot")
-    assert_allclose(found, expected, rtol=0.0, atol=20 * EPS * leg_accelerations_bound(case))
+    assert_allclose(outcome, expected, rtol=0.0, atol=20 * EPS * leg_accelerations_bound(case))
 
 
 def test_forward_acceleration(case):

@@ -32,19 +32,19 @@ def written(path, names, columns):
 )
 def test_every_way_to_give_a_rotation(tmp_path, names, turns):
     path = written(tmp_path / "path.csv", ["t", "x", "y", "z", *names.split()], [TIMES, PLACES, turns])
-    found = nd.Trajectory.load(path, HOME)
-    assert (found.time == TIMES).all()
-    assert (found.position == PLACES).all()
-    assert found.rotation == pytest.approx(TURNS.as_matrix(), abs=1e-14)
+    result = nd.Trajectory.load(path, HOME)
+    assert (result.time == TIMES).all()
+    assert (result.position == PLACES).all()
+    assert result.rotation == pytest.approx(TURNS.as_matrix(), abs=1e-14)
 
 
 def test_columns_in_any_order_comments_and_no_rotation(tmp_path):
     path = tmp_path / "path.csv"
     path.write_bytes(b"\xef\xbb\xbf# made by hand\r\nz, t ,y,x\r\n4,0,0,1\r\n\r\n4,1,0,2\r\n# here\r\n4,2,0,3\r\n")
-    found = nd.Trajectory.load(path, HOME)
-    assert found.position.tolist() == [[1, 0, 4], [2, 0, 4], [3, 0, 4]]
-    assert (found.rotation == HOME.rotation).all()
-    assert found.rotation[0, 1, 0] == pytest.approx(math.sin(0.3))
+    result = nd.Trajectory.load(path, HOME)
+    assert result.position.tolist() == [[1, 0, 4], [2, 0, 4], [3, 0, 4]]
+    assert (result.rotation == HOME.rotation).all()
+    assert result.rotation[0, 1, 0] == pytest.approx(math.sin(0.3))
 
 
 GOOD = "t,x,y,z\n0,0,0,4\n1,0,0,4\n2,0,0,4\n"

@@ -33,8 +33,8 @@ def errors(modes, p, q, s, unit):
 
 
 def length_errors(g, modes, lengths):
-    found = numpy_model.lengths(numpy_model.robot(g, modes))
-    return abs(found - lengths).max(axis=-1) / lengths.max()
+    result = numpy_model.lengths(numpy_model.robot(g, modes))
+    return abs(result - lengths).max(axis=-1) / lengths.max()
 
 
 @pytest.fixture(params=CASES, ids=lambda c: f"{c['id']}-{'-'.join(c['tags'])}".replace(" ", "_"))
@@ -59,18 +59,18 @@ def test_reference_modes(case):
         return
     assert len(modes) == modes.count == case["count"]
     side = {0: 1, 1: -1}
-    taken = set()
+    selection = set()
     for solution in case["solutions"]:
         error = errors(modes, solution["p"], rotation(solution["quat"]), solution["s"], lengths.max())
         k = int(np.argmin(error))
-        taken.add(k)
+        selection.add(k)
         assert error[k] <= case["tol"]
         if modes.base_side[k] != 0:
             assert modes.base_side[k] == side[solution["branch"][0]]
         assert modes.platform_side[k] == side[solution["branch"][1]]
         if solution["sigma_rot"] > 1e-6:
             assert_allclose(modes.separation[k], solution["sigma_rot"], rtol=1e-6, atol=1e-9)
-    assert len(taken) == case["count"], "one mode stands for two"
+    assert len(selection) == case["count"], "one mode stands for two"
     if case["count"]:
         assert length_errors(g, modes, lengths).max() < 1e-13
 
@@ -186,7 +186,7 @@ def test_nearly_parallel_directions_are_neither_self_motion_nor_tangent(slender)
     joints, (p, turn, s) = slender
     rng = np.random.default_rng(21)
     g = nd.Geometry(*joints)
-    found = 0
+    result = 0
     for _ in range(40):
         c = nd.Configuration(p, Rotation.from_rotvec(turn + 0.1 * rng.normal(size=3)), s)
         lengths = nd.leg_lengths(g, c)
@@ -195,8 +195,8 @@ def test_nearly_parallel_directions_are_neither_self_motion_nor_tangent(slender)
         assert error.min() < 1e-5
         assert length_errors(g, modes, lengths).max() < 1e-12
         assert modes.status == "found" or not modes.certain
-        found += modes.status == "found"
-    assert found >= 30
+        result += modes.status == "found"
+    assert result >= 30
 
 
 def anisotropic_robot(rng, far):

@@ -59,14 +59,14 @@ def test_a_certified_mode_is_alone(hexagonal):
         same_o &= abs((modes.rotation.mT @ (modes.internal_point - modes.position)[..., None])[..., 0]
                       - there.rotation.T @ (there.internal_point - there.position)).max(axis=-1) < 1e-9  # fmt: skip
         away = np.sort(angle(c.rotation, modes.rotation[same_o]))
-        reached = angle(c.rotation, there.rotation)
-        assert_allclose(away[0], reached, atol=1e-9)
+        arrival = angle(c.rotation, there.rotation)
+        assert_allclose(away[0], arrival, atol=1e-9)
         if there.certificate <= 0.5:
             certified += 1
-            assert reached <= there.alone_within
+            assert arrival <= there.alone_within
             assert len(away) == 1 or away[1] > there.alone_within
         else:
-            assert reached < 2.0 / (3.0 * np.sqrt(3.0)) * there.separation
+            assert arrival < 2.0 / (3.0 * np.sqrt(3.0)) * there.separation
             assert np.isnan(there.alone_within)
     assert certified > 200
 
@@ -151,8 +151,8 @@ def lines(rng, count):
 
 
 def modes(g, lengths):
-    found = nd.forward_position(g, lengths)
-    return len(found.position)
+    result = nd.forward_position(g, lengths)
+    return len(result.position)
 
 
 def test_a_mode_is_lost_where_the_list_of_all_modes_gets_shorter():
@@ -194,10 +194,10 @@ def test_any_length_unit(published, home, unit):
     there = home.moved([0.02, 0.01, 0.03, 0.02, 0.01, 0.01, 0.03, 0.01, 0.02])
     big = nd.Geometry.hexagonal(a1=0.0, a2=5.8124 * unit, b1=2.9062 * unit, b2=0.0)
     start = nd.Configuration(home.position * unit, home.rotation, home.internal_point * unit)
-    found = nd.track(big, nd.leg_lengths(published, there) * unit, start)
-    assert found.status == "tracked"
-    assert_allclose(found.rotation, there.rotation, atol=1e-12)
-    assert_allclose(found.position / unit, there.position, atol=1e-12)
+    result = nd.track(big, nd.leg_lengths(published, there) * unit, start)
+    assert result.status == "tracked"
+    assert_allclose(result.rotation, there.rotation, atol=1e-12)
+    assert_allclose(result.position / unit, there.position, atol=1e-12)
 
 
 def test_a_trajectory_is_its_steps(published, home):

@@ -296,8 +296,8 @@ def test_a_symmetric_machine_does_not_flicker_along_z():
         platform_internal=orbit(3.0964985258001736, 2.6155275162807006),
     )
     z = np.linspace(0.8, 1.7, 41)
-    found = nd.best_internal_point(g, z[:, None] * [0.0, 0.0, 1.0], characteristic_length=7.747692520080963)
-    lost = np.asarray(found.status) == "unbounded"
+    result = nd.best_internal_point(g, z[:, None] * [0.0, 0.0, 1.0], characteristic_length=7.747692520080963)
+    lost = np.asarray(result.status) == "unbounded"
     assert lost.any()
     assert not lost.all()
     assert np.count_nonzero(lost[1:] != lost[:-1]) <= 2

@@ -15,14 +15,14 @@ def plane(n, reach=1.6, height=3.9828):
 
 
 def test_progress_of_a_map_rises_to_the_total(published):
-    seen = []
-    nd.best_internal_map(published, plane(64), progress=lambda *a: seen.append(a))
-    done, total, value = zip(*seen, strict=True)
+    history = []
+    nd.best_internal_map(published, plane(64), progress=lambda *a: history.append(a))
+    done, total, value = zip(*history, strict=True)
     assert set(total) == {64 * 64}
     assert set(value) == {None}
     assert all(a < b for a, b in itertools.pairwise(done))
     assert done[-1] == 64 * 64
-    assert len(seen) > 2  # at most one call in a tenth of a second
+    assert len(history) > 2  # at most one call in a tenth of a second
 
 
 @pytest.mark.parametrize("error", [RuntimeError("mine"), SystemExit(3)], ids=repr)
@@ -35,10 +35,10 @@ def test_an_exception_of_progress_ends_a_map(published, error):
 
 
 def test_ctrl_c_ends_a_map(published):
-    seen = []
+    history = []
     with interrupter() as interrupt, pytest.raises(KeyboardInterrupt):
-        nd.best_internal_map(published, plane(200), progress=lambda *told: seen.append(told) or interrupt())
-    assert 0 < seen[-1][0] < 200 * 200
+        nd.best_internal_map(published, plane(200), progress=lambda *calls: history.append(calls) or interrupt())
+    assert 0 < history[-1][0] < 200 * 200
 
 
 @pytest.mark.parametrize("search", [nd.best_internal_point, nd.best_internal_path])

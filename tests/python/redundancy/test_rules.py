@@ -16,7 +16,7 @@ SHIFT, TURN_DEG = (0.3, -0.2, 0.1), (4.0, -7.0, 12.0)
 
 
 @pytest.fixture(scope="module")
-def chosen() -> Chosen:
+def choice() -> Chosen:
     return named_design(None)
 
 
@@ -31,8 +31,8 @@ def expected(rule, home, q):
     }[rule]
 
 
-def test_a_rule_places_o_at_the_same_point_everywhere(chosen):
-    home, g = chosen.configuration, chosen.geometry
+def test_a_rule_places_o_at_the_same_point_everywhere(choice):
+    home, g = choice.configuration, choice.geometry
     q = home.moved([*np.radians(TURN_DEG), 0, 0, 0, 0, 0, 0]).rotation
     pose = home.position + SHIFT
     for rule in ("carried", "shifted", "held"):
@@ -48,7 +48,7 @@ def test_a_rule_places_o_at_the_same_point_everywhere(chosen):
             expected(rule, state.variant.home, state.configuration.rotation),
             atol=1e-12,
         )
-        at = PoseOptions(design="", position=tuple(pose), rotation_deg=TURN_DEG, internal_point=rule).poses(chosen)
+        at = PoseOptions(design="", position=tuple(pose), rotation_deg=TURN_DEG, internal_point=rule).poses(choice)
         np.testing.assert_allclose(at.internal_point[0], o, atol=1e-12)
         if rule in STUDY_RULES:
             study = dataclasses.replace(

@@ -33,8 +33,8 @@ def test_no_length_of_a_leg_costs_half_the_digits(kind):
         g, c = robot(rng, kind, length)
         exact = ExactRobot(g, c)
         np.testing.assert_allclose(nd.leg_lengths(g, c), [number(x) for x in exact.lengths()], rtol=5e-11)
-        found = nd.velocity_matrices(g, c)
-        for rows, legs in ((found.A[:, 3:], exact.external), (found.C, exact.upper), (found.B, exact.lower)):
+        result = nd.velocity_matrices(g, c)
+        for rows, legs in ((result.A[:, 3:], exact.external), (result.C, exact.upper), (result.B, exact.lower)):
             directions = [[number(x) for x in unit(leg)] for leg in legs]
             np.testing.assert_allclose(rows, directions, rtol=0.0, atol=5e-11)
         kappa = number(exact.condition_number())

@@ -26,14 +26,14 @@ def test_distance_to_the_plane_of_the_lower_joints():
         height = 10.0 ** rng.uniform(-3, -1)
         o = lower.mean(axis=0) + height * normal
         c = nd.Configuration([0.0, 0.0, 30.0], internal_point=o)
-        found = nearest_singularity(g, c, "internal_point", most=1.0, directions=300)
-        if found.mechanism != "b":  # a line through O met the turning axis of the platform first
-            assert found.distance < height
+        result = nearest_singularity(g, c, "internal_point", most=1.0, directions=300)
+        if result.mechanism != "b":  # a line through O met the turning axis of the platform first
+            assert result.distance < height
             continue
         planes += 1
-        assert found.distance == pytest.approx(height, rel=1e-9)
-        assert abs(found.direction @ normal) == pytest.approx(1.0, abs=1e-6)
-        assert abs(nd.singularity_margins(g, found.configuration).det_b) < 1e-9
+        assert result.distance == pytest.approx(height, rel=1e-9)
+        assert abs(result.direction @ normal) == pytest.approx(1.0, abs=1e-6)
+        assert abs(nd.singularity_margins(g, result.configuration).det_b) < 1e-9
     assert planes > size(5, 150)
 
 
@@ -43,17 +43,17 @@ def test_no_random_direction_is_nearer_and_the_pose_is_singular(published, part)
     first = {"rotation": 0, "position": 3, "internal_point": 6}[part]
     for g in (published, robot(rng), robot(rng)):
         c = nd.Configuration(rng.normal([0, 0, 4.0], 0.2), internal_point=rng.normal([0, 0, 2.0], 0.2))
-        found = nearest_singularity(g, c, part)
+        result = nearest_singularity(g, c, part)
         motions = np.zeros((size(3000, 100_000), 9))
         motions[:, first : first + 3] = rng.normal(size=(len(motions), 3))
         motions /= np.linalg.norm(motions, axis=1, keepdims=True)
-        others = nd.distance_to_singularity(g, c, motions, most=2.0 * found.distance).distance
-        assert others.min() >= found.distance * (1.0 - 1e-9)
-        margins = nd.singularity_margins(g, found.configuration)
-        assert abs(getattr(margins, f"det_{found.mechanism}")) < 1e-7
+        others = nd.distance_to_singularity(g, c, motions, most=2.0 * result.distance).distance
+        assert others.min() >= result.distance * (1.0 - 1e-9)
+        margins = nd.singularity_margins(g, result.configuration)
+        assert abs(getattr(margins, f"det_{result.mechanism}")) < 1e-7
         moved = np.zeros(9)
-        moved[first : first + 3] = found.distance * found.direction
-        assert found.configuration == c.moved(moved)
+        moved[first : first + 3] = result.distance * result.direction
+        assert result.configuration == c.moved(moved)
 
 
 def refined(g, c, tangents, most, rng):
@@ -71,10 +71,10 @@ def refined(g, c, tangents, most, rng):
     ways, least, angle = ways[order], least[order], np.full(400, 0.05)
     for _ in range(60):
         around = unit(ways[:, None] + angle[:, None, None] * unit(rng.normal(size=(400, 4, 3))))
-        found = distance(around.reshape(-1, 3)).reshape(400, 4)
-        k = np.argmin(found, axis=1)
-        better = found[np.arange(400), k] < least
-        ways[better], least[better] = around[better, k[better]], found[better, k[better]]
+        result = distance(around.reshape(-1, 3)).reshape(400, 4)
+        k = np.argmin(result, axis=1)
+        better = result[np.arange(400), k] < least
+        ways[better], least[better] = around[better, k[better]], result[better, k[better]]
         angle[~better] *= 0.7
     return least.min()
 
@@ -93,21 +93,21 @@ def test_refined_directions_are_no_nearer_and_the_sheet_says_the_same():
             tangents = np.zeros((9, 3))
             for row in rows:
                 tangents[row : row + 3] = np.eye(3)
-            known = refined(g, c, tangents, most, rng)
-            assert of_sheet[motion].distance <= known * (1.0 + 1e-9)
+            reference = refined(g, c, tangents, most, rng)
+            assert of_sheet[motion].distance <= reference * (1.0 + 1e-9)
             if motion != "shift":
                 part = {"turn": "rotation", "internal": "internal_point"}[motion]
                 assert nearest_singularity(g, c, part, most).distance == of_sheet[motion].distance
 
 
 def test_the_nearest_of_a_stack(published, stack):
-    found = nearest_singularity(published, stack)
+    result = nearest_singularity(published, stack)
     each = [nearest_singularity(published, stack[k]) for k in range(len(stack))]
     k = int(np.argmin([one.distance for one in each]))
-    assert (found.pose, found.distance) == (k, each[k].distance)
-    assert found.configuration == each[k].configuration
+    assert (result.pose, result.distance) == (k, each[k].distance)
+    assert result.configuration == each[k].configuration
     one = nearest_singularity(published, stack, threads=1)
-    assert (one.distance, one.direction.tolist()) == (found.distance, found.direction.tolist())
+    assert (one.distance, one.direction.tolist()) == (result.distance, result.direction.tolist())
 
 
 def test_singular_and_free(published, neutral):

@@ -1,4 +1,4 @@
-"""Where the condition number is infinite: the three mechanisms of loss, on and off the symmetry axis.
+"""Configurations of infinite condition number: the three mechanisms of loss, on and off the symmetry axis.
 
 Oracle: geometry alone. Each singular pose is built from what makes it so (theory of position and velocity, section 5),
 not from a determinant.

@@ -1,4 +1,4 @@
-"""How far a path is free of singularities.
+"""The part of a path that is free of singularities.
 
 Oracle: the three determinants by numpy along the path written out with scipy rotations, sampled densely and their first
 change of sign solved by Brent's method; where the answer is known, geometry.
@@ -61,29 +61,29 @@ def test_against_dense_sampling_and_root_finding(kind):
     for n in range(30):
         m, tangent = robots.at(n), direction(rng, kind)
         expected = first_crossings(m, tangent, MOST)
-        found = nd.distance_to_singularity(m.geometry(), m.configuration(), tangent, most=MOST)
-        assert found.resolved
-        assert found.distance == found.each.min()
-        if np.isfinite(found.distance):
-            assert found.mechanism == "nbc"[int(np.argmin(found.each))]
+        result = nd.distance_to_singularity(m.geometry(), m.configuration(), tangent, most=MOST)
+        assert result.resolved
+        assert result.distance == result.each.min()
+        if np.isfinite(result.distance):
+            assert result.mechanism == "nbc"[int(np.argmin(result.each))]
             assert_allclose(
-                nd.singularity_margins(m.geometry(), m.configuration().moved(found.distance * tangent))[
-                    "nbc".index(found.mechanism)
+                nd.singularity_margins(m.geometry(), m.configuration().moved(result.distance * tangent))[
+                    "nbc".index(result.mechanism)
                 ],
                 0.0,
                 atol=1e-11,
             )
         else:
-            assert found.mechanism is nd.Mechanism.NONE
+            assert result.mechanism is nd.Mechanism.NONE
         for k in range(3):
             # Sampling may miss a pair of crossings; what it finds must be found, and nothing else but such a pair.
-            assert found.each[k] <= expected[k] + 1e-11
-            if found.each[k] < expected[k] - 1e-11:
-                close = found.each[k] + np.linspace(0.0, MOST / 4000, 2001)
+            assert result.each[k] <= expected[k] + 1e-11
+            if result.each[k] < expected[k] - 1e-11:
+                close = result.each[k] + np.linspace(0.0, MOST / 4000, 2001)
                 values = determinants(m, tangent, close)[k]
                 assert values.min() <= 1e-12
                 assert values.max() >= -1e-12
-            found_some[k] += np.isfinite(found.each[k])
+            found_some[k] += np.isfinite(result.each[k])
     # A plane of O's is met in about half of the moves; a turn of the platform is nothing to the lower legs.
     assert (found_some[[0, 2]] >= 8).all()
     assert found_some[1] >= 8 or kind in ("turn", "mostly turn")
@@ -94,7 +94,7 @@ def test_against_dense_sampling_and_root_finding(kind):
 def test_a_short_excursion_through_a_singularity_is_not_stepped_over(gap):
     """Two external legs point at O at times a gap apart: det N changes sign for no longer than that."""
     rng = np.random.default_rng(12)
-    seen = 0
+    calls = 0
     for _ in range(30):
         m, tangent = model.random_robots(rng, 1).at(0), direction(rng, "screw")
         base = m.r.copy()
@@ -106,12 +106,12 @@ def test_a_short_excursion_through_a_singularity_is_not_stepped_over(gap):
         before, between, after = determinants(m, tangent, [0.5 - gap, 0.5 + gap / 2, 0.5 + 2 * gap])[0]
         if not (before * after > 0.0 > before * between):
             continue  # a third zero close by
-        found = nd.distance_to_singularity(m.geometry(), m.configuration(), tangent).each[0]
-        assert found <= 0.5 + 1e-10
-        if found > 0.5 - gap:
-            assert_allclose(found, 0.5, rtol=0.0, atol=1e-13 / gap)
-            seen += 1
-    assert seen >= 10
+        result = nd.distance_to_singularity(m.geometry(), m.configuration(), tangent).each[0]
+        assert result <= 0.5 + 1e-10
+        if result > 0.5 - gap:
+            assert_allclose(result, 0.5, rtol=0.0, atol=1e-13 / gap)
+            calls += 1
+    assert calls >= 10
 
 
 def test_a_plane_that_O_touches_or_just_misses():
@@ -123,11 +123,11 @@ def test_a_plane_that_O_touches_or_just_misses():
         joints = triangle + np.array([0.0, 0.0, 1.0 + gap])
         g = nd.Geometry(base, base, triangle, joints)
         c = nd.Configuration([0, 0, 0], internal_point=[1.0, 0.0, 0.0])
-        found = nd.distance_to_singularity(g, c, [0, np.pi, 0, 0, 0, 0, 0, 0, 0]).each[2]
+        result = nd.distance_to_singularity(g, c, [0, np.pi, 0, 0, 0, 0, 0, 0, 0]).each[2]
         if gap > 0.0:
-            assert found == np.inf
+            assert result == np.inf
         else:
-            assert_allclose(found, 0.5 - np.arccos(1.0 + gap) / np.pi, rtol=0.0, atol=1e-7 if gap == 0.0 else 1e-10)
+            assert_allclose(result, 0.5 - np.arccos(1.0 + gap) / np.pi, rtol=0.0, atol=1e-7 if gap == 0.0 else 1e-10)
 
 
 def test_O_sinks_into_the_base_or_rises_into_the_platform(published):
@@ -150,12 +150,12 @@ def test_default_is_the_displacement_itself(published, neutral):
 
 def test_a_twist_of_the_neutral_pose(published):
     """Coupled triangles are lost at a twist of 120 degrees; the closed form on the axis says so, and not before."""
-    found = nd.distance_to_singularity(
+    result = nd.distance_to_singularity(
         published, nd.Configuration.neutral(3.9828, 2.3745), [0, 0, 1.0] + [0] * 6, most=7.0
     )
-    assert found.mechanism == "n"
-    assert_allclose(found.distance, 2.0 * np.pi / 3.0, rtol=1e-14)
-    twists = found.distance * np.array([0.0, 0.3, 0.6, 0.9, 0.99, 1.0, 1.01])
+    assert result.mechanism == "n"
+    assert_allclose(result.distance, 2.0 * np.pi / 3.0, rtol=1e-14)
+    twists = result.distance * np.array([0.0, 0.3, 0.6, 0.9, 0.99, 1.0, 1.01])
     largest = nd.axis_singular_values(published, nd.Configuration.neutral(3.9828, 2.3745, twists))[:, 0]
     assert largest[5] > 1e12
     assert np.delete(largest, 5).max() < 1e3
@@ -167,29 +167,29 @@ def test_a_singular_start_is_at_distance_zero(mechanism):
     for _ in range(10):
         m = lost(rng, mechanism)
         for tangent in (rng.normal(size=9), np.zeros(9)):
-            found = nd.distance_to_singularity(m.geometry(), m.configuration(), tangent)
-            assert (found.distance, found.mechanism, found.resolved) == (0.0, mechanism, True)
+            result = nd.distance_to_singularity(m.geometry(), m.configuration(), tangent)
+            assert (result.distance, result.mechanism, result.resolved) == (0.0, mechanism, True)
 
 
 def test_broadcasting_missing_rows_threads(published, stack):
     rng = np.random.default_rng(14)
     tangents = rng.normal(size=(4, 1, 9))
     tangents[2, 0, 3] = np.nan
-    found = nd.distance_to_singularity(published, stack, tangents, most=2.0, threads=2)
-    assert found.distance.shape == found.mechanism.shape == found.resolved.shape == (4, 5)
-    assert found.each.shape == (4, 5, 3)
+    result = nd.distance_to_singularity(published, stack, tangents, most=2.0, threads=2)
+    assert result.distance.shape == result.mechanism.shape == result.resolved.shape == (4, 5)
+    assert result.each.shape == (4, 5, 3)
     for i in range(4):
         for k in range(5):
             alone = nd.distance_to_singularity(published, stack[k], tangents[i, 0], most=2.0)
-            assert_array_equal(found.each[i, k], alone.each)
-            assert_array_equal(found.distance[i, k], alone.distance)
-            assert found.mechanism[i, k] == alone.mechanism
-            assert found.resolved[i, k] == alone.resolved
-    assert np.isnan(found.distance[2]).all()
-    assert np.isnan(found.each[2]).all()
-    assert not found.resolved[2].any()
-    assert_array_equal(found.mechanism[2], "")
-    assert np.isfinite(np.delete(found.each, 2, axis=0)).any()
+            assert_array_equal(result.each[i, k], alone.each)
+            assert_array_equal(result.distance[i, k], alone.distance)
+            assert result.mechanism[i, k] == alone.mechanism
+            assert result.resolved[i, k] == alone.resolved
+    assert np.isnan(result.distance[2]).all()
+    assert np.isnan(result.each[2]).all()
+    assert not result.resolved[2].any()
+    assert_array_equal(result.mechanism[2], "")
+    assert np.isfinite(np.delete(result.each, 2, axis=0)).any()
     many = rng.normal(size=(3000, 9))
     one, two = (nd.distance_to_singularity(published, stack[0], many, threads=k) for k in (1, 2))
     assert_array_equal(one.each, two.each)
@@ -205,7 +205,7 @@ def test_what_is_not_settled_is_not_claimed():
         once = nd.distance_to_singularity(g, c, tangent, most=2 * np.pi / np.linalg.norm(tangent[:3]))
         if once.distance == np.inf:
             break
-    found = nd.distance_to_singularity(g, c, tangent, most=3e6)
-    assert not found.resolved
-    assert 1e3 < found.distance < 3e6
-    assert found.mechanism != nd.Mechanism.NONE
+    result = nd.distance_to_singularity(g, c, tangent, most=3e6)
+    assert not result.resolved
+    assert 1e3 < result.distance < 3e6
+    assert result.mechanism != nd.Mechanism.NONE

@@ -40,12 +40,12 @@ def inverse(m):
 def solved(m, lengths):
     """Tangent to where `m` has these lengths, by scipy; joints may have been moved since."""
     g, c = m.geometry(), m.configuration()
-    found, _, status, message = fsolve(
+    result, _, status, message = fsolve(
         lambda t: nd.leg_lengths(g, c.moved(t)) - lengths, np.zeros(9), xtol=1e-14, full_output=True
     )
-    residual = np.abs(nd.leg_lengths(g, c.moved(found)) - lengths).max()
+    residual = np.abs(nd.leg_lengths(g, c.moved(result)) - lengths).max()
     assert residual < 1e-12, (status, message)
-    return found
+    return result
 
 
 def moved_joint(m, joint, d):
@@ -62,9 +62,9 @@ def moved_joint(m, joint, d):
 def test_map_inverts_the_leg_rates(seed):
     m, _ = robots.regular(seed)
     expected = inverse(m)
-    found = nd.error_map(m.geometry(), m.configuration())
-    assert_allclose(found, expected, atol=1e-14 * np.linalg.cond(robots.rates(m)) * np.abs(expected).max())
-    assert_array_equal(found[:6], nd.jacobian(m.geometry(), m.configuration()))
+    result = nd.error_map(m.geometry(), m.configuration())
+    assert_allclose(result, expected, atol=1e-14 * np.linalg.cond(robots.rates(m)) * np.abs(expected).max())
+    assert_array_equal(result[:6], nd.jacobian(m.geometry(), m.configuration()))
 
 
 @pytest.mark.parametrize("joint", range(12))
@@ -76,8 +76,8 @@ def test_a_joint_error_acts_like_a_leg_error(joint):
     along = np.concatenate([v / np.linalg.norm(v, axis=1, keepdims=True) for v in model.legs(m)[:3]])[leg]
     in_base = d if joint < 6 else m.Q @ d
     expected = nd.error_map(m.geometry(), m.configuration())[:, leg] * (along @ in_base) * (-1 if 6 <= joint < 9 else 1)
-    found = solved(moved_joint(m, joint, d), model.lengths(m))
-    assert_allclose(found, expected, atol=3e-4 * np.abs(expected).max())
+    result = solved(moved_joint(m, joint, d), model.lengths(m))
+    assert_allclose(result, expected, atol=3e-4 * np.abs(expected).max())
 
 
 def test_map_of_legs_against_a_root_finder():
@@ -97,12 +97,12 @@ def test_bounds_are_the_worst_of_all_corners(seed):
     box = legs.copy()
     np.add.at(box, LEG_OF_JOINT, joints)
     motions = (CORNERS * box) @ inverse(m).T
-    found = bounds(m, legs, joints)
+    result = bounds(m, legs, joints)
     rtol = 1e-13 * np.linalg.cond(robots.rates(m))
-    assert_allclose(found.components, np.abs(motions).max(axis=0), rtol=rtol)
+    assert_allclose(result.components, np.abs(motions).max(axis=0), rtol=rtol)
     for k, name in enumerate(("rotation", "position", "internal_point")):
         expected = np.linalg.norm(motions[:, 3 * k : 3 * k + 3], axis=1).max()
-        assert getattr(found, name) == pytest.approx(expected, rel=rtol)
+        assert getattr(result, name) == pytest.approx(expected, rel=rtol)
 
 
 @given(SEEDS)
@@ -112,8 +112,8 @@ def test_covariance_of_independent_errors(seed):
     variance = legs**2 / 3.0
     np.add.at(variance, LEG_OF_JOINT, joints**2 / 5.0)
     expected = (inverse(m) * variance) @ inverse(m).T
-    found = bounds(m, legs, joints).covariance
-    assert_allclose(found, expected, atol=1e-13 * np.linalg.cond(robots.rates(m)) * np.abs(expected).max())
+    result = bounds(m, legs, joints).covariance
+    assert_allclose(result, expected, atol=1e-13 * np.linalg.cond(robots.rates(m)) * np.abs(expected).max())
 
 
 def test_worst_corner_is_reached_by_a_real_robot():
@@ -124,21 +124,21 @@ def test_worst_corner_is_reached_by_a_real_robot():
         corner = CORNERS[np.linalg.norm(motions[:, block], axis=1).argmax()]
         gaps = []
         for size in (1e-4, 0.5e-4):
-            reached = np.linalg.norm(solved(m, model.lengths(m) + size * corner)[block])
-            gaps.append(abs(reached / getattr(bounds(m, size), name) - 1.0))
+            arrival = np.linalg.norm(solved(m, model.lengths(m) + size * corner)[block])
+            gaps.append(abs(arrival / getattr(bounds(m, size), name) - 1.0))
         assert gaps[1] < 0.6 * gaps[0] < 1e-2
 
 
 @given(SEEDS, st.floats(1e-6, 1e6))
 def test_bounds_in_another_length_unit(seed, unit):
     m, _ = robots.regular(seed)
-    found, expected = bounds(robots.scaled(m, unit), 1e-3 * unit, 2e-3 * unit), bounds(m, 1e-3, 2e-3)
+    result, expected = bounds(robots.scaled(m, unit), 1e-3 * unit, 2e-3 * unit), bounds(m, 1e-3, 2e-3)
     rtol = 1e-13 * np.linalg.cond(robots.rates(m))
     change = np.repeat([1.0, unit, unit], 3)
-    assert_allclose(found.components, expected.components * change, rtol=rtol)
-    assert_allclose([found.rotation, found.position], [expected.rotation, expected.position * unit], rtol=rtol)
+    assert_allclose(result.components, expected.components * change, rtol=rtol)
+    assert_allclose([result.rotation, result.position], [expected.rotation, expected.position * unit], rtol=rtol)
     size = np.abs(expected.covariance).max()
-    assert_allclose(found.covariance / np.outer(change, change), expected.covariance, atol=rtol * size)
+    assert_allclose(result.covariance / np.outer(change, change), expected.covariance, atol=rtol * size)
 
 
 @KINDS
@@ -146,44 +146,44 @@ def test_bounds_in_another_length_unit(seed, unit):
 def test_singular_configurations_have_no_bound(kind, where):
     """det B = 0 leaves nothing determined, det C = 0 and det N = 0 leave O, determined by three spheres."""
     m = robots.flat(kind) if where == "flat" else robots.singular(kind, 3)[0]
-    found = bounds(m, 1e-3, 1e-3)
-    known = 0 if kind == "lower plane" else 3
-    assert np.isinf([found.rotation, found.position]).all()
-    assert np.isinf(found.components[: 9 - known]).all()
-    assert np.isinf(found.covariance.diagonal()[: 9 - known]).all()
-    assert np.isnan(found.covariance[~np.eye(9, dtype=bool)].reshape(9, 8)[: 9 - known]).all()
-    if known:
+    result = bounds(m, 1e-3, 1e-3)
+    reference = 0 if kind == "lower plane" else 3
+    assert np.isinf([result.rotation, result.position]).all()
+    assert np.isinf(result.components[: 9 - reference]).all()
+    assert np.isinf(result.covariance.diagonal()[: 9 - reference]).all()
+    assert np.isnan(result.covariance[~np.eye(9, dtype=bool)].reshape(9, 8)[: 9 - reference]).all()
+    if reference:
         B_inverse = np.linalg.inv(model.matrices(m)[1])
-        assert_allclose(found.components[6:], 2e-3 * np.abs(B_inverse).sum(axis=1), rtol=1e-9)
-        assert_allclose(found.covariance[6:, 6:], (1e-6 / 3 + 1e-6 / 5) * B_inverse @ B_inverse.T, rtol=1e-9)
-        assert 0.0 < found.internal_point < 2e-3 * np.sqrt(3.0) * np.linalg.norm(B_inverse, 2) * (1 + 1e-12)
+        assert_allclose(result.components[6:], 2e-3 * np.abs(B_inverse).sum(axis=1), rtol=1e-9)
+        assert_allclose(result.covariance[6:, 6:], (1e-6 / 3 + 1e-6 / 5) * B_inverse @ B_inverse.T, rtol=1e-9)
+        assert 0.0 < result.internal_point < 2e-3 * np.sqrt(3.0) * np.linalg.norm(B_inverse, 2) * (1 + 1e-12)
     else:
-        assert np.isinf(found.internal_point)
+        assert np.isinf(result.internal_point)
     gain = nd.error_map(m.geometry(), m.configuration())
-    assert np.isinf(gain[: 9 - known]).all()
-    assert np.isfinite(gain[9 - known :]).all()
+    assert np.isinf(gain[: 9 - reference]).all()
+    assert np.isfinite(gain[9 - reference :]).all()
     still = bounds(m)  # no error, but the platform is free
     assert np.isinf(still.position)
 
 
 def test_leg_of_zero_length_has_no_bound(published):
-    for s, known in ((published.base_internal[1], False), ([0.0, 1.6778953523188904, 4.0], True)):
-        found = nd.error_bounds(published, nd.Configuration([0, 0, 4.0], np.eye(3), s), 1e-3)
-        assert np.isinf(found.rotation)
-        assert np.isfinite(found.internal_point) == known
+    for s, reference in ((published.base_internal[1], False), ([0.0, 1.6778953523188904, 4.0], True)):
+        result = nd.error_bounds(published, nd.Configuration([0, 0, 4.0], np.eye(3), s), 1e-3)
+        assert np.isinf(result.rotation)
+        assert np.isfinite(result.internal_point) == reference
 
 
 def test_rows_are_independent_and_broadcast(published, stack):
     rng = np.random.default_rng(4)
     legs, joints = rng.uniform(size=(3, 1, 9)), rng.uniform(size=(5, 12))
-    found = nd.error_bounds(published, stack, legs, joints)
-    assert found.components.shape == (3, 5, 9)
-    assert found.rotation.shape == found.position.shape == found.internal_point.shape == (3, 5)
-    assert found.covariance.shape == (3, 5, 9, 9)
+    result = nd.error_bounds(published, stack, legs, joints)
+    assert result.components.shape == (3, 5, 9)
+    assert result.rotation.shape == result.position.shape == result.internal_point.shape == (3, 5)
+    assert result.covariance.shape == (3, 5, 9, 9)
     for i in range(3):
         for k in range(5):
             alone = nd.error_bounds(published, stack[k], legs[i, 0], joints[k])
-            for part, whole in zip(alone, found, strict=True):
+            for part, whole in zip(alone, result, strict=True):
                 assert_array_equal(part, whole[i, k])
     assert nd.error_map(published, stack).shape == (5, 9, 9)
     assert nd.error_bounds(published, stack[:0], 1.0).covariance.shape == (0, 9, 9)
@@ -212,16 +212,16 @@ def distance(sample, distribution):
 def test_samples_have_the_covariance_and_keep_the_bounds():
     m, rng = robots.regular(14)
     legs, joints = rng.uniform(1e-5, 1e-4, size=9), rng.uniform(1e-5, 1e-4, size=12)
-    found, limit = samples(m, legs, joints, samples=40_000), bounds(m, legs, joints)
-    assert np.isfinite(found).all()
+    result, limit = samples(m, legs, joints, samples=40_000), bounds(m, legs, joints)
+    assert np.isfinite(result).all()
     second_order = 0.01
-    assert (np.abs(found) <= limit.components * (1.0 + second_order)).all()
+    assert (np.abs(result) <= limit.components * (1.0 + second_order)).all()
     for k, name in enumerate(("rotation", "position", "internal_point")):
-        assert np.linalg.norm(found[:, 3 * k : 3 * k + 3], axis=1).max() <= getattr(limit, name) * (1.0 + second_order)
+        assert np.linalg.norm(result[:, 3 * k : 3 * k + 3], axis=1).max() <= getattr(limit, name) * (1.0 + second_order)
     deviation = np.sqrt(limit.covariance.diagonal())
-    assert_allclose(found.mean(axis=0) / deviation, 0.0, atol=0.03)
+    assert_allclose(result.mean(axis=0) / deviation, 0.0, atol=0.03)
     assert_allclose(
-        np.cov(found.T) / np.outer(deviation, deviation), limit.covariance / np.outer(deviation, deviation), atol=0.03
+        np.cov(result.T) / np.outer(deviation, deviation), limit.covariance / np.outer(deviation, deviation), atol=0.03
     )
 
 
@@ -229,10 +229,10 @@ def test_one_error_alone_comes_close_to_its_bound():
     m, _ = robots.regular(15)
     for k in range(21):
         legs, joints = np.split(1e-5 * np.eye(21)[k], [9])
-        found, limit = samples(m, legs, joints, samples=2000), bounds(m, legs, joints)
+        result, limit = samples(m, legs, joints, samples=2000), bounds(m, legs, joints)
         moves = limit.components > 0.0  # O depends on the lower legs only
-        assert_allclose(found[:, ~moves], 0.0, atol=1e-13)
-        share = np.abs(found).max(axis=0)[moves] / limit.components[moves]
+        assert_allclose(result[:, ~moves], 0.0, atol=1e-13)
+        share = np.abs(result).max(axis=0)[moves] / limit.components[moves]
         assert ((share > (0.99 if k < 9 else 0.8)) & (share < 1.001)).all()
 
 
@@ -240,15 +240,15 @@ def test_samples_have_leg_lengths_within_tolerance(published, neutral):
     """Errors of 4 %, far from linear: the legs of every robot lie within their tolerances, spread evenly."""
     rest = nd.leg_lengths(published, neutral)
     legs = 0.04 * rest * np.linspace(0.2, 1.0, 9)
-    found = nd.error_samples(published, neutral, legs, samples=4000)
-    assert np.isfinite(found).all()
-    off = (nd.leg_lengths(published, neutral.moved(found)) - rest) / legs
+    result = nd.error_samples(published, neutral, legs, samples=4000)
+    assert np.isfinite(result).all()
+    off = (nd.leg_lengths(published, neutral.moved(result)) - rest) / legs
     assert np.abs(off).max() <= 1.0 + 1e-9
     for k in range(9):
         assert distance(off[:, k], lambda x: np.clip((1 + x) / 2, 0, 1)) < 1.945
     assert np.abs(np.corrcoef(off.T) - np.eye(9)).max() < 0.06
     linear = (off * legs) @ nd.error_map(published, neutral).T
-    assert np.abs(found - linear).max() > 0.05 * np.abs(found).max()  # the case is not linear
+    assert np.abs(result - linear).max() > 0.05 * np.abs(result).max()  # the case is not linear
 
 
 @pytest.mark.parametrize("joint", [0, 4, 8, 9])
@@ -256,8 +256,8 @@ def test_joint_errors_lie_in_a_ball(joint):
     """One joint of each kind: the error of its leg has the distribution of a coordinate in a ball."""
     m, _ = robots.regular(17)
     radius, leg = 1e-3, LEG_OF_JOINT[joint]
-    found = samples(m, 0.0, radius * np.eye(12)[joint], samples=8000, seed=5)
-    off = nd.leg_lengths(m.geometry(), m.configuration().moved(found)) - model.lengths(m)
+    result = samples(m, 0.0, radius * np.eye(12)[joint], samples=8000, seed=5)
+    off = nd.leg_lengths(m.geometry(), m.configuration().moved(result)) - model.lengths(m)
     assert np.abs(np.delete(off, leg, axis=1)).max() < 1e-12
     height = off[:, leg] / radius  # a coordinate of a point in the unit ball, but for 0.1 % of curvature
     assert np.abs(height).max() < 1.001
@@ -276,8 +276,8 @@ COUNT = sizes.size(9_000, 25_000)
 def test_same_bits_for_any_threads_and_run_length(published, neutral):
     one = nd.error_samples(published, neutral, 1e-3, 1e-3, samples=COUNT, seed=7, threads=1)
     for threads in (2, 3, 8, None):
-        found = nd.error_samples(published, neutral, 1e-3, 1e-3, samples=COUNT, seed=7, threads=threads)
-        assert_array_equal(found, one)
+        result = nd.error_samples(published, neutral, 1e-3, 1e-3, samples=COUNT, seed=7, threads=threads)
+        assert_array_equal(result, one)
     assert_array_equal(nd.error_samples(published, neutral, 1e-3, 1e-3, samples=10, seed=7), one[:10])
     assert len(np.unique(one[:, 0])) == COUNT
     other = nd.error_samples(published, neutral, 1e-3, 1e-3, samples=COUNT, seed=8)
@@ -288,8 +288,8 @@ def test_same_bits_for_any_threads_and_run_length(published, neutral):
 def test_samples_in_another_length_unit(unit):
     m, _ = robots.regular(18)
     expected = samples(m, 1e-2, 1e-2, samples=200) * np.repeat([1.0, unit, unit], 3)
-    found = samples(robots.scaled(m, unit), 1e-2 * unit, 1e-2 * unit, samples=200)
-    assert_allclose(found, expected, atol=0, rtol=1e-9)
+    result = samples(robots.scaled(m, unit), 1e-2 * unit, 1e-2 * unit, samples=200)
+    assert_allclose(result, expected, atol=0, rtol=1e-9)
 
 
 def test_samples_do_not_depend_on_the_distance_from_the_origin():
@@ -302,11 +302,11 @@ def test_samples_do_not_depend_on_the_distance_from_the_origin():
 def test_large_errors_give_nan(published, neutral):
     """Some robots cannot be assembled; the others have their lengths, with O on the side of the start."""
     rest = nd.leg_lengths(published, neutral)
-    found = nd.error_samples(published, neutral, 0.25 * rest, samples=2000)
-    stands = np.isfinite(found).all(axis=1)
-    assert_array_equal(np.isnan(found).all(axis=1), ~stands)
+    result = nd.error_samples(published, neutral, 0.25 * rest, samples=2000)
+    stands = np.isfinite(result).all(axis=1)
+    assert_array_equal(np.isnan(result).all(axis=1), ~stands)
     assert 0.2 < stands.mean() < 0.8
-    c = neutral.moved(found[stands])
+    c = neutral.moved(result[stands])
     off = nd.leg_lengths(published, c) - rest
     assert (np.abs(off) <= 0.25 * rest * (1.0 + 1e-12)).all()
     assert (c.internal_point[:, 2] > 0.0).all()
@@ -323,6 +323,6 @@ def test_no_samples_from_a_singular_configuration(kind, where):
 def test_collinear_joints_give_nan():
     """Errors that may make the geometry invalid raise no exception; robots that exist have their lengths."""
     g = nd.Geometry.hexagonal(a1=0.0, a2=6.0, b1=3.0, b2=0.0)
-    found = nd.error_samples(g, nd.Configuration.neutral(4.0, 2.2), joint_errors=5.0, samples=500)
-    assert np.isnan(found).any()
+    result = nd.error_samples(g, nd.Configuration.neutral(4.0, 2.2), joint_errors=5.0, samples=500)
+    assert np.isnan(result).any()
     assert np.isnan(nd.error_samples(g, nd.Configuration.neutral(4.0, 2.2), joint_errors=np.nan, samples=3)).all()

@@ -44,10 +44,10 @@ def lost(m, lc=1.0):
 def test_velocity_ellipsoid_is_the_image_of_the_unit_ball(part, seed, lc):
     m, _ = robots.regular(seed)
     J = model.jacobian(m, lc)[PARTS[part]]
-    found = velocity(m, part, lc)
-    assert_allclose(found.semi_axes, np.linalg.svd(J, compute_uv=False), rtol=lost(m, lc))
-    assert_allclose(shape_matrix(found), J @ J.T, atol=lost(m, lc) * found.semi_axes[0] ** 2)
-    assert (np.diff(found.semi_axes) <= 0.0).all()
+    result = velocity(m, part, lc)
+    assert_allclose(result.semi_axes, np.linalg.svd(J, compute_uv=False), rtol=lost(m, lc))
+    assert_allclose(shape_matrix(result), J @ J.T, atol=lost(m, lc) * result.semi_axes[0] ** 2)
+    assert (np.diff(result.semi_axes) <= 0.0).all()
 
 
 @EACH_PART
@@ -94,10 +94,10 @@ def test_axes_are_orthonormal_with_a_sign_of_their_own(seed):
 
 def test_twist_axes_are_the_singular_values(published, stack):
     lc = np.array([0.3, 1.0, 2.0, 5.0, 0.01])
-    found = nd.velocity_ellipsoid(published, stack, "twist", lc).semi_axes
-    assert_allclose(found, nd.singular_values(published, stack, lc), rtol=1e-12)
-    found = nd.velocity_ellipsoid(published, stack, "twist", "optimal").semi_axes
-    assert_allclose(found[:, 0] / found[:, 5], nd.condition_number(published, stack, "optimal"), rtol=1e-12)
+    result = nd.velocity_ellipsoid(published, stack, "twist", lc).semi_axes
+    assert_allclose(result, nd.singular_values(published, stack, lc), rtol=1e-12)
+    result = nd.velocity_ellipsoid(published, stack, "twist", "optimal").semi_axes
+    assert_allclose(result[:, 0] / result[:, 5], nd.condition_number(published, stack, "optimal"), rtol=1e-12)
 
 
 def test_characteristic_length_scales_rotation_alone(published, neutral):
@@ -119,8 +119,8 @@ def test_octahedral_robot_is_a_sphere_in_each_half():
     """docs/theory/conditioning.md: J' J'^T has the eigenvalues 4 and 2/9, three times each."""
     g = nd.Geometry.hexagonal(a1=0.0, a2=np.sqrt(2.0), b1=np.sqrt(2.0), b2=0.0)
     c = nd.Configuration.neutral(zp=2.0 / np.sqrt(3.0), zs=1.0 / np.sqrt(3.0))
-    found = nd.velocity_ellipsoid(g, c, "twist", np.sqrt(2.0) / 3.0).semi_axes
-    assert_allclose(found**2, [4.0] * 3 + [2.0 / 9.0] * 3, rtol=1e-13)
+    result = nd.velocity_ellipsoid(g, c, "twist", np.sqrt(2.0) / 3.0).semi_axes
+    assert_allclose(result**2, [4.0] * 3 + [2.0 / 9.0] * 3, rtol=1e-13)
 
 
 # --- Singular configurations ------------------------------------------------------------------------------------------
@@ -149,9 +149,9 @@ def test_a_free_motion_has_an_infinite_axis(kind, part):
 def test_the_other_axes_are_those_of_configurations_nearby(kind, part):
     rng = np.random.default_rng(9)
     for m in singular_robots(kind)[:10]:
-        found = velocity(m, part).semi_axes[1:]
+        result = velocity(m, part).semi_axes[1:]
         near = m._replace(s=m.s + 1e-6 * rng.normal(size=3))
-        assert_allclose(np.linalg.svd(model.jacobian(near)[PARTS[part]], compute_uv=False)[1:], found, rtol=1e-2)
+        assert_allclose(np.linalg.svd(model.jacobian(near)[PARTS[part]], compute_uv=False)[1:], result, rtol=1e-2)
 
 
 def test_a_free_rotation_about_the_origin_of_the_platform():
@@ -161,16 +161,16 @@ def test_a_free_rotation_about_the_origin_of_the_platform():
     shift = m.Q.T @ (m.s - m.p)
     m = m._replace(u=m.u - shift, ut=m.ut - shift, p=m.s)
     assert np.isinf(velocity(m, "rotation").semi_axes[0])
-    found = velocity(m, "translation")
+    result = velocity(m, "translation")
     # B and C tell what the internal legs need. Leg 1 feels p whatever the platform turns; turning keeps 2 and 3 still.
     _, B, C, _ = model.matrices(m)
     of_o = np.hstack([np.linalg.inv(C), np.linalg.inv(B)])
     e = model.legs(m)[0][0] / model.lengths(m)[0]
     stretch = np.linalg.eigvalsh(np.linalg.inv(of_o @ of_o.T) + np.outer(e, e))
-    assert_allclose(found.semi_axes, 1.0 / np.sqrt(stretch), rtol=1e-12)
+    assert_allclose(result.semi_axes, 1.0 / np.sqrt(stretch), rtol=1e-12)
     # Nearby all three can be kept still: the ellipsoid is not continuous here, and this is the smaller one.
     near = model.jacobian(m._replace(s=m.s + np.array([1e-6, 2e-6, -1e-6])))[3:]
-    assert (found.semi_axes < 0.96 * np.linalg.svd(near, compute_uv=False)).any()
+    assert (result.semi_axes < 0.96 * np.linalg.svd(near, compute_uv=False)).any()
 
 
 def test_all_internal_legs_in_a_plane():
@@ -181,9 +181,9 @@ def test_all_internal_legs_in_a_plane():
     of_o = h[:, 6:]
     least = (np.eye(9) - of_o @ np.linalg.pinv(of_o, rcond=1e-13)) @ h[:, :6]
     expected = np.linalg.svd(least, compute_uv=False)
-    found = velocity(m, "twist").semi_axes
-    assert np.isinf(found[:3]).all()
-    assert_allclose(1.0 / found[3:], expected[2::-1], rtol=1e-13)
+    result = velocity(m, "twist").semi_axes
+    assert np.isinf(result[:3]).all()
+    assert_allclose(1.0 / result[3:], expected[2::-1], rtol=1e-13)
 
 
 def test_leg_of_zero_length_and_similar_hexagons(published):
@@ -203,12 +203,12 @@ def test_leg_of_zero_length_and_similar_hexagons(published):
 @pytest.mark.parametrize("function", [nd.velocity_ellipsoid, nd.force_ellipsoid])
 def test_rows_are_independent(published, stack, function, part):
     n = 6 if part == "twist" else 3
-    found = function(published, stack, part, 1.7)
-    assert found.directions.shape == (5, n, n)
+    result = function(published, stack, part, 1.7)
+    assert result.directions.shape == (5, n, n)
     for k in range(5):
         alone = function(published, stack[k], part, 1.7)
-        assert_array_equal(alone.directions, found.directions[k])
-        assert_array_equal(alone.semi_axes, found.semi_axes[k])
+        assert_array_equal(alone.directions, result.directions[k])
+        assert_array_equal(alone.semi_axes, result.semi_axes[k])
     assert function(published, stack[:0], part).semi_axes.shape == (0, n)
     c = nd.Configuration([[0, 0, 4], [np.nan, 0, 4], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
     for rows in function(published, c, part):

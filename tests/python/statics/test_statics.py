@@ -49,8 +49,8 @@ def lost(m):
 def test_forces_and_moments_are_in_equilibrium(seed):
     m, rng = robots.regular(seed)
     load = rng.normal(size=9)
-    found, unbalanced = forces(m, load)
-    assert_allclose(newton(m, found, load), 0.0, atol=lost(m) * np.abs(found).max())
+    result, unbalanced = forces(m, load)
+    assert_allclose(newton(m, result, load), 0.0, atol=lost(m) * np.abs(result).max())
     assert_array_equal(unbalanced, np.zeros(9))
 
 
@@ -63,40 +63,42 @@ def test_virtual_work(seed):
     d1, d2 = (nd.leg_lengths(m.geometry(), c.moved(k * h * motion)) for k in (1, 2))
     e1, e2 = (nd.leg_lengths(m.geometry(), c.moved(-k * h * motion)) for k in (1, 2))
     rates = (8.0 * (d1 - e1) - (d2 - e2)) / (12.0 * h)
-    found = forces(m, load).forces
+    result = forces(m, load).forces
     shortest = model.lengths(m).min()
-    assert found @ rates + load @ motion == pytest.approx(0.0, abs=1e-9 * np.abs(found).sum() / min(shortest, 1.0) ** 4)
+    assert result @ rates + load @ motion == pytest.approx(
+        0.0, abs=1e-9 * np.abs(result).sum() / min(shortest, 1.0) ** 4
+    )
 
 
 def test_a_weight_on_the_platform_is_pushed_up(published, neutral):
     """By hand: without a moment about O the external legs carry nothing, and the six others share the weight evenly."""
-    found, _ = nd.leg_forces(published, neutral, [0, 0, 0], [0, 0, -12.0])
+    result, _ = nd.leg_forces(published, neutral, [0, 0, 0], [0, 0, -12.0])
     lengths = nd.leg_lengths(published, neutral)
-    assert_allclose(found[:3], 0.0, atol=1e-14)
-    assert_allclose(found[3:6], 4.0 * lengths[3:6] / (3.9828 - 2.3745), rtol=1e-14)
-    assert_allclose(found[6:], 4.0 * lengths[6:] / 2.3745, rtol=1e-14)
-    assert (found[3:] > 0.0).all()
+    assert_allclose(result[:3], 0.0, atol=1e-14)
+    assert_allclose(result[3:6], 4.0 * lengths[3:6] / (3.9828 - 2.3745), rtol=1e-14)
+    assert_allclose(result[6:], 4.0 * lengths[6:] / 2.3745, rtol=1e-14)
+    assert (result[3:] > 0.0).all()
     only_at_o, _ = nd.leg_forces(published, neutral, [0, 0, 0], [0, 0, 0], [0, 0, -12.0])
     assert_allclose(only_at_o[:6], 0.0, atol=1e-14)
-    assert_allclose(only_at_o[6:], found[6:], rtol=1e-14)
+    assert_allclose(only_at_o[6:], result[6:], rtol=1e-14)
 
 
 def test_forces_broadcast_and_rows_are_independent(published, stack):
     rng = np.random.default_rng(1)
     moment, force, at_o = rng.normal(size=(4, 1, 3)), rng.normal(size=(5, 3)), rng.normal(size=3)
-    found, unbalanced = nd.leg_forces(published, stack, moment, force, at_o)
-    assert found.shape == unbalanced.shape == (4, 5, 9)
+    result, unbalanced = nd.leg_forces(published, stack, moment, force, at_o)
+    assert result.shape == unbalanced.shape == (4, 5, 9)
     for i in range(4):
         for k in range(5):
-            assert_array_equal(found[i, k], nd.leg_forces(published, stack[k], moment[i, 0], force[k], at_o).forces)
+            assert_array_equal(result[i, k], nd.leg_forces(published, stack[k], moment[i, 0], force[k], at_o).forces)
     assert nd.leg_forces(published, stack[:0], [0, 0, 0], [0, 0, 1]).forces.shape == (0, 9)
 
 
 def test_a_missing_row_stays_alone(published):
     c = nd.Configuration([[0, 0, 4], [np.nan, 0, 4], [0, 0, 4], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
     force = np.array([[0, 0, -1], [0, 0, -1], [0, np.nan, -1], [0, 0, -1.0]])
-    found, unbalanced = nd.leg_forces(published, c, [0, 0, 0], force)
-    for rows in (found, unbalanced):
+    result, unbalanced = nd.leg_forces(published, c, [0, 0, 0], force)
+    for rows in (result, unbalanced):
         assert np.isnan(rows[1:3]).all()
         assert np.isfinite(rows[[0, 3]]).all()
     K = nd.stiffness(published, c, np.array([[1.0], [1.0], [np.nan], [1.0]]) * np.ones(9))
@@ -110,8 +112,8 @@ def test_forces_do_not_depend_on_the_length_unit(seed, unit):
     m, rng = robots.regular(seed)
     load = rng.normal(size=9)
     change = np.repeat([unit, 1.0, 1.0], 3)
-    found = forces(m, load).forces
-    assert_allclose(forces(robots.scaled(m, unit), load * change).forces, found, atol=lost(m) * np.abs(found).max())
+    result = forces(m, load).forces
+    assert_allclose(forces(robots.scaled(m, unit), load * change).forces, result, atol=lost(m) * np.abs(result).max())
 
 
 # --- Singular configurations ------------------------------------------------------------------------------------------
@@ -126,14 +128,14 @@ def test_singular_load_is_balanced_as_far_as_can_be(kind):
     rng = np.random.default_rng(5)
     for m in singular_robots(kind):
         load = rng.normal(size=9)
-        found, unbalanced = forces(m, load)
-        assert_allclose(newton(m, found, load - unbalanced), 0.0, atol=1e-9 * np.abs(found).max())
+        result, unbalanced = forces(m, load)
+        assert_allclose(newton(m, result, load - unbalanced), 0.0, atol=1e-9 * np.abs(result).max())
         # numpy: the least-norm least-squares solution, moments measured by the platform radius.
         weigh = np.repeat([1.0 / robots.radius(m), 1.0, 1.0], 3)
         h = robots.rates(m, robots.radius(m))
         expected, _, rank, _ = np.linalg.lstsq(h.T, -load * weigh, rcond=1e-13)
         assert rank == 8
-        assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())
+        assert_allclose(result, expected, atol=1e-8 * np.abs(expected).max())
         assert_allclose(unbalanced * weigh, load * weigh + h.T @ expected, atol=1e-9)
         assert np.abs(unbalanced).max() > 1e-6
         # It cannot be balanced because it works on a motion without leg rates.
@@ -147,10 +149,10 @@ def test_singular_load_that_legs_can_carry_leaves_nothing(kind):
     for m in singular_robots(kind):
         pushed = rng.normal(size=9)
         load = -robots.rates(m).T @ pushed
-        found, unbalanced = forces(m, load)
+        result, unbalanced = forces(m, load)
         assert_array_equal(unbalanced, np.zeros(9))
         stress = nd.self_stress(m.geometry(), m.configuration())
-        assert_allclose(found, pushed - stress @ (stress.T @ pushed), atol=1e-9 * np.abs(found).max())
+        assert_allclose(result, pushed - stress @ (stress.T @ pushed), atol=1e-9 * np.abs(result).max())
 
 
 @KINDS
@@ -171,10 +173,10 @@ def test_singular_results_do_not_depend_on_the_length_unit(kind, unit):
     for m in singular_robots(kind)[:10]:
         other, load = robots.scaled(m, unit), rng.normal(size=9)
         assert nd.self_stress(other.geometry(), other.configuration()).shape == (9, 1)
-        found, expected = forces(other, load * change), forces(m, load)
+        result, expected = forces(other, load * change), forces(m, load)
         size = np.abs(expected.forces).max()
-        assert_allclose(found.forces, expected.forces, atol=1e-9 * size)
-        assert_allclose(found.unbalanced / change, expected.unbalanced, atol=1e-9 * np.abs(load).max())
+        assert_allclose(result.forces, expected.forces, atol=1e-9 * size)
+        assert_allclose(result.unbalanced / change, expected.unbalanced, atol=1e-9 * np.abs(load).max())
 
 
 def test_several_free_motions():
@@ -182,19 +184,19 @@ def test_several_free_motions():
     g = nd.Geometry.hexagonal(a1=1.0, a2=4.0, b1=0.5, b2=2.0)
     for c, count in ((nd.Configuration.neutral(3.0, 2.0, np.pi), 3), (nd.Configuration.neutral(0.0, 0.0, 0.1), 4)):
         expected = null_space(robots.rates(model.robot(g, c)).T, rcond=1e-13)
-        found = nd.self_stress(g, c)
-        assert found.shape == expected.shape == (9, count)
-        assert_allclose(subspace_angles(found, expected), 0.0, atol=1e-12)
-        assert_allclose(found.T @ found, np.eye(count), atol=1e-14)
+        result = nd.self_stress(g, c)
+        assert result.shape == expected.shape == (9, count)
+        assert_allclose(subspace_angles(result, expected), 0.0, atol=1e-12)
+        assert_allclose(result.T @ result, np.eye(count), atol=1e-14)
         _, unbalanced = nd.leg_forces(g, c, [0.0, 0.0, 1.0], [0.3, 0.2, 0.1])
         assert np.abs(unbalanced).max() > 0.1
 
 
 def test_leg_of_zero_length_carries_nothing(published):
     c = nd.Configuration([0, 0, 4.0], np.eye(3), published.base_internal[1])
-    found, unbalanced = nd.leg_forces(published, c, [0.1, 0.2, 0.3], [1.0, 2.0, -3.0])
-    assert found[7] == 0.0
-    assert np.isfinite(found).all()
+    result, unbalanced = nd.leg_forces(published, c, [0.1, 0.2, 0.3], [1.0, 2.0, -3.0])
+    assert result[7] == 0.0
+    assert np.isfinite(result).all()
     assert np.abs(unbalanced).max() > 0.1
     stress = nd.self_stress(published, c)
     assert_allclose(np.linalg.norm(stress[7]), 1.0, rtol=1e-14)
@@ -203,8 +205,8 @@ def test_leg_of_zero_length_carries_nothing(published):
 def test_forces_grow_towards_a_singularity(published):
     """O one tenth as high above the base, ten times the force in the legs that carry the weight."""
     heights = 10.0 ** -np.arange(1.0, 10.0)
-    found, unbalanced = nd.leg_forces(published, nd.Configuration.neutral(4.0, heights), [0, 0, 0], [0, 0, -1.0])
-    assert_allclose(found[:, 6] * heights, np.hypot(heights, 5.8124 / np.sqrt(3.0)) / 3.0, rtol=1e-7)
+    result, unbalanced = nd.leg_forces(published, nd.Configuration.neutral(4.0, heights), [0, 0, 0], [0, 0, -1.0])
+    assert_allclose(result[:, 6] * heights, np.hypot(heights, 5.8124 / np.sqrt(3.0)) / 3.0, rtol=1e-7)
     assert_array_equal(unbalanced, 0.0)
 
 
@@ -242,7 +244,7 @@ def test_stiffness_is_the_least_spring_energy(seed):
 
 @given(SEEDS)
 def test_deflection_under_load_gives_the_leg_forces(seed):
-    """Whatever the springs are: legs pressed by x = K9^-1 load push with -k H x, which is what balances the load."""
+    """For any springs: legs pressed by x = K9^-1 load push with -k H x, which is what balances the load."""
     m, rng = robots.regular(seed)
     k, load = rng.uniform(0.1, 10.0, size=9), rng.normal(size=9)
     K9 = stiffness(m, k, internal=True)
@@ -319,8 +321,8 @@ def test_stiffness_in_another_length_unit(seed, unit):
     m, rng = robots.regular(seed)
     k, change = rng.uniform(0.5, 2.0, size=9), np.repeat([unit, 1.0], 3)
     K = stiffness(m, k)
-    found = stiffness(robots.scaled(m, unit), k) / np.outer(change, change)
-    assert_allclose(found, K, atol=1e-13 * np.abs(K).max())
+    result = stiffness(robots.scaled(m, unit), k) / np.outer(change, change)
+    assert_allclose(result, K, atol=1e-13 * np.abs(K).max())
 
 
 def test_stiffness_of_a_stack(published, stack):
