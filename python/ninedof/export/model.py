@@ -84,9 +84,8 @@ class Model:
         """Return geometry and neutral configuration in metres; as they are without a unit."""
         c, unit = self.configuration, self.unit
         geometry = Geometry(*(in_metres(points, unit) for points in triples(self.geometry).values()))
-        return Model(
-            geometry, Configuration(in_metres(c.position, unit), c.rotation, in_metres(c.internal_point, unit))
-        )
+        p, s = in_metres(c.position, unit), in_metres(c.internal_point, unit)
+        return Model(geometry, Configuration(p, c.rotation, s))
 
     @cached_property
     def own_frame(self) -> dict[str, Floats]:
@@ -118,17 +117,16 @@ class Model:
         Those that a region needs, as its sheet has them, or those at the listed poses; for a study of the neutral pose
         alone its limits on leg lengths, if they limit all nine on both sides.
         """
-        poses = getattr(self.source, "configurations", None)
-        if self.study is not None and self.study.objective.region is not None and self.sheet is not None:
+        poses, study = getattr(self.source, "configurations", None), self.study
+        if study is not None and study.objective.region is not None and self.sheet is not None:
             return tuple((leg.shortest, leg.longest) for leg in self.sheet.legs)
         if poses is not None and len(poses) > 1:
             lengths = leg_lengths(self.geometry, poses)
             return tuple(zip(lengths.min(axis=0).tolist(), lengths.max(axis=0).tolist(), strict=True))
-        if self.study is None:
+        if study is None:
             return None
-        low, high = leg_limits_of(self.study, float(self.configuration.position[2]))
-        limits = tuple((float(a), float(b)) for a, b in zip(low, high, strict=True))
-        return limits if all(0.0 < a < b < math.inf for a, b in limits) else None
+        limits = np.transpose(leg_limits_of(study, float(self.configuration.position[2]))).tolist()
+        return tuple((a, b) for a, b in limits) if all(0.0 < a < b < math.inf for a, b in limits) else None
 
 
 def in_metres(values: ArrayLike, unit: str) -> Floats:
@@ -144,24 +142,11 @@ def from_metres(values: ArrayLike, unit: str) -> Floats:
 
 
 def model_of(design: Any, name: str = "ninedof", unit: str | None = None) -> Model:
-    """Return the model of a design.
+    """Return the model of anything with a geometry, a configuration and a characteristic length.
 
-    Parameters
-    ----------
-    design : Result, Candidate, DesignPoint, or a design of a file
-        Anything with a geometry, a configuration and a characteristic length.
-    name : str
-        Of the robot inside the file; other characters than letters, digits, "_" and "-" become "_".
-    unit : str, optional
-        Name of the length unit, "" for none; that of the study or of the design file by default. A Candidate or a
-        DesignPoint names none, so it must be given: a simulator would take millimetres for metres.
-
-    Raises
-    ------
-    ValueError
-        If there is no design (a result without a candidate), it has a stack of configurations, its unit is not known,
-        or another unit is given than its own.
-
+    The name is that of the robot inside the file; other characters than letters, digits, "_" and "-" become "_". The
+    unit is that of the study or of the design file. A Candidate or a DesignPoint names none, so it must be given, ""
+    for none: a simulator would take millimetres for metres. ValueError says what is missing or differs.
     """
     try:
         g, c, length = design.geometry, design.configuration, design.characteristic_length

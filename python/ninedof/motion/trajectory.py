@@ -201,11 +201,7 @@ def _rest_to_rest(u: Floats) -> Floats:
 def _poses(text: str, unit: str) -> tuple[Floats, Floats, Floats | None]:
     """Return time (n,), position (n, 3) and rotation (n, 3, 3) of a file, None where it has no rotation.
 
-    Raises
-    ------
-    ValueError
-        Naming line and column, and where the file names another unit of lengths.
-
+    ValueError names line and column, also where the file names another unit of lengths.
     """
     rows = csv_rows(text)
     if not rows:
@@ -257,6 +253,6 @@ def _rotation_columns(where: str, names: Sequence[str]) -> tuple[str, ...]:
         if set(others) == set(columns):
             return columns
     for name in others:
-        if name not in ONE_OF.replace(",", "").split()[2:]:
+        if not any(name in columns for columns in ROTATIONS):
             raise ValueError(f"{where}, column {shown(name)}: not known, expected t x y z and {ONE_OF}")
     raise ValueError(f"{where}: got {cleaned(' '.join(others))} as rotation, expected {ONE_OF}")

@@ -189,13 +189,8 @@ def broadcast_flat(
 ) -> tuple[tuple[int, ...], Flat, list[Floats]]:
     """Broadcast a configuration against arrays of shape (..., k), each given with its k.
 
-    Return the leading shape, the flat arrays of the configuration, and the other arrays as (n, k).
-
-    Raises
-    ------
-    ValueError
-        Naming the argument that has another shape or an infinite number.
-
+    Return the leading shape, the flat arrays of the configuration, and the other arrays as (n, k). ValueError names the
+    argument that has another shape or an infinite number.
     """
     own = {name: (array, array.ndim - len(configuration.shape)) for name, array in arrays_of(configuration).items()}
     arrays = {name: (without_infinity(name, as_floats(name, values, (k,))), 1) for name, (values, k) in others.items()}

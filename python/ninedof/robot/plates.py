@@ -22,20 +22,10 @@ def distinct(points: Floats) -> Floats:
 
 
 def outlines(joints: Floats) -> list[Floats]:
-    """Return the faces of the convex hull of a few points, each as an ordered outline.
+    """Return the faces of the convex hull of a few points, each as an ordered outline (m, 3).
 
-    One polygon if the points lie in a plane (joints inside it are left out), else the faces of a solid. All planes
-    through three points are tested: twenty for six joints.
-
-    Parameters
-    ----------
-    joints : numpy.ndarray, shape (n, 3)
-        Not all on one line.
-
-    Returns
-    -------
-    list of numpy.ndarray, each of shape (m, 3)
-
+    One polygon if the points (n, 3) lie in a plane (joints inside it are left out), else the faces of a solid; they may
+    not all lie on one line. All planes through three points are tested: twenty for six joints.
     """
     points = distinct(joints)
     size = float(np.ptp(points, axis=0).max())
