@@ -62,14 +62,14 @@ def test_no_cell_of_a_table_is_a_formula(tmp_path):
     followed = nd.follow(DESIGN.geometry, circle, home)
     write_motion(followed, tmp_path, question={"design": "=1+1"})
     tables += [(tmp_path / name).read_text() for name in ("legs.csv", "poses.csv")]
-    calls = 0
+    cells = 0
     for text in tables:
         for cell in (cell for row in csv.reader(io.StringIO(text)) for cell in row if cell):
             assert cell[0] not in "=@\t\r"
             if cell[0] in "+-":
                 float(cell)
-            calls += 1
-    assert calls > 300
+            cells += 1
+    assert cells > 300
     for unit in ("=1+1", "@x", "mm\n=1"):
         with pytest.raises(ValueError, match="unit: got"):
             nd.export(nd.Design(DESIGN.geometry, home, 1.0, unit), "csv", path)

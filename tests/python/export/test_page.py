@@ -22,9 +22,9 @@ def test_the_python_of_mjcf_runs_as_written(tmp_path, monkeypatch):
     pytest.importorskip("mujoco")
     monkeypatch.chdir(tmp_path)
     (code,) = re.findall(r"```python\n(.*?)```", section("mjcf"), flags=re.DOTALL)
-    reference: dict[str, object] = {}
-    exec(compile(code, "exports.md", "exec"), reference)
-    assert reference["error"] < 1e-9
+    namespace: dict[str, object] = {}
+    exec(compile(code, "exports.md", "exec"), namespace)
+    assert namespace["error"] < 1e-9
 
 
 @pytest.mark.parametrize("name", formats())

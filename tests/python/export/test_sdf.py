@@ -113,12 +113,12 @@ def test_the_library_of_the_format_takes_it(tmp_path):
     if tool is None:
         pytest.skip("needs gz or ign, the tools of libsdformat")
 
-    def calls(*words):
+    def run_program(*words):
         return subprocess.run([tool, "sdf", *words], capture_output=True, text=True, check=False, timeout=60)
 
     names = list(DESIGNS)[: size(1, 2)]
     for name in names:
-        checked = calls("--check", str(nd.export(DESIGNS[name][0](), "sdf", tmp_path / "robot.sdf")))
-        if checked.returncode and not calls("--versions").stdout.strip():
+        checked = run_program("--check", str(nd.export(DESIGNS[name][0](), "sdf", tmp_path / "robot.sdf")))
+        if checked.returncode and not run_program("--versions").stdout.strip():
             pytest.skip(f"{tool} has no command sdf here")
         assert checked.stdout == "Valid.\n", checked.stdout + checked.stderr

@@ -245,8 +245,8 @@ def test_measured_slides_give_the_pose_under_gravity(robot):
     target = nearby(robot, 7)
     engine, data = loaded(models.closed_loop_model(g, start, gravity=9.81, timestep=5e-4))
     settle(engine, data, nd.leg_lengths(g, target), seconds=20.0)
-    arrival = pose(data)
+    end_pose = pose(data)
     measured = data.qpos[slides(engine)[0]]
     assert np.abs(measured - nd.leg_lengths(g, target)).max() > 1e-4
-    assert_allclose(nd.leg_lengths(g, arrival), measured, rtol=0.0, atol=1e-7)
-    assert_same_pose(nd.track(g, measured, start), arrival, 1e-6)
+    assert_allclose(nd.leg_lengths(g, end_pose), measured, rtol=0.0, atol=1e-7)
+    assert_same_pose(nd.track(g, measured, start), end_pose, 1e-6)

@@ -59,18 +59,18 @@ def test_reference_modes(case):
         return
     assert len(modes) == modes.count == case["count"]
     side = {0: 1, 1: -1}
-    selection = set()
+    matches = set()
     for solution in case["solutions"]:
         error = errors(modes, solution["p"], rotation(solution["quat"]), solution["s"], lengths.max())
         k = int(np.argmin(error))
-        selection.add(k)
+        matches.add(k)
         assert error[k] <= case["tol"]
         if modes.base_side[k] != 0:
             assert modes.base_side[k] == side[solution["branch"][0]]
         assert modes.platform_side[k] == side[solution["branch"][1]]
         if solution["sigma_rot"] > 1e-6:
             assert_allclose(modes.separation[k], solution["sigma_rot"], rtol=1e-6, atol=1e-9)
-    assert len(selection) == case["count"], "one mode stands for two"
+    assert len(matches) == case["count"], "one mode stands for two"
     if case["count"]:
         assert length_errors(g, modes, lengths).max() < 1e-13
 

@@ -59,14 +59,14 @@ def test_a_certified_mode_is_alone(hexagonal):
         same_o &= abs((modes.rotation.mT @ (modes.internal_point - modes.position)[..., None])[..., 0]
                       - there.rotation.T @ (there.internal_point - there.position)).max(axis=-1) < 1e-9  # fmt: skip
         away = np.sort(angle(c.rotation, modes.rotation[same_o]))
-        arrival = angle(c.rotation, there.rotation)
-        assert_allclose(away[0], arrival, atol=1e-9)
+        turn_angle = angle(c.rotation, there.rotation)
+        assert_allclose(away[0], turn_angle, atol=1e-9)
         if there.certificate <= 0.5:
             certified += 1
-            assert arrival <= there.alone_within
+            assert turn_angle <= there.alone_within
             assert len(away) == 1 or away[1] > there.alone_within
         else:
-            assert arrival < 2.0 / (3.0 * np.sqrt(3.0)) * there.separation
+            assert turn_angle < 2.0 / (3.0 * np.sqrt(3.0)) * there.separation
             assert np.isnan(there.alone_within)
     assert certified > 200
 

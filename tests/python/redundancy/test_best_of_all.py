@@ -60,9 +60,9 @@ class Pose:
         w = u + (m.p - m.s)[:, None]
         signs = np.stack([np.sign(np.linalg.det(a)) for a in (b, c, np.cross(w - x, w))], axis=-1)
         lengths = np.linalg.norm(s[:, None] - self.joints, axis=-1)
-        rest = ((lengths >= self.low) & (lengths <= self.high)).all(axis=1)
+        legal = ((lengths >= self.low) & (lengths <= self.high)).all(axis=1)
         values = np.full(n, np.inf)
-        values[rest] = numpy_model.condition_number(m.at(np.flatnonzero(rest)))
+        values[legal] = numpy_model.condition_number(m.at(np.flatnonzero(legal)))
         return signs, values
 
     def values(self, s, signs):
@@ -82,13 +82,13 @@ def searched(pose, signs, rng, count):
         ticks = [np.linspace(a, b, count) for a, b in zip(low, high, strict=True)]
         s = np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1).reshape(-1, 3)
         value = pose.values(s, signs)
-        result = np.isfinite(value)
-        if not result.any():
+        inside = np.isfinite(value)
+        if not inside.any():
             return s[:0], value[:0]
         step = (high - low) / (count - 1)
-        if result.mean() > 0.15:
+        if inside.mean() > 0.15:
             break
-        low, high = s[result].min(axis=0) - step, s[result].max(axis=0) + step
+        low, high = s[inside].min(axis=0) - step, s[inside].max(axis=0) + step
     near = np.argsort(value)[:400]
     near = near[np.isfinite(value[near])]
     chosen = []

@@ -51,8 +51,8 @@ def test_as_good_as_single_searches(published, criterion, limits):
     single = nd.best_internal_point(published, grid.reshape(-1, 3)[some], criterion=criterion, limits=limits)
     assert_array_equal(best.status.ravel()[some], single.status)
     assert (single.status == "found").mean() > 0.5
-    result = single.status == "found"
-    missed = gain(criterion, best.value.ravel()[some][result], single.value[result])
+    with_o = single.status == "found"
+    missed = gain(criterion, best.value.ravel()[some][with_o], single.value[with_o])
     # A missed branch is no fault as such, but the audit has to know of it.
     assert missed.max() <= max(1e-6, 2.0 * best.audit.largest)
     assert (missed > 1e-6).mean() <= best.audit.missed / best.audit.poses + 0.05
@@ -92,12 +92,12 @@ def test_no_point_of_a_fine_grid_is_better(published):
             np.zeros(box.shape),
         )
         signs = [dets(robots(published, where, s + t * (box - s))) for t in np.linspace(0.0, 1.0, size(20, 30))]
-        arrival = np.all([np.sign(x) == np.sign(signs[0]) for x in signs], axis=(0, 2))
+        same_chamber = np.all([np.sign(x) == np.sign(signs[0]) for x in signs], axis=(0, 2))
         with np.errstate(all="ignore"):
             values = numpy_model.condition_number(robots(published, where, box))
-        assert arrival.sum() > 1000
-        assert values[arrival].min() >= best.value[k] * (1.0 - 1e-9)
-        assert values[arrival].min() <= best.value[k] * 1.05  # the box is about O
+        assert same_chamber.sum() > 1000
+        assert values[same_chamber].min() >= best.value[k] * (1.0 - 1e-9)
+        assert values[same_chamber].min() <= best.value[k] * 1.05  # the box is about O
 
 
 def dets(m):
@@ -123,8 +123,8 @@ def test_no_point_of_a_neighbour_is_better(published):
     for axis, there in itertools.product((0, 1), (1, -1)):
         here = tuple(slice(1, -1) if a == axis else slice(None) for a in (0, 1))
         moved = np.roll(s, there, axis=axis)[here]
-        selection = nd.condition_number(published, nd.Configuration(p[here], internal_point=moved))
-        assert (selection >= value[here] * (1.0 - 1e-9)).all()
+        of_neighbour = nd.condition_number(published, nd.Configuration(p[here], internal_point=moved))
+        assert (of_neighbour >= value[here] * (1.0 - 1e-9)).all()
 
 
 def test_a_turn_by_a_third_gives_the_same_values(published):
@@ -161,7 +161,7 @@ def test_the_audit_counts_misses_and_corrects_them():
     assert 0 < whole.audit.missed < whole.audit.poses
     assert whole.audit.largest > 1e-2
     # A small audit corrects some of the misses that the audit of all poses counts.
-    calls = set()
+    outcomes = set()
     for seed in range(size(3, 4)):
         part = nd.best_internal_map(g, p, q, seed_every=200, audit_every=100, audit_seed=seed)
         assert part.audit.poses == 32
@@ -169,9 +169,9 @@ def test_the_audit_counts_misses_and_corrects_them():
         left = (~(lost <= 1e-6)).sum()
         assert left + part.audit.missed <= whole.audit.missed
         assert not (lost > whole.audit.largest * (1.0 + 1e-6)).any()
-        calls.add((left, part.audit.missed))
-    assert len(calls) > 1  # other seeds draw other poses
-    assert max(missed for _, missed in calls) > 0  # else nothing was corrected, and the test says nothing
+        outcomes.add((left, part.audit.missed))
+    assert len(outcomes) > 1  # other seeds draw other poses
+    assert max(missed for _, missed in outcomes) > 0  # else nothing was corrected, and the test says nothing
 
 
 def test_searching_every_pose_is_best_internal_point(published):
@@ -193,15 +193,15 @@ def test_limits_hold_and_are_named(published):
     c = nd.Configuration(
         best.configuration.position.reshape(-1, 3), None, best.configuration.internal_point.reshape(-1, 3)
     )
-    result = (best.status == "found").ravel()
+    with_o = (best.status == "found").ravel()
     with np.errstate(invalid="ignore"):
         lengths = numpy_model.lengths(robots(published, c))
-    assert 0.2 < result.mean() < 0.95
-    assert (lengths[result] <= high + 1e-8).all()
-    assert (lengths[result] >= LIMITS[0] - 1e-8).all()
+    assert 0.2 < with_o.mean() < 0.95
+    assert (lengths[with_o] <= high + 1e-8).all()
+    assert (lengths[with_o] >= LIMITS[0] - 1e-8).all()
     names = np.array(["l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"], dtype=object)
     touched = 0
-    for length, active in zip(lengths[result], best.active.ravel()[result], strict=True):
+    for length, active in zip(lengths[with_o], best.active.ravel()[with_o], strict=True):
         for room, words in ((high - length, names + " high"), (length - LIMITS[0], names + " low")):
             assert set(words[room < 1e-7]) <= set(active)
             assert not set(words[room > 1e-6]) & set(active)
@@ -211,8 +211,8 @@ def test_limits_hold_and_are_named(published):
     out = (external > high[:3] + 1e-8).any(axis=1)
     assert out.any()
     assert (best.status.ravel()[out] == "infeasible").all()
-    assert np.isnan(c.internal_point[~result]).all()
-    assert np.isnan(best.value.ravel()[~result]).all()
+    assert np.isnan(c.internal_point[~with_o]).all()
+    assert np.isnan(best.value.ravel()[~with_o]).all()
 
 
 def test_infeasible_for_internal_legs_as_in_a_search(published):

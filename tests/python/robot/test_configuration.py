@@ -186,8 +186,8 @@ def test_memory_layout_does_not_matter(published):
 @pytest.mark.parametrize("shape", [(), (4,), (2, 3), (0,)])
 def test_no_flag_makes_a_configuration_changeable(shape):
     at = nd.Configuration.neutral(3.9828, np.full(shape, 2.3745))
-    for copy_of in (at, at.moved(np.zeros(9)), pickle.loads(pickle.dumps(at)), copy.deepcopy(at)):
-        for array in (copy_of.position, copy_of.rotation, copy_of.internal_point):
+    for same_pose in (at, at.moved(np.zeros(9)), pickle.loads(pickle.dumps(at)), copy.deepcopy(at)):
+        for array in (same_pose.position, same_pose.rotation, same_pose.internal_point):
             base = array
             while isinstance(base, np.ndarray):
                 assert base.flags.aligned

@@ -94,7 +94,7 @@ def test_against_dense_sampling_and_root_finding(kind):
 def test_a_short_excursion_through_a_singularity_is_not_stepped_over(gap):
     """Two external legs point at O at times a gap apart: det N changes sign for no longer than that."""
     rng = np.random.default_rng(12)
-    calls = 0
+    crossings = 0
     for _ in range(30):
         m, tangent = model.random_robots(rng, 1).at(0), direction(rng, "screw")
         base = m.r.copy()
@@ -110,8 +110,8 @@ def test_a_short_excursion_through_a_singularity_is_not_stepped_over(gap):
         assert result <= 0.5 + 1e-10
         if result > 0.5 - gap:
             assert_allclose(result, 0.5, rtol=0.0, atol=1e-13 / gap)
-            calls += 1
-    assert calls >= 10
+            crossings += 1
+    assert crossings >= 10
 
 
 def test_a_plane_that_O_touches_or_just_misses():

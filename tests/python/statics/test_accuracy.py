@@ -124,8 +124,8 @@ def test_worst_corner_is_reached_by_a_real_robot():
         corner = CORNERS[np.linalg.norm(motions[:, block], axis=1).argmax()]
         gaps = []
         for size in (1e-4, 0.5e-4):
-            arrival = np.linalg.norm(solved(m, model.lengths(m) + size * corner)[block])
-            gaps.append(abs(arrival / getattr(bounds(m, size), name) - 1.0))
+            largest_shift = np.linalg.norm(solved(m, model.lengths(m) + size * corner)[block])
+            gaps.append(abs(largest_shift / getattr(bounds(m, size), name) - 1.0))
         assert gaps[1] < 0.6 * gaps[0] < 1e-2
 
 
@@ -147,12 +147,12 @@ def test_singular_configurations_have_no_bound(kind, where):
     """det B = 0 leaves nothing determined, det C = 0 and det N = 0 leave O, determined by three spheres."""
     m = robots.flat(kind) if where == "flat" else robots.singular(kind, 3)[0]
     result = bounds(m, 1e-3, 1e-3)
-    reference = 0 if kind == "lower plane" else 3
+    finite_rows = 0 if kind == "lower plane" else 3
     assert np.isinf([result.rotation, result.position]).all()
-    assert np.isinf(result.components[: 9 - reference]).all()
-    assert np.isinf(result.covariance.diagonal()[: 9 - reference]).all()
-    assert np.isnan(result.covariance[~np.eye(9, dtype=bool)].reshape(9, 8)[: 9 - reference]).all()
-    if reference:
+    assert np.isinf(result.components[: 9 - finite_rows]).all()
+    assert np.isinf(result.covariance.diagonal()[: 9 - finite_rows]).all()
+    assert np.isnan(result.covariance[~np.eye(9, dtype=bool)].reshape(9, 8)[: 9 - finite_rows]).all()
+    if finite_rows:
         B_inverse = np.linalg.inv(model.matrices(m)[1])
         assert_allclose(result.components[6:], 2e-3 * np.abs(B_inverse).sum(axis=1), rtol=1e-9)
         assert_allclose(result.covariance[6:, 6:], (1e-6 / 3 + 1e-6 / 5) * B_inverse @ B_inverse.T, rtol=1e-9)
@@ -160,17 +160,17 @@ def test_singular_configurations_have_no_bound(kind, where):
     else:
         assert np.isinf(result.internal_point)
     gain = nd.error_map(m.geometry(), m.configuration())
-    assert np.isinf(gain[: 9 - reference]).all()
-    assert np.isfinite(gain[9 - reference :]).all()
+    assert np.isinf(gain[: 9 - finite_rows]).all()
+    assert np.isfinite(gain[9 - finite_rows :]).all()
     still = bounds(m)  # no error, but the platform is free
     assert np.isinf(still.position)
 
 
 def test_leg_of_zero_length_has_no_bound(published):
-    for s, reference in ((published.base_internal[1], False), ([0.0, 1.6778953523188904, 4.0], True)):
+    for s, regular in ((published.base_internal[1], False), ([0.0, 1.6778953523188904, 4.0], True)):
         result = nd.error_bounds(published, nd.Configuration([0, 0, 4.0], np.eye(3), s), 1e-3)
         assert np.isinf(result.rotation)
-        assert np.isfinite(result.internal_point) == reference
+        assert np.isfinite(result.internal_point) == regular
 
 
 def test_rows_are_independent_and_broadcast(published, stack):
