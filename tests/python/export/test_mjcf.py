@@ -1,6 +1,7 @@
 """The MJCF file in MuJoCo: it settles in the poses of commanded leg lengths, and its loops have the Jacobian J'."""
 
 import exported
+import mujoco_models as models
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -35,14 +36,9 @@ def written(kind, folder, **options):
 
 
 def settle(engine, data, controls):
-    data.ctrl[:] = controls
     assert (engine.actuator_ctrlrange[:, 0] <= controls).all()
     assert (controls <= engine.actuator_ctrlrange[:, 1]).all()
-    for _ in range(200):
-        mujoco.mj_step(engine, data, 100)
-        if np.abs(data.qvel).max() < AT_REST:
-            return
-    pytest.fail("still moving after 10 s")
+    assert models.settle(engine, data, controls, 20000 * engine.opt.timestep, AT_REST), "still moving after 10 s"
 
 
 def errors(data, target, metre, size):
@@ -52,34 +48,13 @@ def errors(data, target, metre, size):
     return [*apart, np.abs(data.body("platform").xmat.reshape(3, 3) - target.rotation).max()]
 
 
-def slides(engine):
-    joints = [engine.joint(leg) for leg in exported.LEGS]
-    return [j.qposadr[0] for j in joints], [j.dofadr[0] for j in joints]
-
-
-def slide_to_twist(engine, data, lc):
-    """(lc omega, pdot) for nine slide rates: all velocities that the 27 constraints allow, sorted by what they do."""
-    constraints = data.efc_J.reshape(data.nefc, engine.nv)
-    assert constraints.shape == (27, 45)
-    _, sigma, rows = np.linalg.svd(constraints)
-    assert sigma[-1] > 1e-3 * sigma[0]  # the 27 constraints are independent
-    allowed = rows[27:].T
-    at = engine.joint("platform").dofadr[0]
-    turned = data.body("platform").xmat.reshape(3, 3)
-    twist = np.concatenate([lc * turned @ allowed[at + 3 : at + 6], allowed[at : at + 3]])
-    rates = allowed[slides(engine)[1]]
-    result = twist @ np.linalg.pinv(rates, rcond=1e-9)
-    assert_allclose(result @ rates, twist, rtol=0.0, atol=1e-12)  # the slides determine the twist
-    return result
-
-
 @EVERY
 def test_the_neutral_keyframe_is_the_neutral_configuration(kind, tmp_path):
     design, metre, _, engine, data = written(kind, tmp_path)
     assert max(errors(data, design.configuration, metre, 1.0 / metre)) < 1e-15
     assert np.abs(data.efc_pos).max() < 1e-14  # no loop is open
     expected = nd.leg_lengths(design.geometry, design.configuration) * metre
-    assert_allclose(data.qpos[slides(engine)[0]], expected, rtol=1e-14)
+    assert_allclose(data.qpos[models.slides(engine)[0]], expected, rtol=1e-14)
     assert_allclose(data.ctrl, expected, rtol=1e-14)
     assert [engine.actuator(k).name for k in range(9)] == exported.LEGS
 
@@ -121,7 +96,12 @@ def test_slides_move_the_platform_as_the_jacobian_says(kind, tmp_path):
     design, metre, _, engine, data = written(kind, tmp_path)
     lc = float(np.linalg.norm(design.geometry.platform_external, axis=-1).mean())
     expected = nd.jacobian(design.geometry, design.configuration, lc)
-    assert_allclose(slide_to_twist(engine, data, lc * metre), expected, rtol=0.0, atol=1e-11 * np.abs(expected).max())
+    assert_allclose(
+        models.slide_to_twist(engine, data, lc * metre, independent=1e-3),
+        expected,
+        rtol=0.0,
+        atol=1e-11 * np.abs(expected).max(),
+    )
 
 
 def test_ranges_are_the_strokes_of_the_sheet(tmp_path):

@@ -10,19 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
+from robots import random_robot
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
 
 SEEDS = st.integers(0, 2**32 - 1)
 FLAT = nd.Geometry.hexagonal(0.4, 3.0, 2.0, 0.3)
-
-
-def random_robot(seed):
-    """One general robot that is not near a singularity; its numpy model."""
-    rng = np.random.default_rng(seed)
-    robots = model.random_robots(rng, 8)
-    return robots.at(int(np.argmin(model.condition_number(robots)))), rng
 
 
 def at_time(m, motion, t):

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
+from robots import random_robot
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
@@ -76,13 +77,6 @@ def test_forward_velocity_inverts_differences_of_leg_lengths(published, name):
     motion = rng.normal(size=(3, 3))
     outcome = nd.forward_velocity(published, c, rates_by_differences(published, c, *motion))
     assert_allclose(outcome, motion, atol=1e-9)
-
-
-def random_robot(seed):
-    """One general robot that is not near a singularity; its numpy model."""
-    rng = np.random.default_rng(seed)
-    robots = model.random_robots(rng, 8)
-    return robots.at(int(np.argmin(model.condition_number(robots)))), rng
 
 
 @given(SEEDS, st.floats(0.1, 10.0))

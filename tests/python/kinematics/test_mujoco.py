@@ -70,14 +70,7 @@ def nearby(robot, seed):
 
 
 def settle(engine, data, lengths, seconds):
-    """Command nine leg lengths and wait until nothing moves."""
-    data.ctrl[:] = lengths
-    every = 100
-    for _ in range(int(seconds / engine.opt.timestep / every)):
-        mujoco.mj_step(engine, data, every)
-        if np.abs(data.qvel).max() < AT_REST:
-            return
-    pytest.fail(f"still moving after {seconds} s: {data.qvel}")
+    assert models.settle(engine, data, lengths, seconds, AT_REST), f"still moving after {seconds} s: {data.qvel}"
 
 
 # --- Legs as tendons --------------------------------------------------------------------------------------------------
@@ -195,27 +188,6 @@ def test_tendons_pull_to_the_commanded_pose(robot):
 # --- Legs as struts, loops closed -------------------------------------------------------------------------------------
 
 
-def slides(engine):
-    """Indices of the nine slides among coordinates and among velocities, in the order of the legs."""
-    joints = [engine.joint(leg) for leg in models.LEGS]
-    return [j.qposadr[0] for j in joints], [j.dofadr[0] for j in joints]
-
-
-def slide_to_twist(engine, data):
-    """(omega, pdot) for nine slide rates: all velocities that the 27 constraints allow, sorted by what they do."""
-    _, rates = slides(engine)
-    constraints = data.efc_J.reshape(data.nefc, engine.nv)
-    assert constraints.shape == (27, 45)
-    _, sigma, rows = np.linalg.svd(constraints)
-    assert sigma[-1] > 1e-2 * sigma[0]  # the 27 constraints are independent
-    allowed = rows[27:].T  # 18 motions: the nine of the robot and nine spins, which neither slide nor turn the platform
-    Q = pose(data).rotation
-    twist = np.concatenate([Q @ allowed[6:9], allowed[3:6]])
-    J = twist @ np.linalg.pinv(allowed[rates], rcond=1e-9)
-    assert_allclose(J @ allowed[rates], twist, rtol=0.0, atol=ROUNDING)  # the slides determine the twist
-    return J
-
-
 @EVERY_ROBOT
 def test_jacobian_is_in_the_null_space_of_the_loops(robot):
     g, start = robot
@@ -223,7 +195,7 @@ def test_jacobian_is_in_the_null_space_of_the_loops(robot):
     for c in [start, *start.moved(0.3 * rng.normal(size=(4, 9)))]:
         engine, data = loaded(models.closed_loop_model(g, c))
         result = nd.jacobian(g, c)
-        assert_allclose(result, slide_to_twist(engine, data), rtol=0.0, atol=ROUNDING * np.abs(result).max())
+        assert_allclose(result, models.slide_to_twist(engine, data), rtol=0.0, atol=ROUNDING * np.abs(result).max())
 
 
 @EVERY_ROBOT
@@ -235,7 +207,7 @@ def test_struts_push_to_the_commanded_pose(robot):
     settle(engine, data, nd.leg_lengths(g, target), seconds=20.0)
     assert_same_pose(pose(data), target, 1e-8)
     assert np.abs(data.efc_pos).max() < 1e-12  # no loop is open
-    assert_allclose(slide_to_twist(engine, data), nd.jacobian(g, target), rtol=0.0, atol=1e-6)
+    assert_allclose(models.slide_to_twist(engine, data), nd.jacobian(g, target), rtol=0.0, atol=1e-6)
 
 
 @EVERY_ROBOT
@@ -246,7 +218,7 @@ def test_measured_slides_give_the_pose_under_gravity(robot):
     engine, data = loaded(models.closed_loop_model(g, start, gravity=9.81, timestep=5e-4))
     settle(engine, data, nd.leg_lengths(g, target), seconds=20.0)
     end_pose = pose(data)
-    measured = data.qpos[slides(engine)[0]]
+    measured = data.qpos[models.slides(engine)[0]]
     assert np.abs(measured - nd.leg_lengths(g, target)).max() > 1e-4
     assert_allclose(nd.leg_lengths(g, end_pose), measured, rtol=0.0, atol=1e-7)
     assert_same_pose(nd.track(g, measured, start), end_pose, 1e-6)

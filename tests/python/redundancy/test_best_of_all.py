@@ -10,6 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 from sizes import size
+from workspace_oracle import robots
 
 import ninedof as nd
 
@@ -47,21 +48,14 @@ class Pose:
 
     def signs_and_values(self, s):
         """Signs of det B, det C and det N, and the condition number where the limits hold, for s of shape (n, 3)."""
-        n = len(s)
-        triples = (self.g.base_external, self.g.base_internal, self.g.platform_external, self.g.platform_internal)
-        m = numpy_model.Robot(
-            *(np.broadcast_to(t, (n, 3, 3)) for t in triples),
-            np.broadcast_to(self.p, (n, 3)),
-            np.broadcast_to(self.q, (n, 3, 3)),
-            s,
-        )
+        m = robots(self.g, np.broadcast_to(self.p, s.shape), self.q, s)
         _, b, c, _ = numpy_model.matrices(m)
         x, _, _, u, _ = numpy_model.legs(m)
         w = u + (m.p - m.s)[:, None]
         signs = np.stack([np.sign(np.linalg.det(a)) for a in (b, c, np.cross(w - x, w))], axis=-1)
         lengths = np.linalg.norm(s[:, None] - self.joints, axis=-1)
         legal = ((lengths >= self.low) & (lengths <= self.high)).all(axis=1)
-        values = np.full(n, np.inf)
+        values = np.full(len(s), np.inf)
         values[legal] = numpy_model.condition_number(m.at(np.flatnonzero(legal)))
         return signs, values
 

@@ -8,6 +8,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.spatial.transform import Rotation
 from sizes import size
+from workspace_oracle import robots as robots_at
 
 import ninedof as nd
 
@@ -23,11 +24,7 @@ def plane(n, reach=1.6, height=3.9828):
 
 def robots(g, c, s=None):
     """Return the numpy model of a stack of configurations, with another O if given."""
-    n = len(c.position)
-    joints = (g.base_external, g.base_internal, g.platform_external, g.platform_internal)
-    return numpy_model.Robot(
-        *(np.broadcast_to(t, (n, 3, 3)) for t in joints), c.position, c.rotation, c.internal_point if s is None else s
-    )
+    return robots_at(g, c.position, c.rotation, c.internal_point if s is None else s)
 
 
 def gain(criterion, map_value, value):

@@ -153,3 +153,37 @@ def closed_loop_model(g, c, gravity: float = 0.0, timestep: float = 1e-3) -> str
       <equality>{held}</equality>
       {actuators("joint", kp=0.1 * ROD_MASS / timestep**2, kv=3.0 * ROD_MASS / timestep)}
     </mujoco>"""
+
+
+def slides(engine) -> tuple[list[int], list[int]]:
+    """Indices of the nine slides among coordinates and among velocities, in the order of the legs."""
+    each = [engine.joint(leg) for leg in LEGS]
+    return [j.qposadr[0] for j in each], [j.dofadr[0] for j in each]
+
+
+def settle(engine, data, lengths, seconds: float, at_rest: float) -> bool:
+    """Command nine leg lengths and wait until all velocities are below `at_rest`; whether they are."""
+    import mujoco
+
+    data.ctrl[:] = lengths
+    every = 100
+    for _ in range(int(seconds / engine.opt.timestep / every)):
+        mujoco.mj_step(engine, data, every)
+        if np.abs(data.qvel).max() < at_rest:
+            return True
+    return False
+
+
+def slide_to_twist(engine, data, lc: float = 1.0, independent: float = 1e-2) -> np.ndarray:
+    """(lc omega, pdot) for nine slide rates: all velocities that the 27 constraints allow, sorted by what they do."""
+    constraints = data.efc_J.reshape(data.nefc, engine.nv)
+    assert constraints.shape == (27, 45)
+    _, sigma, rows = np.linalg.svd(constraints)
+    assert sigma[-1] > independent * sigma[0]
+    allowed = rows[27:].T  # 18 motions: the nine of the robot and nine spins, which neither slide nor turn the platform
+    at, rotation = engine.joint("platform").dofadr[0], data.body("platform").xmat.reshape(3, 3)
+    twist = np.concatenate([lc * rotation @ allowed[at + 3 : at + 6], allowed[at : at + 3]])
+    rates = allowed[slides(engine)[1]]
+    jacobian = twist @ np.linalg.pinv(rates, rcond=1e-9)
+    np.testing.assert_allclose(jacobian @ rates, twist, rtol=0.0, atol=1e-12)  # the slides determine the twist
+    return jacobian

@@ -73,3 +73,10 @@ def any_pose(rng, hexagonal):
     q = rng.normal(size=4)
     p, s = np.array([0.0, 0.0, 1.8]) + 0.5 * rng.normal(size=3), np.array([0.0, 0.0, 0.9]) + 0.4 * rng.normal(size=3)
     return g, nd.Configuration(p, Rotation.from_quat(q), s)
+
+
+def random_robot(seed):
+    """One general robot that is not near a singularity, as numpy model, and the generator that drew it."""
+    rng = np.random.default_rng(seed)
+    robots = model.random_robots(rng, 8)
+    return robots.at(int(np.argmin(model.condition_number(robots)))), rng
