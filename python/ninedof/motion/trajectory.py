@@ -166,11 +166,9 @@ class Trajectory:
     @property
     def closed(self) -> bool:
         """Whether the last pose is the first, to 1e-12."""
-        near = 1e-12 * float(np.abs(self.position).max())
-        return bool(
-            (np.abs(self.position[-1] - self.position[0]) <= near).all()
-            and (np.abs(self.rotation[-1] - self.rotation[0]) <= 1e-12).all()
-        )
+        p, q = self.position, self.rotation
+        same_place = np.allclose(p[0], p[-1], rtol=0.0, atol=1e-12 * np.abs(p).max())
+        return same_place and np.allclose(q[0], q[-1], rtol=0.0, atol=1e-12)
 
     def __repr__(self) -> str:
         """Show the number of poses and the times."""
