@@ -144,7 +144,7 @@ class Configuration:
         if not self.shape:
             raise TypeError("a single configuration cannot be indexed")
         picks: NDArray[np.intp] = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
-        return Configuration._of(*(array[picks] for array in _flat(*self._arrays())))
+        return Configuration._of(*(array[picks] for array in _flat(**arrays_of(self))))
 
     def __bool__(self) -> bool:
         """Return True also for an empty stack."""
@@ -154,8 +154,8 @@ class Configuration:
         """Compare numbers and shape."""
         if not isinstance(other, Configuration):
             return NotImplemented
-        pairs = zip(self._arrays(), other._arrays(), strict=True)
-        return all(np.array_equal(a, b, equal_nan=True) for a, b in pairs)
+        own, others = arrays_of(self), arrays_of(other)
+        return all(np.array_equal(own[name], others[name], equal_nan=True) for name in own)
 
     __hash__ = None  # type: ignore[assignment]  # as for numpy arrays
 
@@ -163,25 +163,21 @@ class Configuration:
         """Show the numbers of a single configuration, or the shape of a stack."""
         if self.shape:
             return f"<Configuration stack of shape {self.shape}>"
-        p, q, s = (a.tolist() for a in self._arrays())
-        return f"Configuration(position={p}, rotation={q}, internal_point={s})"
+        return f"Configuration({', '.join(f'{name}={array.tolist()}' for name, array in arrays_of(self).items())})"
 
     def __setstate__(self, state: tuple[None, dict[str, Any]]) -> None:
         """Restore a copied stack, or one pickled by protocol 2 or later; its arrays become read-only again."""
         for name, value in state[1].items():
             setattr(self, name, frozen(value) if name in Configuration.__slots__ else value)
 
-    def _arrays(self) -> tuple[Floats, Floats, Floats]:
-        return self._position, self._rotation, self._internal_point
 
-
-def _flat(p: Floats, q: Floats, s: Floats) -> Flat:
-    return Flat(p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3))
+def _flat(position: Floats, rotation: Floats, internal_point: Floats) -> Flat:
+    return Flat(position.reshape(-1, 3), rotation.reshape(-1, 3, 3), internal_point.reshape(-1, 3))
 
 
 def arrays_of(configuration: Configuration) -> dict[str, Floats]:
     """Return the arrays of a configuration by name."""
-    return dict(zip(("position", "rotation", "internal_point"), configuration._arrays(), strict=True))
+    return {name: getattr(configuration, name) for name in Flat._fields}
 
 
 def broadcast_flat(
