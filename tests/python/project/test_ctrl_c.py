@@ -66,7 +66,7 @@ def test_ctrl_c_is_heard(name):
     with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
         try:
             child.stdout.readline()
-            time.sleep(1.0)
+            time.sleep(0.4)
             assert child.poll() is None, child.stderr.read()
             sent = time.monotonic()
             child.send_signal(signal.SIGINT)
