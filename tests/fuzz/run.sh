@@ -11,7 +11,8 @@ targets=("$build"/tests/fuzz/fuzz_*)
 [[ -x ${targets[0]} ]] || { echo "no fuzz targets in $build: cmake --build --preset fuzz"; exit 1; }
 seed=$((RANDOM + 1))
 if [[ $length == -runs=* ]]; then seed=1; fi
-for target in "${targets[@]}"; do
+feed() {
+  local target=$1 name longest
   name=$(basename "$target") && name=${name#fuzz_}
   if [[ $length == -runs=* ]]; then rm -rf "${found:?}/$name"; fi # what an earlier run found
   mkdir -p "$found/$name"
@@ -22,10 +23,21 @@ for target in "${targets[@]}"; do
     -artifact_prefix="$found/$name-" "$found/$name" "$corpus/$name" >"$found/$name.log" 2>&1 || {
     tail -n 40 "$found/$name.log"
     echo "fuzz target $name failed: its input is $found/$name-*"
-    exit 1
+    return 1
   }
   awk -v name="$name, seed $seed" '
     /stat::number_of_executed_units/ { runs = $2 }
     /stat::average_exec_per_sec/ { speed = $2 }
     END { printf "%s: %d inputs, %d a second, nothing found\n", name, runs, speed }' "$found/$name.log"
+}
+# Two targets at a time: each takes one core.
+running=()
+for target in "${targets[@]}"; do
+  if ((${#running[@]} == 2)); then
+    wait "${running[0]}"
+    running=("${running[1]}")
+  fi
+  feed "$target" &
+  running+=($!)
 done
+for feeder in "${running[@]}"; do wait "$feeder"; done

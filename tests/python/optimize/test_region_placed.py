@@ -29,7 +29,7 @@ BOX = nd.Study(
     "symmetric",
     constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0), "stroke": {"max": 0.4, "of": "zp"}},
     objective={"region": {"box": [0.1, 0.1, 0.1], "tilt_deg": 5, "unit": "zp", "internal_point": "best"}},
-    starts=2,
+    starts=1,
 )
 LINE = nd.Study(
     constraints={"radius_ratio": (None, 2.0), "stroke_ratio": (None, 1.3)},
@@ -52,7 +52,7 @@ MACHINE = nd.Study(
     variables=LENGTHS,
     constraints={"stroke_ratio": (None, 1.6), "leg_clearance": (20.0, None)},
     objective={"region": {"box": [50.0, 50.0, 50.0], "tilt_deg": 10.0, "internal_point": "best"}},
-    starts=16,
+    starts=4,
 )
 STUDIES = {"line": LINE, "turns": TURNS, "box": BOX, "machine": MACHINE}
 solves = pytest.mark.skipif(not LONG, reason="seconds to minutes for each study: NINEDOF_LONG=1")
