@@ -81,17 +81,6 @@ def test_what_is_no_design_of_a_study_is_refused(tmp_path, capsys):
     assert "got no design of a study, expected a run of `ninedof optimize`" in " ".join(capsys.readouterr().err.split())
 
 
-@pytest.mark.parametrize(
-    ("option", "given", "expected"),
-    [("--time", "-1", "at least 0"), ("--condition", "0.5", "at least 1"), ("--gap", "0", "at least 1e-09")],
-)
-def test_a_bad_number_is_named_as_it_was_typed(run, capsys, option, given, expected):
-    assert status(run, option, given) == 2
-    said = capsys.readouterr().err
-    assert said.startswith(f"ninedof: {option}: got {float(given)!r}, expected a finite number {expected}")
-    assert len(said.splitlines()) == 1
-
-
 def test_an_interrupted_fit_of_a_rule_leaves_nothing(run, tmp_path, monkeypatch, capsys):
     def interrupted(*_, progress, **__):
         progress.phase("fitting a rule for O of degree 1")

@@ -138,33 +138,6 @@ def test_study_over_poses_shows_prices_and_poses(capsys):
     assert evaluated["condition_number"] == pytest.approx(best["condition_number"], rel=1e-9)
 
 
-BAD = {
-    "missing file": ("optimize nothing.toml", "nothing.toml"),
-    "missing design": ("evaluate nothing.toml", "nothing.toml"),
-    "no starts": ("optimize --starts 0", "starts: got 0"),
-    "no threads": ("--threads 0", "threads: got 0"),
-    "negative seed": ("--seed -1", "seed: got -1"),
-    "sides missing": ("evaluate --a1 1", "--a2"),
-    "negative side": ("evaluate --a1 -1 --a2 1 --b1 1 --b2 1 --zp 2 --zs 1", "a1: got -1"),
-    "no plate": ("evaluate --a1 0 --a2 0 --b1 1 --b2 1 --zp 2 --zs 1", "a1, a2"),
-    "nan height": ("evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp nan --zs 1", "zp: got nan"),
-    "length": ("evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp 2 --zs 1 --lc shortest", "--lc: got"),
-    "zero length": ("evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp 2 --zs 1 --lc 0", "characteristic_length: got 0"),
-    "unknown command": ("optimise", "optimise"),
-    "unknown option": ("optimize --start 3", "--start"),
-    "not a number": ("evaluate --a1 wide", "a1"),
-}
-
-
-@pytest.mark.parametrize(("line", "words"), BAD.values(), ids=BAD.keys())
-def test_bad_input_prints_one_error(capsys, tmp_path, line, words):
-    status, out, err = run(capsys, line)
-    assert status == 2
-    assert words in err
-    assert "Traceback" not in err + out
-    assert not (tmp_path / "runs").exists()
-
-
 def test_a_run_never_overwrites_another(capsys):
     Path("run").mkdir()
     Path("run/mine.txt").write_text("kept")

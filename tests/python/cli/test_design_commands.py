@@ -210,49 +210,6 @@ def test_screens_fit_80_columns(capsys, line):
     assert "…" not in out
 
 
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("best nothing", "nothing: cannot be read"),
-        ("best nothing.toml", "nothing.toml: cannot be read"),
-        ("best front", "front: got a front, expected one of its points: front#1 to front#2"),
-        ("best front#3", "front#3: got 3 of a front, expected a number from 1 to 2"),
-        ("best front#0", "front#0: got 0 of a front"),
-        ("best front#x", "front#x: got x of a front"),
-        ("best design.toml#1", "design.toml#1: got a point of a design file"),
-        ("best design.toml --all-poses", "--all-poses: got a design without a study"),
-        ("best run --all-poses --position 0 0 1", "--all-poses: got --position beside it"),
-        ("best run --criterion fast", "criterion: got 'fast'"),
-        ("best run --internal-point worst", "--internal-point: got 'worst'"),
-        ("best run --lc long", "--lc: got 'long'"),
-        ("best run --position nan 0 1", "--position: got nan"),
-        ("forces run --load '0 0 0 0 0 1' --rotation-deg 0 inf 0", "--rotation-deg: got inf"),
-        ("best run --legs nan 3", "limits"),
-        ("best run --lc nan", "characteristic_length: got nan"),
-        ("best run --lc 0", "characteristic_length: got 0"),
-        ("modes run --lengths '1 1 1 1 1 1 1 1 -1'", "leg_lengths"),
-        ("singularity run --direction '0 0 1 0 0 0 0 0 0' --most nan", "most: got nan"),
-        ("accuracy run --leg-error 1 --samples -1", "samples: got -1"),
-        ("accuracy run", "accuracy: got neither --leg-error nor --joint-error"),
-        ("accuracy run --leg-error nan", "--leg-error: got nan"),
-        ("accuracy run --joint-error -1", "--joint-error: got -1"),
-        ("accuracy run --leg-error 0.1 --all-poses --samples 9", "--samples: got it with --all-poses"),
-        ("forces run --load '1 2'", "--load: got '1 2', expected 6 numbers"),
-        ("forces run --load '0 0 0 0 0 inf'", "--load: got '0 0 0 0 0 inf'"),
-        ("stiffness run --leg-stiffness nan", "--leg-stiffness: got nan"),
-        ("singularity run --direction '0 1'", "--direction: got '0 1', expected 9 numbers"),
-        ("singularity run --direction '0 0 1 0 0 0 0 0 0' --most 0", "most: got 0"),
-        ("modes run --lengths '1 1'", "--lengths: got '1 1', expected 9 numbers"),
-        ("modes run --lengths '1 1 1 1 1 1 1 1 1' --position 0 0 1", "--lengths: got a pose beside it"),
-    ],
-)
-def test_bad_input_names_the_argument(capsys, line, words):
-    status, _, err = run(capsys, line)
-    assert status == 2
-    assert words in err
-    assert err.count("\n") == 1
-
-
 # --- Sweeps of any family ---------------------------------------------------------------------------------------------
 
 

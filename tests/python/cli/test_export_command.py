@@ -45,28 +45,6 @@ def test_a_run_is_written_with_the_name_of_its_folder(capsys, tmp_path, monkeypa
     assert (tmp_path / "run-1.sdf").read_text().replace("run-1", "run") == (tmp_path / "run.sdf").read_text()
 
 
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        ("", "--to: got nothing, expected one of c, csv, dxf, latex, mjcf, sdf, step, urdf"),
-        ("--to mjfc", "--to: got 'mjfc', expected one of"),
-        ("--out a.stl", "--out: got a.stl, expected --to with a format, or a file that ends in .h, .csv, .dxf"),
-        ("--to sdf --gravity 9", "--gravity: got 9 with --to sdf, which takes --leg-mass, --platform-mass"),
-        ("--out none/a.xml", "--out: got none/a.xml, expected a file in a folder that exists"),
-        ("--to mjcf --unit mile", "--unit: got 'mile'"),
-        ("--to csv --gravity 1", "--gravity: got 1 with --to csv, which takes no option"),
-        ("--to mjcf --leg-mass 0", "--leg-mass: got 0, expected a mass above 0"),
-    ],
-)
-def test_bad_input_is_one_line(line, message, capsys, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    status, out, err = run(capsys, f"export {DESIGN} {line}")
-    assert (status, out) == (2, "")
-    assert message in err
-    assert err.count("\n") == 1
-    assert list(tmp_path.iterdir()) == []
-
-
 @pytest.mark.parametrize("name", formats())
 def test_only_a_file_that_export_wrote_is_replaced(name, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -80,31 +80,6 @@ def test_a_run_with_its_limits(capsys):
     assert "leg_ratio" in out
 
 
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("path", "path: got none, expected one of a CSV file, --circle, --line and --spiral"),
-        ("path --circle 1 --line 1 0 0", "path: got --circle and --line, expected one"),
-        ("path poses.csv", "poses.csv: line 1: got yaw_deg as rotation"),
-        ("path none.csv", "none.csv: cannot be read"),
-        ("path poses.csv --points 7", "--points: got 7, expected none with a file"),
-        ("path --circle 1 --points 2", "points: got 2"),
-        ("path --circle 1 --duration 0", "duration: got 0"),
-        ("path --circle 1 --internal-point stay", "--internal-point: got 'stay', expected carried, shifted, held"),
-        ("path none.toml --circle 1", "none.toml"),
-        ("path --circle 1 --internal-point best --legs 1 2", "no position of O is allowed at t = 0"),
-    ],
-)
-def test_bad_input(capsys, tmp_path, line, words):
-    (tmp_path / "poses.csv").write_text(POSES)
-    status, out, err = run(capsys, line + " --out run")
-    assert status == 2
-    assert out == ""
-    assert words in err
-    assert err.count("\n") == 1
-    assert not (tmp_path / "run").exists()
-
-
 REGION = """
 [design]
 family = "symmetric"

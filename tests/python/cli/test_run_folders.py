@@ -30,14 +30,6 @@ def test_a_backend_of_matplotlib_that_is_not_there_does_not_matter(tmp_path):
     subprocess.run([sys.executable, "-c", chosen], env=environment, check=True, timeout=60)
 
 
-@pytest.mark.parametrize("value", ["-3", "0", "nan", "inf"])
-def test_a_value_of_pareto_is_refused_by_its_own_name(tmp_path, capsys, value):
-    code, said = ran(capsys, "pareto", "--value", "2", f"--value={value}", "--out", str(tmp_path / "out"))
-    assert code == 2
-    assert said.err == f"ninedof: --value: got {value}, expected a finite number above 0\n"
-    assert not list(tmp_path.iterdir())
-
-
 @pytest.mark.parametrize(
     ("place", "words"),
     [

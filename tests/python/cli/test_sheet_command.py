@@ -77,19 +77,3 @@ def test_evaluate_shows_the_poses_and_limits_of_a_run(capsys, machine, monkeypat
     again = load(machine).sheet(characteristic_length=100.0)
     assert data["sheet"]["condition_number"]["value"] == again.condition_number.value
     assert data["sheet"]["limits"][0]["name"] == "leg_ratio"
-
-
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("sheet nothing.toml", "nothing.toml"),
-        ("sheet . ", "record.json"),
-        (f"sheet {EXAMPLES / '04_design.toml'} --load '1 2 3'", "--load: got '1 2 3'"),
-        (f"sheet {EXAMPLES / '04_design.toml'} --internal fast", "internal: got 'fast'"),
-    ],
-)
-def test_bad_input(capsys, tmp_path, monkeypatch, line, words):
-    monkeypatch.chdir(tmp_path)
-    status, _, err = run(capsys, line)
-    assert status == 2
-    assert words in err

@@ -56,11 +56,3 @@ def test_a_design_that_keeps_its_limits_is_a_result(tmp_path):
     assert exit_status(replace(ended, interrupted=True), timed=True) == INTERRUPTED
     for worse in ({"margin": -1e-3}, {"looked_at": 4000}):
         assert exit_status(replace(ended, region=replace(whole.region, **worse)), timed=True) == NO_RESULT
-
-
-@pytest.mark.parametrize("seconds", ["0", "-1", "inf", "nan"])
-def test_seconds_are_positive(tmp_path, monkeypatch, capsys, seconds):
-    monkeypatch.chdir(tmp_path)
-    assert run(f"optimize --time={seconds} --out run") == 2
-    assert "--time: got" in capsys.readouterr().err
-    assert not (tmp_path / "run").exists()

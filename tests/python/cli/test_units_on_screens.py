@@ -241,24 +241,6 @@ def test_a_free_angle_without_bounds_is_assumed_in_degrees(capsys, tmp_path, mon
 
 
 @pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("sweep design.toml --over theta_z=0:1:3 --over theta_z_deg=0:30:3", "over: got both theta_z and theta_z_deg"),
-        ("pareto study.toml --against base_cone --value 400", "400 degrees"),
-        ("pareto study.toml --against footprint_deg", "against: got 'footprint_deg'"),
-        ("workspace design.toml --legs 1 900 --archetype orientation --angle-deg 400", "--angle-deg: got 400"),
-        ("workspace design.toml --base-cone-deg 200", "--base-cone-deg: got 200"),
-        ("sheet design.toml --turn-deg -5", "--turn-deg: got -5"),
-    ],
-)
-def test_errors_speak_in_degrees(capsys, here, line, words):
-    with pytest.raises(SystemExit) as end:
-        main(shlex.split(line))
-    assert end.value.code == 2
-    assert words in " ".join(capsys.readouterr().err.split())
-
-
-@pytest.mark.parametrize(
     ("text", "words"),
     [
         (

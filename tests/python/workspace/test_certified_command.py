@@ -80,23 +80,6 @@ def test_sections_show_every_state(published):
         proved.section("z", 100.0)
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["--gap", "0.1"], "--gap: got 0.1 without --certify"),
-        (["--time", "5"], "--time: got 5 without --certify"),
-        (["--certify", "--internal-point", "best"], "--internal-point: got 'best', expected carried, shifted, held"),
-        (["--certify", "--archetype", "orientation", "--angle-deg", "20"], "archetype: got 'orientation'"),
-        (["--certify", "--gap", "2"], "--gap: got 2"),
-    ],
-)
-def test_what_cannot_be_certified_is_refused(tmp_path, capsys, options, message):
-    code, out = run(["--legs", "2.5", "6.5", *options, "--out", str(tmp_path / "run")], capsys)
-    assert code == 2
-    assert message in " ".join(out.err.split())
-    assert not (tmp_path / "run").exists() or not list((tmp_path / "run").iterdir())
-
-
 def test_an_interruption_of_the_proof_keeps_the_map(tmp_path, capsys):
     with interrupted_on_entry("certified_workspace"):
         code, _ = run([*ASKED, "--gap", "1e-6", "--no-figures", "--out", str(tmp_path / "run")], capsys)

@@ -2,7 +2,6 @@
 
 import importlib
 import json
-import re
 
 import numpy as np
 import pytest
@@ -101,26 +100,6 @@ def test_the_command_passes_on_position_length_and_sample(tmp_path, capsys, publ
     code, out = run([*sample, *box, "--json", "--out", str(tmp_path / "b")], capsys)
     expected = nd.workspace(published, BOX, criteria=LEGS, internal_point=OWN, method="sample", points=500, seed=3)
     assert json.loads(out.out)["workspace"]["volume"] == expected.volume
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (
-            ["--position", "0", "0", "4"],
-            r"--position: got \(0.0, 0.0, 4.0\), expected none but for --archetype orientation",
-        ),
-        (["--lc", "long"], "--lc: got 'long', expected a number or one of"),
-        (["--points", "0"], "points: got 0, expected"),
-        (["--seed", "-1"], "seed: got -1, expected"),
-        (["--method", "grid", "--points", "5"], "--points: got 5, expected none with --method grid"),
-    ],
-)
-def test_the_command_names_invalid_options(tmp_path, capsys, arguments, words):
-    code, out = run(["--legs", "2.5", "6.5", *arguments, "--out", str(tmp_path / "run")], capsys)
-    assert code == 2
-    assert re.search(words, out.err)
-    assert out.err.count("\n") == 1
 
 
 def test_ctrl_c_before_the_first_level_leaves_a_record(tmp_path, capsys, monkeypatch):

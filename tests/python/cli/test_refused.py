@@ -1,0 +1,149 @@
+"""Command lines that are refused: one line that names what was typed, nothing on standard output, no file.
+
+What no command does with any value is in entry/test_entry_commands.py; entries of calls are in entry/test_refused.py.
+"""
+
+import shlex
+from pathlib import Path
+
+import entry_things as it
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+
+POSES = "t,x,y,z,yaw_deg\n" + "".join(f"{k / 10},{0.01 * k},0,3.6,0\n" for k in range(11))
+LINES = {
+    # numbers
+    "optimize --starts 0": "starts: got 0",
+    "optimize --starts 2147483647": "starts: got 2147483647, expected a whole number from 1 to 1000000",
+    "--threads 0": "threads: got 0",
+    "--seed -1": "seed: got -1",
+    "optimize --seed -1": "seed: got -1",
+    "optimize --threads 4096": "threads: got 4096, expected a whole number from 1 to 1024",
+    **{f"optimize --time={seconds}": "--time: got" for seconds in ("0", "-1", "inf", "nan")},
+    "pareto --points 1": "points: got 1",
+    "pareto --points 1000000": "points: got 1000000",
+    **{
+        f"pareto --value 2 --value={value}": f"--value: got {value}, expected a finite number above 0"
+        for value in ("-3", "0", "nan", "inf")
+    },
+    "certify run --time -1": "--time: got -1.0, expected a finite number at least 0",
+    "certify run --condition 0.5": "--condition: got 0.5, expected a finite number at least 1",
+    "certify run --gap 0": "--gap: got 0.0, expected a finite number at least 1e-09",
+    "atlas --designs 1125899906842625": "designs: got 1125899906842625",
+    "sweep --over x_p=-1:1:1000000000 --over y_p=-1:1:1000000000": "points, expected at most",
+    "sweep --over x_p=-1:1:1000000000 --chunk 1": "chunk: got 1 of 1000000000 points, expected at least 239",
+    "sweep figure-6 --points 10000000": "points: got 10000000",
+    "workspace --legs 1 6 --points 10000000000": "points: got 10000000000",
+    "workspace --legs 1 6 --points 0": "points: got 0, expected",
+    "workspace --legs 1 6 --seed -1": "seed: got -1, expected",
+    "path --circle 0.1 --points 1000000000": "points: got 1000000000",
+    "path --circle 1 --points 2": "points: got 2",
+    "path --circle 1 --duration 0": "duration: got 0",
+    "best run --lc nan": "characteristic_length: got nan",
+    "best run --lc 0": "characteristic_length: got 0",
+    "best run --position nan 0 1": "--position: got nan",
+    "best run --legs nan 3": "limits",
+    "forces run --load '0 0 0 0 0 1' --rotation-deg 0 inf 0": "--rotation-deg: got inf",
+    "forces run --load '0 0 0 0 0 inf'": "--load: got '0 0 0 0 0 inf'",
+    "singularity run --direction '0 0 1 0 0 0 0 0 0' --most nan": "most: got nan",
+    "singularity run --direction '0 0 1 0 0 0 0 0 0' --most 0": "most: got 0",
+    "accuracy run --leg-error 1 --samples -1": "samples: got -1",
+    "accuracy run --leg-error nan": "--leg-error: got nan",
+    "accuracy run --joint-error -1": "--joint-error: got -1",
+    "stiffness run --leg-stiffness nan": "--leg-stiffness: got nan",
+    "modes run --lengths '1 1 1 1 1 1 1 1 -1'": "leg_lengths",
+    "export design.toml --to mjcf --leg-mass 0": "--leg-mass: got 0, expected a mass above 0",
+    "evaluate --a1 -1 --a2 1 --b1 1 --b2 1 --zp 2 --zs 1": "a1: got -1",
+    "evaluate --a1 0 --a2 0 --b1 1 --b2 1 --zp 2 --zs 1": "a1, a2",
+    "evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp nan --zs 1": "zp: got nan",
+    "evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp 2 --zs 1 --lc 0": "characteristic_length: got 0",
+    # lists of numbers
+    "forces run --load '1 2'": "--load: got '1 2', expected 6 numbers",
+    "sheet design.toml --load '1 2 3'": "--load: got '1 2 3'",
+    "singularity run --direction '0 1'": "--direction: got '0 1', expected 9 numbers",
+    "modes run --lengths '1 1'": "--lengths: got '1 1', expected 9 numbers",
+    # angles, in degrees as they are typed
+    "sweep design.toml --over theta_z=0:1:3 --over theta_z_deg=0:30:3": "over: got both theta_z and theta_z_deg",
+    "pareto study.toml --against base_cone --value 400": "400 degrees",
+    "pareto study.toml --against footprint_deg": "against: got 'footprint_deg'",
+    "workspace design.toml --legs 1 900 --archetype orientation --angle-deg 400": "--angle-deg: got 400",
+    "workspace design.toml --base-cone-deg 200": "--base-cone-deg: got 200",
+    "sheet design.toml --turn-deg -5": "--turn-deg: got -5",
+    # words
+    "optimise": "optimise",
+    "optimize --start 3": "--start",
+    "pareto --against foo": "against: got 'foo'",
+    "evaluate --a1 wide": "a1",
+    "evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp 2 --zs 1 --lc shortest": "--lc: got",
+    "best run --lc long": "--lc: got 'long'",
+    "best run --criterion fast": "criterion: got 'fast'",
+    "best run --internal-point worst": "--internal-point: got 'worst'",
+    "path --circle 1 --internal-point stay": "--internal-point: got 'stay', expected carried, shifted, held",
+    "workspace --legs 1 6 --lc long": "--lc: got 'long', expected a number or one of",
+    "sheet design.toml --internal fast": "internal: got 'fast'",
+    "export design.toml --to mjfc": "--to: got 'mjfc', expected one of",
+    "export design.toml --to mjcf --unit mile": "--unit: got 'mile'",
+    # places
+    "optimize nowhere.toml": "nowhere.toml: cannot be read",
+    "evaluate nothing.toml": "nothing.toml: cannot be read",
+    "best nothing": "nothing: cannot be read",
+    "best front": "front: got a front, expected one of its points: front#1 to front#2",
+    "best front#3": "front#3: got 3 of a front, expected a number from 1 to 2",
+    "best front#0": "front#0: got 0 of a front",
+    "best front#x": "front#x: got x of a front",
+    "best design.toml#1": "design.toml#1: got a point of a design file",
+    "sheet .": "record.json",
+    "path none.csv": "none.csv: cannot be read",
+    "path poses.csv": "poses.csv, line 1: got yaw_deg as rotation",
+    "path none.toml --circle 1": "none.toml",
+    "export design.toml --out a.stl": "--out: got a.stl, expected --to with a format, or a file that ends in .h, .csv",
+    "export design.toml --out none/a.xml": "--out: got none/a.xml, expected a file in a folder that exists",
+    # options apart
+    "path": "path: got none, expected one of a CSV file, --circle, --line and --spiral",
+    "path --circle 1 --line 1 0 0": "path: got --circle and --line, expected one",
+    "path poses.csv --points 7": "--points: got 7, expected none with a file",
+    "path --circle 1 --internal-point best --legs 1 2": "no position of O is allowed at t = 0",
+    "best design.toml --all-poses": "--all-poses: got a design without a study",
+    "best run --all-poses --position 0 0 1": "--all-poses: got --position beside it",
+    "accuracy run": "accuracy: got neither --leg-error nor --joint-error",
+    "accuracy run --leg-error 0.1 --all-poses --samples 9": "--samples: got it with --all-poses",
+    "modes run --lengths '1 1 1 1 1 1 1 1 1' --position 0 0 1": "--lengths: got a pose beside it",
+    "evaluate --a1 1": "--a2",
+    "export design.toml": "--to: got nothing, expected one of c, csv, dxf, latex, mjcf, sdf, step, urdf",
+    "export design.toml --to sdf --gravity 9": "--gravity: got 9 with --to sdf, which takes --leg-mass",
+    "export design.toml --to csv --gravity 1": "--gravity: got 1 with --to csv, which takes no option",
+    "workspace --legs 1 6 --position 0 0 4": "--position: got (0.0, 0.0, 4.0), expected none but for --archetype",
+    "workspace --legs 1 6 --method grid --points 5": "--points: got 5, expected none with --method grid",
+    "workspace --legs 1 6 --gap 0.1": "--gap: got 0.1 without --certify",
+    "workspace --legs 1 6 --time 5": "--time: got 5 without --certify",
+    "workspace --legs 1 6 --certify --internal-point best": "--internal-point: got 'best', expected carried, shifted",
+    "workspace --legs 1 6 --certify --archetype orientation --angle-deg 20": "archetype: got 'orientation'",
+    "workspace --legs 1 6 --certify --gap 2": "--gap: got 2",
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("refused")
+    nd.save(it.result(), folder / "run")
+    nd.save(it.front(), folder / "front")
+    nd.save(it.design(), folder / "design.toml")
+    (folder / "poses.csv").write_text(POSES)
+    (folder / "study.toml").write_text('unit = "mm"\n[design]\ncharacteristic_length = 150.0\n')
+    return folder
+
+
+@pytest.mark.parametrize(("line", "words"), LINES.items(), ids=LINES)
+def test_a_line_is_refused(folder, monkeypatch, capsys, line, words):
+    monkeypatch.chdir(folder)
+    before = sorted(Path().rglob("*"))
+    with pytest.raises(SystemExit) as end:
+        main(shlex.split(line))
+    said = capsys.readouterr()
+    assert (end.value.code, said.out) == (2, "")
+    assert words in said.err
+    assert said.err.count("\n") == 1
+    assert len(said.err) < 600
+    assert sorted(file for file in Path().rglob("*") if file.is_file()) == [file for file in before if file.is_file()]
