@@ -10,8 +10,7 @@ import math
 
 import numpy as np
 import pytest
-from design_oracle import TRIPLES, Oracle, differences, family_names, is_angle, joints
-from limit_oracle import between_segments
+from design_oracle import TRIPLES, Oracle, family_names, is_angle, joints
 from numpy.testing import assert_allclose
 from sizes import size
 
@@ -164,32 +163,6 @@ def test_values(family):
             assert margins[name] == pytest.approx(value, rel=exact, abs=exact), (name, data)
 
 
-@pytest.mark.slow
-@BY_FAMILY
-def test_gradients(family):
-    """Of log(objective) and of every margin, in every free variable: joints, heights, l_c, places of O."""
-    compared = left_out = 0
-    for data, design in of_family(family):
-        problem, oracle, x = set_up(data, design)
-        names, core = problem.names, problem.evaluate(x)
-        free = np.array([not isinstance(data["variables"].get(n), float) for n in names])
-
-        def values(y, problem=problem, oracle=oracle, names=names):
-            every = [margins_of(problem.evaluate(one)) for one in y.reshape(-1, y.shape[-1])]
-            found = {name: np.reshape([margins[name] for margins in every], y.shape[:-1]) for name in every[0]}
-            return {"log objective": np.log(oracle.evaluate(names, y)["objective"])} | found
-
-        found = {"log objective": core["gradient"]} | {name: slope for name, _, slope in core["margins"]}
-        for name, (expected, doubt) in differences(values, x, 1e-3 * np.maximum(np.abs(x), 0.1)).items():
-            scale = 1.0 + np.abs(expected[free]).max()
-            sure = free & (doubt <= 1e-6 * scale)
-            assert_allclose(
-                np.asarray(found[name])[sure], expected[sure], rtol=0.0, atol=1e-6 * scale, err_msg=f"{name} of {data}"
-            )
-            compared, left_out = compared + sure.sum(), left_out + (free & ~sure).sum()
-    assert left_out <= 0.03 * compared
-
-
 @BY_FAMILY
 def test_joints_and_poses(family):
     for data, design in of_family(family):
@@ -217,78 +190,8 @@ def test_a_study_evaluates_as_its_problem(family):
 
 # --- Units ------------------------------------------------------------------------------------------------------------
 
-IN_FRACTIONS = ("radius_ratio", "leg_ratio", "stroke_ratio", "zs_fraction", "singularity_free")
-
-
-def in_unit(data, design, unit):
-    """The same study and design with every length times `unit`."""
-
-    def length(value):
-        return [x * unit for x in value] if isinstance(value, list) else value * unit
-
-    limits = {}
-    for name, options in data["constraints"].items():
-        by_length = options.get("of", "length") == "length" and name not in IN_FRACTIONS
-        limits[name] = {
-            key: length(x) if by_length and key in ("min", "max", "radius") else x for key, x in options.items()
-        }
-    poses = []
-    for pose in data["objective"].get("poses", []):
-        keys = ("position", "internal_point") if pose.get("unit") == "length" else ()
-        poses.append({k: length(x) if k in keys and not isinstance(x, str) else x for k, x in pose.items()})
-    l_c = data["design"]["characteristic_length"]
-    scaled = {
-        "design": data["design"] | {"characteristic_length": l_c if isinstance(l_c, str) else length(l_c)},
-        "variables": {n: b if is_angle(n) else length(b) for n, b in data["variables"].items()},
-        "constraints": limits,
-        "objective": data["objective"] | ({"poses": poses} if poses else {}),
-    }
-    return scaled, {n: x if is_angle(n) or ".s_" in n else x * unit for n, x in design.items()}
-
-
-@BY_FAMILY
-@pytest.mark.parametrize("unit", [1e-6, 1e6])
-def test_the_unit_of_length_does_not_matter(family, unit):
-    for data, design in of_family(family)[::3]:
-        problem, _, x = set_up(data, design)
-        other, _, y = set_up(*in_unit(data, design, unit))
-        one, two = problem.evaluate(x), other.evaluate(y)
-        exact = 1e-11 * max(1.0, *one["conditions"], one["condition_number"])
-        for key in ("objective", "condition_number", "conditions"):
-            assert_allclose(two[key], one[key], rtol=exact)
-        assert margins_of(two) == pytest.approx(margins_of(one), rel=exact, abs=exact)
-        per_length = y / x  # a gradient in a length shrinks as the length grows
-        assert_allclose(
-            two["gradient"] * per_length, one["gradient"], rtol=0.0, atol=1e-8 * (1 + max(one["conditions"]))
-        )
-
 
 # --- Shared joints ----------------------------------------------------------------------------------------------------
-
-
-def test_legs_that_share_a_joint_have_no_clearance_limit():
-    """Coupled triangles, a1 and b2 fixed at 0: pairs of an external and an internal leg on one joint do not count."""
-    values = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.4435, "theta_z": 0.0}
-    limits = {"leg_clearance": {"min": 0.05, "of": "zp"}}
-    variables = values | {"a2": [1.0, 9.0], "b1": [1.0, 9.0]}
-    data = {"design": {"family": "hexagonal"}, "variables": variables, "constraints": limits}
-    expected = Oracle(data).margins(list(values), list(values.values()))["leg_clearance"]
-    found = nd.Study.from_dict(data).evaluate(values).margins["leg_clearance"]
-    assert found == pytest.approx(expected, rel=1e-12)
-    assert found > 0.0
-
-
-def test_the_oracle_of_distances():
-    """Against a fine grid on both segments."""
-    rng = np.random.default_rng(5)
-    ends = rng.normal(size=(4, 200, 3))
-    ends[3, :20] = ends[2, :20] + 0.7 * (ends[1, :20] - ends[0, :20])  # parallel
-    t = np.linspace(0.0, 1.0, size(61, 121))[:, None, None]
-    a, b, c, d = ends
-    grid = np.linalg.norm((a + t * (b - a))[:, None] - (c + t * (d - c))[None], axis=-1).min(axis=(0, 1))
-    exact = between_segments(a, b, c, d)
-    assert (exact <= grid + 1e-12).all()
-    assert_allclose(exact, grid, atol=0.05)
 
 
 @pytest.mark.parametrize("limit", [(None, 3.0), (2.0, None), {"max": 3.0, "at": "neutral"}])

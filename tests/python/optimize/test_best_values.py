@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from design_oracle import Oracle
 from height_bound import least_by_height
-from numpy.testing import assert_allclose
 from sizes import size
 
 import ninedof as nd
@@ -144,36 +143,6 @@ def test_doubled_inactive_bounds_change_nothing():
 # --- Units ------------------------------------------------------------------------------------------------------------
 
 
-def machine(unit):
-    """A study with lengths of every sort, in metres times `unit`."""
-
-    def lengths(*values):
-        return [unit * x for x in values]
-
-    variables = dict.fromkeys(SIDES, lengths(0.0, 3.0)) | dict.fromkeys(HEIGHTS, lengths(0.05, 4.0))
-    return {
-        "design": {"family": "hexagonal", "characteristic_length": 0.5 * unit},
-        "variables": variables | {"theta_z": 0.0},  # twisted hexagons come in families, and the answer must be one
-        "constraints": limits(2.0)
-        | {
-            "height": {"max": 2.0 * unit},
-            "footprint": {"max": 1.2 * unit},
-            "stroke": {"max": 0.25 * unit},
-            "leg_length": {"min": 0.2 * unit, "max": 2.0 * unit},
-        },
-        "objective": {"poses": [{}, {"position": lengths(0.1, 0.05, 0.0)}, {"rotation_deg": [5.0, 3.0, 0.0]}]},
-    }
-
-
-def test_millimetres_or_metres():
-    metres, millimetres = (nd.optimize(nd.Study.from_dict(machine(unit))) for unit in (1.0, 1000.0))
-    assert metres.status == millimetres.status == "optimal"
-    assert millimetres.objective == pytest.approx(metres.objective, rel=1e-9)
-    assert millimetres.active == metres.active
-    one, two = (np.array(list(r.variables.values())) for r in (metres, millimetres))
-    assert_allclose(two / 1000.0, one, atol=1e-5)
-
-
 # --- Starts -----------------------------------------------------------------------------------------------------------
 
 
@@ -199,12 +168,6 @@ def test_a_start_at_the_optimum_stays_there(name):
 
 
 # --- Statuses ---------------------------------------------------------------------------------------------------------
-
-
-def test_equations_8_and_9_alone_are_unbounded():
-    result = nd.optimize(nd.Study.from_dict(hexagonal(INF, INF, 0.0)))
-    assert result.status == "unbounded"
-    assert set(result.causes) & {"a2", "b1", "zp", "zs"}
 
 
 def test_planar_triples_without_a_size_are_unbounded():

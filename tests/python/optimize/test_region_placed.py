@@ -13,7 +13,7 @@ from interrupts import InterruptedPhase
 from region_oracle import worst_placed
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
-from sizes import LONG, size
+from sizes import size
 
 import ninedof as nd
 from ninedof import _core
@@ -55,7 +55,6 @@ MACHINE = nd.Study(
     starts=4,
 )
 STUDIES = {"line": LINE, "turns": TURNS, "box": BOX, "machine": MACHINE}
-solves = pytest.mark.skipif(not LONG, reason="seconds to minutes for each study: NINEDOF_LONG=1")
 
 
 def with_rule(study, rule):
@@ -152,11 +151,6 @@ def placed(known, samples=1, threads=1):
     x = [SIDES.get(name, 0.0) for name in plain.names]
     found = _core.search_region_placed(plain, REGION.for_core(), x, LEVEL, ranges, known, samples, 3, threads)
     return found, ranges
-
-
-def test_threads_do_not_change_a_search():
-    known = [((0.0,) * 6, (0.0,) * 3)]
-    assert placed(known, 100, 1) == placed(known, 100, 2)
 
 
 def test_o_is_placed_where_the_worst_is_least():

@@ -221,23 +221,6 @@ def test_a_result_is_read_back(tmp_path):
     assert "of the region ruled" in result.summary()
 
 
-def test_an_impossible_region_is_infeasible():
-    study = nd.Study(constraints={"leg_ratio": (None, 1.01)}, objective={"region": {"ball": 20.0}}, starts=2)
-    result = nd.optimize(study)
-    assert (result.status, result.best, result.region) == ("infeasible", None, None)
-    assert "leg_ratio" in result.causes
-    assert "leg_ratio <= 1.01" in result.reason
-    assert "at the poses home + (" in result.reason
-
-
-@pytest.mark.slow
-def test_threads_do_not_change_the_result():
-    study = STUDIES["turns, frobenius"]
-    one, two = (nd.optimize(study, threads=n) for n in (1, 2))
-    assert one.objective == two.objective
-    assert one.region == two.region
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("search", ["round 1, ", "round 2, "])
 def test_an_interruption_keeps_the_best_design(search):
@@ -260,11 +243,6 @@ def test_an_interruption_keeps_the_best_design(search):
         assert result.region.looked_at > 4000
         assert 0.0 < result.region.gain < 1.0
         assert result.region.margin < -1e-7
-
-
-def test_an_interruption_before_a_design_leaves_none():
-    result = nd.optimize(STUDIES["turns, frobenius"], progress=InterruptedPhase("all starts, "))
-    assert (result.status, result.interrupted, result.best, result.region) == ("stopped", True, None, None)
 
 
 @pytest.mark.slow

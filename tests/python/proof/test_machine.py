@@ -296,19 +296,6 @@ def test_only_the_certificate_of_the_same_machine_is_gone_on_with():
     assert proved(SMALL, resume=again, time_limit=0.5)[2].condition[1] <= made.condition[1]
 
 
-def test_boxes_of_other_poses_are_refused():
-    _, neutral, _ = proved(None)
-    stack = neutral[[0, 0]]
-    settings = _core.ConditionSettings(threads=1, seconds=1.0, gap=0.1, wanted=[], tolerance=0.0)
-    geometry = study(None).problem().geometry(list(VARIABLES.values()))
-    machine = _core.PosedRobot(geometry, stack, 150.0, None, None)
-    for piece in (0.0, -2.0, 7.0, math.nan):
-        earlier = _core.ConditionState()
-        earlier.left = [(piece,) + (0.0,) * 12]
-        with pytest.raises(ValueError, match="boxes: got a box of other poses"):
-            _core.search_condition(machine, settings, earlier, None, None)
-
-
 def test_limits_of_the_condition_number_count():
     kappa = proved(SMALL, {}, gap=0.02)[2].condition
     for limit, answer in ((0.9 * kappa[0], "violated"), (1.01 * kappa[1], "proved")):
@@ -324,43 +311,12 @@ def test_limits_of_the_condition_number_count():
         assert made.proved == all(one == "proved" for one in answers.values())
 
 
-def test_a_proof_whose_states_are_kept_comes_to_its_end_and_goes_on_from_each(monkeypatch):
-    *_, whole = proved(SMALL, gap=1e-4)
-    sliced = partial(_core.ConditionSettings, slice_seconds=0.01, least_seconds=0.01, keep_share=0.0)
-    monkeypatch.setattr(_core, "ConditionSettings", sliced)
-    kept = []
-    geometry, neutral, found = proved(SMALL, gap=1e-4, keep=kept.append)
-    assert kept
-    assert not found.interrupted
-    for part in (kept[0], kept[-1]):
-        assert part.interrupted
-        assert part.left_count == len(part.left) > 0
-        assert part.limits == found.limits
-        assert part.condition[0] <= found.condition[0]
-        assert part.condition[1] >= found.condition[1]
-        again = certify(study(SMALL), geometry, neutral, 150.0, gap=1e-4, resume=part)
-        assert again.left_count == 0
-        for made in (found, again):
-            assert made.condition[1] <= made.condition[0] * (1.0 + 1e-4) * (1.0 + 1e-9)
-            assert made.condition[0] <= whole.condition[1]
-            assert whole.condition[0] <= made.condition[1]
-
-
 def test_a_certificate_of_a_wider_gap_goes_on_below_its_bound():
     geometry, neutral, wide = proved(SMALL, gap=0.5)
     assert not wide.left_count
     narrow = certify(study(SMALL), geometry, neutral, 150.0, gap=0.02, resume=wide)
     assert narrow.condition[1] <= narrow.condition[0] * 1.02 * (1.0 + 1e-9)
     assert not narrow.left_count
-
-
-def test_a_certificate_that_has_the_gap_stays_as_it_is_when_gone_on_with():
-    geometry, neutral, made = proved(SMALL, gap=0.02)
-    for seconds in (0.0, 150.0):
-        again = certify(study(SMALL), geometry, neutral, 150.0, gap=0.02, resume=made, time_limit=seconds)
-        for name in ("condition", "condition_at", "left", "left_count", "interrupted"):
-            assert getattr(again, name) == getattr(made, name)
-        assert [one.answer for one in again.limits] == [one.answer for one in made.limits]
 
 
 class Pressed(Exception):

@@ -46,11 +46,6 @@ def best(p, q):
     return nd.best_internal_map(GEOMETRY, p, q, seed_every=1).configuration.internal_point
 
 
-def strokes(m):
-    lengths = model.lengths(m)
-    return (lengths.max(axis=0) / lengths.min(axis=0))[3:].max()
-
-
 def fitted(region, constraints, objective, progress=None):
     study = nd.Study(constraints=constraints, objective=nd.Objective(region=region))
     place = Placing(study, NEUTRAL[0], VARIABLES, objective, ())
@@ -65,19 +60,6 @@ def test_a_rule_is_nearly_as_good_as_the_best_o(shape):
     worst = model.condition_number(robots(region, rule)).max()
     assert worst <= 1.02 * least
     assert worst < model.condition_number(robots(region, shifted)).max()
-
-
-def test_a_rule_keeps_to_strokes_that_bind():
-    """Also where the index that it is to reach is out of reach."""
-    region = REGIONS["shift"]
-    free = robots(region, fitted(region, {}, 20.3))
-    limit = 1.14
-    assert limit < min(strokes(free), strokes(robots(region, shifted)))
-    for objective in (20.3, 10.0):
-        kept = robots(region, fitted(region, {"stroke_ratio": (None, limit)}, objective))
-        assert strokes(kept) <= limit
-        worse, better = (model.condition_number(m).max() for m in (robots(region, shifted), free))
-        assert better < model.condition_number(kept).max() < worse
 
 
 class Told:

@@ -12,7 +12,6 @@ from workspace_oracle import robots as robots_at
 
 import ninedof as nd
 
-CRITERIA = ("condition_number", "singularity", "leg_centring")
 LIMITS = (np.r_[np.full(3, 1.0), np.full(6, 2.2)], np.r_[np.full(3, 9.0), np.full(6, 4.4)])
 TURN = Rotation.from_rotvec([0.0, 0.0, 2.0 * np.pi / 3.0])
 
@@ -34,25 +33,6 @@ def gain(criterion, map_value, value):
 
 
 # --- Values -----------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("criterion", "limits"),
-    [(c, None) for c in CRITERIA[:2]] + [(c, LIMITS) for c in CRITERIA],  # centring needs limits
-)
-def test_as_good_as_single_searches(published, criterion, limits):
-    grid = plane(40)
-    best = nd.best_internal_map(published, grid, criterion=criterion, limits=limits)
-    some = np.random.default_rng(1).choice(1600, size=120, replace=False)
-    single = nd.best_internal_point(published, grid.reshape(-1, 3)[some], criterion=criterion, limits=limits)
-    assert_array_equal(best.status.ravel()[some], single.status)
-    assert (single.status == "found").mean() > 0.5
-    with_o = single.status == "found"
-    missed = gain(criterion, best.value.ravel()[some][with_o], single.value[with_o])
-    # A missed branch is no fault as such, but the audit has to know of it.
-    assert missed.max() <= max(1e-6, 2.0 * best.audit.largest)
-    assert (missed > 1e-6).mean() <= best.audit.missed / best.audit.poses + 0.05
 
 
 @pytest.mark.slow
@@ -265,10 +245,4 @@ def test_a_grid_of_one_pose_and_an_empty_grid(published):
     assert none.audit == nd.MapAudit(0, 0, 0.0)
 
 
-def test_same_bits_for_any_number_of_threads(published):
-    grid = plane(size(32, 48))
-    maps = [nd.best_internal_map(published, grid, limits=LIMITS, threads=n) for n in (1, 2, 5)]
-    for other in maps[1:]:
-        assert_array_equal(other.configuration.internal_point, maps[0].configuration.internal_point)
-        assert_array_equal(other.value, maps[0].value)
-        assert (other.audit, other.searched, other.followed) == (maps[0].audit, maps[0].searched, maps[0].followed)
+# --- Arguments --------------------------------------------------------------------------------------------------------

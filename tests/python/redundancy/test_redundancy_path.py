@@ -34,45 +34,6 @@ def test_a_path_is_optimal_for_its_smoothness(published):
     assert longest[0] > longest[1] > longest[2]
 
 
-@pytest.mark.slow
-def test_a_path_has_no_jumps(published):
-    steps = []
-    for n in (31, 61, 121):
-        path = nd.best_internal_path(published, loop(n), smoothness=0.02)
-        steps.append(np.linalg.norm(np.diff(path.configuration.internal_point, axis=0), axis=1).max())
-        best = nd.best_internal_point(published, loop(n))
-        assert (path.value >= best.value * (1.0 - 1e-7)).all()
-        assert np.median(path.value / best.value) < 1.05
-    assert steps[1] < 0.7 * steps[0]
-    assert steps[2] < 0.7 * steps[1]
-
-
-def circle(n, radius=0.8):
-    t = np.linspace(0.0, 2.0 * np.pi, n)
-    p = np.stack([radius * np.cos(t), radius * np.sin(t), 3.98 + 0.0 * t], axis=-1)
-    p[-1] = p[0]
-    return p
-
-
-def test_a_closed_path_closes(published):
-    p = circle(31)
-    path = nd.best_internal_path(published, p)
-    s = path.configuration.internal_point
-    assert set(path.status) == {"found"}
-    assert path.value[0] == path.value[-1]
-    assert (s[0] == s[-1]).all()
-    assert path.value == pytest.approx(nd.condition_number(published, path.configuration), rel=1e-9)
-    around = np.diff(np.concatenate([s, s[1:3]]), n=2, axis=0)  # no kink where the ends meet
-    assert np.linalg.norm(around[-2:], axis=1).max() < 1.05 * np.linalg.norm(around[:-2], axis=1).max()
-
-
-def test_the_beginning_of_a_closed_path_does_not_matter(published):
-    p, shift = circle(19), 7
-    turned = np.concatenate([p[shift:-1], p[: shift + 1]])
-    paths = [nd.best_internal_path(published, x).configuration.internal_point for x in (p, turned)]
-    assert np.abs(np.roll(paths[0][:-1], -shift, axis=0) - paths[1][:-1]).max() < 5e-3  # size: at the first pose
-
-
 def test_poses_without_a_point_divide_the_path(published):
     p = loop(21)
     p[8] = np.nan

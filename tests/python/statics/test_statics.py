@@ -45,6 +45,29 @@ def lost(m):
 # --- Leg forces -------------------------------------------------------------------------------------------------------
 
 
+def newton(m, f, load):
+    """Sum of load and leg forces f on the platform (moment about p, force) and on O."""
+    x, y, z, u, ut = model.legs(m)
+    push = [f[k : k + 3, None] * v / np.linalg.norm(v, axis=-1, keepdims=True) for k, v in ((0, x), (3, y), (6, z))]
+    moment = np.cross(u, push[0]).sum(axis=0) - np.cross(ut, push[1]).sum(axis=0)
+    force = push[0].sum(axis=0) - push[1].sum(axis=0)
+    at_o = push[1].sum(axis=0) + push[2].sum(axis=0)
+    return np.concatenate([moment, force, at_o]) + load
+
+
+def lost(m):
+    return 1e-14 * np.linalg.cond(robots.rates(m))
+
+
+@given(SEEDS)
+def test_forces_and_moments_are_in_equilibrium(seed):
+    m, rng = robots.regular(seed)
+    load = rng.normal(size=9)
+    found, unbalanced = forces(m, load)
+    assert_allclose(newton(m, found, load), 0.0, atol=lost(m) * np.abs(found).max())
+    assert_array_equal(unbalanced, np.zeros(9))
+
+
 @given(SEEDS)
 def test_forces_and_moments_are_in_equilibrium(seed):
     m, rng = robots.regular(seed)

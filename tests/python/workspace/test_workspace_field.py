@@ -1,12 +1,9 @@
 """Smooth fields and bodies of a map against the functions they stand for, and against shapes known in closed form."""
 
-from collections import Counter
-
 import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.workspace import WorkspaceField
 
 G = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
 HOME = nd.Configuration.neutral(zp=3.9828, zs=2.4435)
@@ -60,27 +57,6 @@ def test_field_and_body_have_the_volume_of_the_map(found):
     cell = np.prod([axis[1] - axis[0] for axis in found.field.axes])
     assert found.field.fraction.sum() * cell == pytest.approx(found.volume, rel=1e-3)
     assert found.surface().volume == pytest.approx(found.volume, rel=0.02)
-
-
-def ball(n, radius=0.8):
-    axis = np.linspace(-1.0, 1.0, n)
-    x = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1)
-    share = np.clip(0.5 + (radius - np.linalg.norm(x, axis=-1)) / (axis[1] - axis[0]) / 2.0, 0.0, 1.0)
-    return WorkspaceField((axis, axis, axis), share, np.ones_like(share))
-
-
-def test_a_ball_has_a_closed_surface_that_faces_outward():
-    surface = ball(41).surface()
-    assert np.linalg.norm(surface.points, axis=1) == pytest.approx(0.8, abs=0.02)
-    assert surface.volume == pytest.approx(4.0 / 3.0 * np.pi * 0.8**3, rel=0.02)
-    edges = Counter(pair for face in surface.faces.tolist() for pair in zip(face, face[1:] + face[:1], strict=True))
-    assert set(edges.values()) == {1}
-    assert all(edges[b, a] == 1 for a, b in edges)
-    middle = surface.points[surface.faces].mean(axis=1)
-    outward = np.einsum("ij,ij->i", surface.normals, middle / np.linalg.norm(middle, axis=1, keepdims=True))
-    assert outward.min() >= 0.0  # 0 of a face without area
-    assert np.quantile(outward, 0.01) > 0.9
-    assert len(surface.points) - len(edges) // 2 + len(surface.faces) == 2  # Euler
 
 
 def test_a_grid_and_orientations_have_fields_too():
