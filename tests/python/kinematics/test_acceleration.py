@@ -6,7 +6,6 @@ J' by a general inverse. It knows no acceleration of a joint and no derivative o
 
 import numpy as np
 import numpy_model as model
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
@@ -47,76 +46,6 @@ def test_inverse_acceleration_is_the_second_derivative_of_leg_lengths(seed):
     assert_allclose(outcome, expected, rtol=0.0, atol=1e-8 * max(1.0, scale))
 
 
-@given(SEEDS)
-def test_leg_accelerations_differentiate_leg_rates(seed):
-    """One derivative instead of two: leg rates at configurations in time, with the velocities they have there."""
-    m, rng = random_robot(seed)
-    g, motion = m.geometry(), 0.5 * rng.normal(size=(6, 3))
-    motion[3] = rng.normal() * motion[0]  # so that the angular velocity along the motion is known in closed form
-    omega, pdot, sdot, alpha, pddot, sddot = motion
-
-    def rates(t):
-        c = at_time(m, motion, t).configuration()
-        return nd.inverse_velocity(g, c, omega + t * alpha, pdot + t * pddot, sdot + t * sddot)
-
-    scale = 1.0 / model.lengths(m).min() ** 3
-    outcome = nd.inverse_acceleration(g, m.configuration(), *motion)
-    assert_allclose(outcome, derivative(rates, 3e-3), rtol=0.0, atol=1e-9 * max(1.0, scale))
-
-
-@given(SEEDS)
-def test_forward_and_inverse_acceleration_undo_each_other(seed):
-    m, rng = random_robot(seed)
-    g, c, motion = m.geometry(), m.configuration(), rng.normal(size=(6, 3))
-    rates = nd.inverse_velocity(g, c, *motion[:3])
-    accelerations = nd.inverse_acceleration(g, c, *motion)
-    lost = 1e-13 * (model.condition_number(m) * np.linalg.cond(model.matrices(m)[1])) ** 2
-    assert_allclose(nd.forward_acceleration(g, c, rates, accelerations), motion[3:], rtol=0.0, atol=lost)
-
-
-@given(SEEDS, st.floats(0.1, 10.0))
-def test_the_derivative_of_the_jacobian(seed, lc):
-    m, rng = random_robot(seed)
-    motion = 0.5 * rng.normal(size=(6, 3))
-    motion[3:] = 0.0
-    outcome = nd.jacobian_rate(m.geometry(), m.configuration(), *motion[:3], lc)
-    kappa = model.condition_number(m) * np.linalg.cond(model.matrices(m)[1])
-    expected = derivative(lambda t: model.jacobian(at_time(m, motion, t), lc), 0.03 / kappa)
-    assert_allclose(outcome, expected, rtol=0.0, atol=1e-8 * kappa * np.abs(expected).max())
-
-
-@given(SEEDS, st.floats(0.1, 10.0))
-def test_the_twist_changes_as_both_derivatives_say(seed, lc):
-    """Dt/dt = J' uddot + (d/dt J') udot, for any motion of O."""
-    m, rng = random_robot(seed)
-    g, c, motion = m.geometry(), m.configuration(), rng.normal(size=(6, 3))
-    rates, accelerations = nd.inverse_velocity(g, c, *motion[:3]), nd.inverse_acceleration(g, c, *motion)
-    outcome = nd.jacobian(g, c, lc) @ accelerations + nd.jacobian_rate(g, c, *motion[:3], lc) @ rates
-    lost = 1e-13 * (model.condition_number(m) * np.linalg.cond(model.matrices(m)[1])) ** 2
-    assert_allclose(outcome[:3] / lc, motion[3], rtol=0.0, atol=lost)
-    assert_allclose(outcome[3:], motion[4], rtol=0.0, atol=lost)
-
-
-@pytest.mark.parametrize("unit", [2.0**-20, 2.0**20])
-def test_the_unit_of_length(published, neutral, unit):
-    """Accelerations are lengths over times squared; with a power of two as unit of length the bits are the same."""
-    rng = np.random.default_rng(1)
-    motion = rng.normal(size=(6, 3))
-    joints = (
-        published.base_external,
-        published.base_internal,
-        published.platform_external,
-        published.platform_internal,
-    )
-    g = nd.Geometry(*(unit * j for j in joints))
-    c = nd.Configuration(unit * neutral.position, neutral.rotation, unit * neutral.internal_point)
-    other = motion * np.array([1.0, unit, unit, 1.0, unit, unit])[:, None]
-    accelerations = nd.inverse_acceleration(published, neutral, *motion)
-    assert_array_equal(nd.inverse_acceleration(g, c, *other), unit * accelerations)
-    rate = nd.jacobian_rate(published, neutral, *motion[:3], 1.0)
-    assert_array_equal(nd.jacobian_rate(g, c, *other[:3], unit), rate)
-
-
 def test_a_circle_at_constant_speed():
     """The platform rotates about its axis, O at rest on it: only the external legs accelerate (by hand)."""
     g, c, w = nd.Geometry.hexagonal(0.0, 3.0, 2.0, 0.0), nd.Configuration.neutral(2.0, 1.0, 0.3), 1.7
@@ -130,26 +59,6 @@ def test_a_circle_at_constant_speed():
     rate = R * U * np.sin(phi) * w / length
     assert_allclose(outcome[:3], (R * U * np.cos(phi) * w**2 - rate**2) / length, rtol=1e-14)
     assert_allclose(outcome[3:], 0.0, atol=1e-15)
-
-
-def test_singular_configurations():
-    ones = np.ones(9)
-    in_base = nd.Configuration([0.1, 0.2, 2.0], None, [0.3, -0.2, 0.0])
-    assert np.isnan(nd.forward_acceleration(FLAT, in_base, ones, ones)).all()
-    in_platform = nd.Configuration([0.1, 0.2, 2.0], None, [0.3, -0.2, 2.0])
-    alpha, pddot, sddot = nd.forward_acceleration(FLAT, in_platform, ones, ones)
-    assert np.isnan([alpha, pddot]).all()
-    assert np.isfinite(sddot).all()
-    e = np.eye(3)
-    for c in (in_base, in_platform):
-        assert np.isnan(nd.jacobian_rate(FLAT, c, *e)).all()
-        assert np.isfinite(nd.inverse_acceleration(FLAT, c, *e, *e)).all()
-
-
-def test_a_leg_of_zero_length_is_nan_alone():
-    c = nd.Configuration([0.1, 0.2, 2.0], None, FLAT.base_internal[1])
-    outcome = nd.inverse_acceleration(FLAT, c, *np.eye(3), *np.eye(3))
-    assert np.isnan(outcome).nonzero()[0].tolist() == [7]
 
 
 def test_stack_equals_one_by_one(published, stack):

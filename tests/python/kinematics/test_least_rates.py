@@ -6,7 +6,6 @@ velocity of O has smaller leg rates.
 
 import numpy as np
 import numpy_model as model
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
@@ -15,7 +14,6 @@ from robots import random_robot
 import ninedof as nd
 
 SEEDS = st.integers(0, 2**32 - 1)
-FLAT = nd.Geometry.hexagonal(0.4, 3.0, 2.0, 0.3)
 
 
 def least(m, omega, pdot, weights=1.0):
@@ -26,19 +24,6 @@ def least(m, omega, pdot, weights=1.0):
     free = np.vstack([np.zeros((3, 3)), C, B])
     root = np.sqrt(weights) * np.ones(9)
     return np.linalg.lstsq(root[:, None] * free, -root * fixed, rcond=1e-14)[0]
-
-
-@given(SEEDS)
-def test_least_leg_rates_are_the_pseudo_inverse_of_the_jacobian(seed):
-    m, rng = random_robot(seed)
-    g, c, (omega, pdot) = m.geometry(), m.configuration(), rng.normal(size=(2, 3))
-    outcome = nd.inverse_velocity(g, c, omega, pdot)
-    J = model.jacobian(m, 0.7)
-    lost = 1e-13 * model.condition_number(m, 0.7) * np.linalg.cond(nd.null_motion(g, c))
-    assert_allclose(outcome, np.linalg.pinv(J) @ [*(0.7 * omega), *pdot], rtol=0.0, atol=lost)
-    assert_allclose(nd.null_motion(g, c).T @ outcome, np.zeros(3), rtol=0.0, atol=lost)
-    sdot = nd.internal_velocity(g, c, omega, pdot)
-    assert_array_equal(outcome, nd.inverse_velocity(g, c, omega, pdot, sdot))
 
 
 @given(SEEDS, st.floats(1.0, 1e3))
@@ -53,55 +38,6 @@ def test_weighted_least_squares(seed, spread):
     cost = weights @ rates**2
     for other in sdot + 1e-3 * rng.normal(size=(20, 3)):
         assert weights @ nd.inverse_velocity(g, c, omega, pdot, other) ** 2 > cost
-
-
-@pytest.mark.parametrize("plate", ["base", "platform"])
-def test_finite_where_one_triple_is_singular(plate):
-    """Rates from numpy's exact problem; J' does not exist there."""
-    height = {"base": 0.0, "platform": 2.0}[plate]
-    c = nd.Configuration([0.1, 0.2, 2.0], None, [0.3, -0.2, height])
-    assert np.isnan(nd.jacobian(FLAT, c)).all()
-    m, rng = model.robot(FLAT, c), np.random.default_rng(4)
-    for omega, pdot in rng.normal(size=(20, 2, 3)):
-        for weights in (np.ones(9), rng.uniform(0.1, 10.0, size=9)):
-            assert_allclose(
-                nd.internal_velocity(FLAT, c, omega, pdot, weights), least(m, omega, pdot, weights), atol=1e-13
-            )
-    assert np.linalg.matrix_rank(nd.null_motion(FLAT, c)) == 3
-
-
-def test_finite_up_to_the_plane_and_continuous():
-    """Sdot through det B = 0 at distances from 1e-1 to 0: no step, no growth."""
-    distances = np.array([1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 0.0])
-    c = nd.Configuration([0.1, 0.2, 2.0], None, np.stack(np.broadcast_arrays(0.3, -0.2, distances), axis=-1))
-    outcome = nd.internal_velocity(FLAT, c, [0.3, -0.1, 0.2], [0.5, 0.7, -0.4])
-    assert_allclose(outcome[2:], np.broadcast_to(outcome[-1], (5, 3)), atol=1e-4)
-    assert_allclose(outcome[3:], np.broadcast_to(outcome[-1], (4, 3)), atol=1e-7)
-
-
-def test_both_triples_singular_in_one_direction():
-    """All legs in one plane: the leg rates do not depend on O normal to it; the shortest sdot has no such component."""
-    c = nd.Configuration([0.1, 0.2, 0.0], None, [0.3, -0.2, 0.0])
-    omega, pdot = [0.3, -0.1, 0.2], [0.5, 0.7, -0.4]
-    sdot = nd.internal_velocity(FLAT, c, omega, pdot)
-    assert_allclose(sdot, least(model.robot(FLAT, c), omega, pdot), atol=1e-14)
-    assert sdot[2] == 0.0
-    assert np.linalg.matrix_rank(nd.null_motion(FLAT, c)) == 2
-
-
-@given(SEEDS)
-def test_null_motions(seed):
-    m, rng = random_robot(seed)
-    g, c = m.geometry(), m.configuration()
-    N = nd.null_motion(g, c)
-    _, B, C, _ = model.matrices(m)
-    assert_allclose(N, np.vstack([np.zeros((3, 3)), C, B]), rtol=0.0, atol=1e-15)
-    assert np.linalg.matrix_rank(N) == 3
-    lost = 1e-13 * model.condition_number(m) * np.linalg.cond(B)
-    assert_allclose(nd.jacobian(g, c) @ N, np.zeros((6, 3)), rtol=0.0, atol=lost)
-    v = rng.normal(size=3)
-    omega, pdot, sdot = nd.forward_velocity(g, c, N @ v)
-    assert_allclose([omega, pdot, sdot], [np.zeros(3), np.zeros(3), v], rtol=0.0, atol=10 * lost)
 
 
 def test_leg_rates_of_a_platform_velocity_differ_by_null_motions(published, neutral):

@@ -40,33 +40,11 @@ def test_hexagonal_is_printed_equations(a1, a2, b1, b2):
             assert_allclose(getattr(g, name), expected, rtol=0.0, atol=1e-15 * sum(sides))
 
 
-def test_hexagon_has_the_sides_it_is_named_after():
-    """Geometry instead of formulas: around the six joints the sides alternate, and all joints lie on one circle."""
-    g = nd.Geometry.hexagonal(a1=0.7, a2=2.9, b1=1.1, b2=0.2)
-    for external, internal, s1, s2 in (
-        (g.base_external, g.base_internal, 0.7, 2.9),
-        (g.platform_external, g.platform_internal, 1.1, 0.2),
-    ):
-        walk = np.stack([external, internal[[0, 1, 2]]], axis=1).reshape(6, 3)
-        sides = np.linalg.norm(walk - np.roll(walk, -1, axis=0), axis=1)
-        assert_allclose(sides, [s1, s2] * 3, rtol=1e-14)
-        assert_allclose(np.linalg.norm(walk, axis=1), math.sqrt((s1**2 + s1 * s2 + s2**2) / 3.0), rtol=1e-14)
-
-
 def test_positional_arguments_are_in_the_order_of_the_paper():
     assert nd.Geometry.hexagonal(0.5, 2.0, 1.0, 0.25) == nd.Geometry.hexagonal(a1=0.5, a2=2.0, b1=1.0, b2=0.25)
     four = [np.array(TRIANGLE) * k for k in (1.0, 2.0, 3.0, 4.0)]
     for name, given_triple in zip(TRIPLES, four, strict=True):
         assert_array_equal(getattr(nd.Geometry(*four), name), given_triple)
-
-
-def test_symmetric_orbits_turn_by_minus_120_degrees():
-    orbits = {"base_external": (2.0, 0.0, 0.0), "base_internal": (1.5, 0.4, -0.3), "platform_external": (1.0, 2.0, 0.1)}
-    g = nd.Geometry.symmetric(**orbits, platform_internal=(0.7, -1.0, 0.2))
-    for name, (radius, angle, height) in (orbits | {"platform_internal": (0.7, -1.0, 0.2)}).items():
-        turned = [angle - k * math.radians(120.0) for k in range(3)]
-        expected = [[radius * math.cos(t), radius * math.sin(t), height] for t in turned]
-        assert_allclose(getattr(g, name), expected, rtol=0.0, atol=1e-15 * 4)
 
 
 def test_hexagonal_is_one_case_of_symmetric():
@@ -82,11 +60,6 @@ def test_hexagonal_is_one_case_of_symmetric():
 
 def message(argument):
     return rf"(?s)^{argument}: got .+, expected .+"
-
-
-@pytest.mark.parametrize("scale", [1e-99, 1e-9, 1e9, 1e99])
-def test_any_scale_of_a_good_triangle_is_good(scale):
-    assert_array_equal(build(base_internal=np.array(TRIANGLE) * scale).base_internal, np.array(TRIANGLE) * scale)
 
 
 # --- Value semantics --------------------------------------------------------------------------------------------------

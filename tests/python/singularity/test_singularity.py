@@ -13,8 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 from reference_cases import reference_cases
-from scipy.linalg import null_space
-from singular_robots import from_o, lost, size, unit_rows
+from singular_robots import from_o, lost, size
 
 import ninedof as nd
 
@@ -65,19 +64,6 @@ def assert_unnoticed(m, motion):
     assert np.abs(difference).max() / (2 * h) <= 1e-6 * max(far, back, 1.0)
 
 
-@given(SEEDS)
-def test_margins_are_determinants_of_unit_rows(seed):
-    m = model.random_robots(np.random.default_rng(seed), 1).at(0)
-    rows = unit_rows(m)
-    assert_allclose(
-        nd.singularity_margins(m.geometry(), m.configuration()), np.linalg.det(rows), rtol=0.0, atol=100 * EPS
-    )
-    result = nd.singularity(m.geometry(), m.configuration())
-    assert_allclose(result.margins, nd.singularity_margins(m.geometry(), m.configuration()), rtol=0, atol=1e-15)
-    assert_allclose(result.smallest, np.linalg.svd(rows, compute_uv=False)[:, -1], rtol=0.0, atol=100 * EPS)
-    assert result.mechanism == "nbc"[int(np.argmin(result.smallest))]
-
-
 @pytest.mark.parametrize("case", reference_cases(), ids=lambda case: case["id"])
 def test_margins_against_50_digits(case):
     joints = case["joints"]
@@ -87,22 +73,6 @@ def test_margins_against_50_digits(case):
     assert_array_equal(np.sign(result), np.sign([case["detM"], case["detB"], case["detC"]]))
     assert_allclose([result.det_b, result.det_c], [case["detB"], case["detC"]], rtol=0.0, atol=100 * EPS)
     assert_allclose(result.det_n, case["detM"] / spread(model.robot(g, c)), rtol=0.0, atol=100 * EPS)
-
-
-@given(a1=SIDES, a2=SIDES, b1=SIDES, b2=SIDES, zp=st.floats(0.2, 5.0), zs=st.floats(-3.0, 8.0))
-def test_neutral_closed_forms(a1, a2, b1, b2, zp, zs):
-    """Section 5 of the theory, typed from there, signs included; any height of O."""
-    g, c = nd.Geometry.hexagonal(a1, a2, b1, b2), nd.Configuration.neutral(zp, zs)
-    rho = zp - zs
-    R2, U2 = (a1**2 + a1 * a2 + a2**2) / 3, (b1**2 + b1 * b2 + b2**2) / 3
-    ru = (2 * a1 * b1 + a1 * b2 + a2 * b1 + 2 * a2 * b2) / 6
-    l, q, r = np.sqrt([R2 + U2 - 2 * ru + zp**2, U2 + rho**2, R2 + zs**2])
-    det_n = -0.75 * (a2 * b1 - a1 * b2) * (rho**2 * R2 + zs**2 * U2 + 2 * rho * zs * ru) / l**3
-    det_c = np.sqrt(3) / 2 * rho * (b1**2 + b1 * b2 + b2**2) / q**3
-    det_b = -np.sqrt(3) / 2 * zs * (a1**2 + a1 * a2 + a2**2) / r**3
-    result = nd.singularity_margins(g, c)
-    assert_allclose(result.det_n, det_n / spread(model.robot(g, c)), rtol=0.0, atol=100 * EPS)
-    assert_allclose([result.det_b, result.det_c], [det_b, det_c], rtol=0.0, atol=100 * EPS)
 
 
 @given(a1=SIDES, a2=SIDES, b1=SIDES, ratio=st.floats(0.3, 3.0), zs=st.floats(0.1, 0.9))
@@ -153,54 +123,6 @@ def test_each_mechanism_on_purpose(mechanism, seed):
         assert_allclose(np.sum(np.cross(*from_o(m)) * result.omega, axis=-1), 0.0, atol=1e-12)
 
 
-@given(SEEDS)
-def test_a_regular_motion_is_noticed_by_its_own_legs_by_the_least_singular_value(seed):
-    m = model.random_robots(np.random.default_rng(seed), 1).at(0)
-    g, c = m.geometry(), m.configuration()
-    result = nd.singularity(g, c)
-    rates = nd.inverse_velocity(g, c, result.omega, result.pdot, result.sdot).reshape(3, 3)
-    d, w = from_o(m)
-    rates[0] *= size(model.legs(m)[0]) / size(d) / size(w)  # the rows of unit vectors
-    at_o = result.pdot + np.cross(result.omega, m.s - m.p)
-    k = "ncb".index(result.mechanism)
-    moving = size([result.omega, at_o, result.sdot][k])
-    assert_allclose(size(rates[k]), result.smallest["nbc".index(result.mechanism)] * moving, rtol=1e-9, atol=1e-14)
-    assert_allclose(np.delete(rates, k, axis=0), 0.0, atol=1e-12)
-
-
-@pytest.mark.parametrize("seed", range(10))
-@pytest.mark.parametrize("which", ["b and c", "b and m", "c and m", "all legs through O", "flat"])
-def test_several_lost_together(which, seed):
-    rng = np.random.default_rng(seed)
-    m = lost(rng, "b" if "b" in which else "c")
-    if which == "b and c":  # tilt the upper plane into O
-        normal = np.cross(m.ut[1] - m.ut[0], m.ut[2] - m.ut[0])
-        normal /= size(normal)
-        m = m._replace(p=m.p + m.Q @ normal * (normal @ (m.Q.T @ (m.s - m.p) - m.ut[0])))
-    if which.endswith("and m"):
-        m = m._replace(r=m.s + rng.normal(size=(3, 1)) * from_o(m)[1] + rng.normal(size=(3, 1)) * rng.normal(size=3))
-    if which == "all legs through O":
-        m = model.random_robots(rng, 1).at(0)
-        m = m._replace(r=m.s - rng.uniform(0.5, 2.0, size=(3, 1)) * from_o(m)[1])
-    if which == "flat":
-        m = model.Robot(*(np.array(part) * [1.0, 1.0, 0.0] if part.shape[-1] == 3 else part for part in m))
-        m = m._replace(Q=np.eye(3))
-    g, c = m.geometry(), m.configuration()
-    kernel = null_space(rates_matrix(m), rcond=1e-12)
-    motions = nd.uncontrolled_motions(g, c)
-    assert len(motions) == kernel.shape[1] == {"b and c": 2, "all legs through O": 3, "flat": 4}.get(which, 1)
-    for motion in motions:
-        assert_unnoticed(m, motion)
-    omega, pdot, sdot = np.moveaxis(motions.reshape(-1, 3, 3), 1, 0)
-    scaled = np.hstack([reach(m) * omega, pdot + np.cross(omega, m.s - m.p), sdot]) / reach(m)
-    assert_allclose(scaled @ scaled.T, np.eye(len(motions)), atol=1e-12)
-    assert_allclose(kernel @ (kernel.T @ scaled.T), scaled.T, atol=1e-9)
-    # The one that is named exists all the same: with M lost too, O cannot leave the plane to first order.
-    result = nd.singularity(g, c)
-    assert result.mechanism == ("c" if which == "b and c" else "n")
-    assert_unnoticed(m, np.concatenate([result.omega, result.pdot, result.sdot]))
-
-
 def test_tolerance_counts_singular_values():
     m = model.random_robots(np.random.default_rng(3), 1).at(0)
     sigma = np.linalg.svd(rates_matrix(m), compute_uv=False)[::-1]
@@ -211,28 +133,6 @@ def test_tolerance_counts_singular_values():
         rates = nd.inverse_velocity(g, c, *motions[k].reshape(3, 3))
         assert_allclose(size(rates) / reach(m), sigma[k], rtol=1e-10)
     assert nd.uncontrolled_motions(g, c, tolerance=0.9999 * sigma[0]).shape == (0, 9)
-
-
-def test_legs_of_zero_length_and_joints_at_o():
-    """Such a row is zero. A leg of zero length locks what it holds; a leg pointing at O holds no turn about it."""
-    m = model.random_robots(np.random.default_rng(4), 1).at(0)
-    upper = m.p + m.Q @ m.ut[1]
-    for s, mechanism, count in ((m.rh[2], "b", 0), (upper, "c", 0), (m.r[0], "n", 1), (m.p + m.Q @ m.u[0], "n", 1)):
-        at = m._replace(s=s)
-        g, c = at.geometry(), at.configuration()
-        result = nd.singularity(g, c)
-        assert result.mechanism == mechanism
-        assert result.margins["nbc".index(mechanism)] == 0.0
-        motion = np.concatenate([result.omega, result.pdot, result.sdot])
-        assert np.isnan(motion).all() == (count == 0)
-        motions = nd.uncontrolled_motions(g, c)
-        assert len(motions) == count
-    # An external leg of zero length: three lengths of legs hold one point of the platform.
-    touching = m._replace(r=np.vstack([m.p + m.Q @ m.u[0], m.r[1:]]))
-    result = nd.singularity(touching.geometry(), touching.configuration())
-    assert (result.margins.det_n, result.mechanism) == (0.0, "n")
-    assert np.isnan(result.omega).all()
-    assert len(nd.uncontrolled_motions(touching.geometry(), touching.configuration())) == 0
 
 
 @given(SEEDS)

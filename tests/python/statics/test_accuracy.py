@@ -58,15 +58,6 @@ def moved_joint(m, joint, d):
 # --- The map ----------------------------------------------------------------------------------------------------------
 
 
-@given(SEEDS)
-def test_map_inverts_the_leg_rates(seed):
-    m, _ = robots.regular(seed)
-    expected = inverse(m)
-    result = nd.error_map(m.geometry(), m.configuration())
-    assert_allclose(result, expected, atol=1e-14 * np.linalg.cond(robots.rates(m)) * np.abs(expected).max())
-    assert_array_equal(result[:6], nd.jacobian(m.geometry(), m.configuration()))
-
-
 @pytest.mark.parametrize("joint", range(12))
 def test_a_joint_error_acts_like_a_leg_error(joint):
     """Signs as documented: longer where the leg begins, shorter where it ends."""
@@ -88,21 +79,6 @@ def test_map_of_legs_against_a_root_finder():
 
 
 # --- Bounds -----------------------------------------------------------------------------------------------------------
-
-
-@given(SEEDS)
-def test_bounds_are_the_worst_of_all_corners(seed):
-    m, rng = robots.regular(seed)
-    legs, joints = rng.uniform(0.0, 1e-3, size=9), rng.uniform(0.0, 1e-3, size=12)
-    box = legs.copy()
-    np.add.at(box, LEG_OF_JOINT, joints)
-    motions = (CORNERS * box) @ inverse(m).T
-    result = bounds(m, legs, joints)
-    rtol = 1e-13 * np.linalg.cond(robots.rates(m))
-    assert_allclose(result.components, np.abs(motions).max(axis=0), rtol=rtol)
-    for k, name in enumerate(("rotation", "position", "internal_point")):
-        expected = np.linalg.norm(motions[:, 3 * k : 3 * k + 3], axis=1).max()
-        assert getattr(result, name) == pytest.approx(expected, rel=rtol)
 
 
 @given(SEEDS)
@@ -141,31 +117,6 @@ def test_bounds_in_another_length_unit(seed, unit):
     assert_allclose(result.covariance / np.outer(change, change), expected.covariance, atol=rtol * size)
 
 
-@KINDS
-@pytest.mark.parametrize("where", ["flat", "tilted"])
-def test_singular_configurations_have_no_bound(kind, where):
-    """det B = 0 leaves nothing determined, det C = 0 and det N = 0 leave O, determined by three spheres."""
-    m = robots.flat(kind) if where == "flat" else robots.singular(kind, 3)[0]
-    result = bounds(m, 1e-3, 1e-3)
-    finite_rows = 0 if kind == "lower plane" else 3
-    assert np.isinf([result.rotation, result.position]).all()
-    assert np.isinf(result.components[: 9 - finite_rows]).all()
-    assert np.isinf(result.covariance.diagonal()[: 9 - finite_rows]).all()
-    assert np.isnan(result.covariance[~np.eye(9, dtype=bool)].reshape(9, 8)[: 9 - finite_rows]).all()
-    if finite_rows:
-        B_inverse = np.linalg.inv(model.matrices(m)[1])
-        assert_allclose(result.components[6:], 2e-3 * np.abs(B_inverse).sum(axis=1), rtol=1e-9)
-        assert_allclose(result.covariance[6:, 6:], (1e-6 / 3 + 1e-6 / 5) * B_inverse @ B_inverse.T, rtol=1e-9)
-        assert 0.0 < result.internal_point < 2e-3 * np.sqrt(3.0) * np.linalg.norm(B_inverse, 2) * (1 + 1e-12)
-    else:
-        assert np.isinf(result.internal_point)
-    gain = nd.error_map(m.geometry(), m.configuration())
-    assert np.isinf(gain[: 9 - finite_rows]).all()
-    assert np.isfinite(gain[9 - finite_rows :]).all()
-    still = bounds(m)  # no error, but the platform is free
-    assert np.isinf(still.position)
-
-
 def test_leg_of_zero_length_has_no_bound(published):
     for s, regular in ((published.base_internal[1], False), ([0.0, 1.6778953523188904, 4.0], True)):
         result = nd.error_bounds(published, nd.Configuration([0, 0, 4.0], np.eye(3), s), 1e-3)
@@ -202,13 +153,6 @@ def test_missing_rows_stay_alone(published):
 # --- Samples ----------------------------------------------------------------------------------------------------------
 
 
-def distance(sample, distribution):
-    """Of Kolmogorov and Smirnov, times the root of the number: by chance above 1.945 once in a thousand samples."""
-    expected, number = distribution(np.sort(sample)), len(sample)
-    steps = np.arange(number + 1) / number
-    return np.sqrt(number) * max((steps[1:] - expected).max(), (expected - steps[:-1]).max())
-
-
 def test_samples_have_the_covariance_and_keep_the_bounds():
     m, rng = robots.regular(14)
     legs, joints = rng.uniform(1e-5, 1e-4, size=9), rng.uniform(1e-5, 1e-4, size=12)
@@ -234,35 +178,6 @@ def test_one_error_alone_comes_close_to_its_bound():
         assert_allclose(result[:, ~moves], 0.0, atol=1e-13)
         share = np.abs(result).max(axis=0)[moves] / limit.components[moves]
         assert ((share > (0.99 if k < 9 else 0.8)) & (share < 1.001)).all()
-
-
-def test_samples_have_leg_lengths_within_tolerance(published, neutral):
-    """Errors of 4 %, far from linear: the legs of every robot lie within their tolerances, spread evenly."""
-    rest = nd.leg_lengths(published, neutral)
-    legs = 0.04 * rest * np.linspace(0.2, 1.0, 9)
-    result = nd.error_samples(published, neutral, legs, samples=4000)
-    assert np.isfinite(result).all()
-    off = (nd.leg_lengths(published, neutral.moved(result)) - rest) / legs
-    assert np.abs(off).max() <= 1.0 + 1e-9
-    for k in range(9):
-        assert distance(off[:, k], lambda x: np.clip((1 + x) / 2, 0, 1)) < 1.945
-    assert np.abs(np.corrcoef(off.T) - np.eye(9)).max() < 0.06
-    linear = (off * legs) @ nd.error_map(published, neutral).T
-    assert np.abs(result - linear).max() > 0.05 * np.abs(result).max()  # the case is not linear
-
-
-@pytest.mark.parametrize("joint", [0, 4, 8, 9])
-def test_joint_errors_lie_in_a_ball(joint):
-    """One joint of each kind: the error of its leg has the distribution of a coordinate in a ball."""
-    m, _ = robots.regular(17)
-    radius, leg = 1e-3, LEG_OF_JOINT[joint]
-    result = samples(m, 0.0, radius * np.eye(12)[joint], samples=8000, seed=5)
-    off = nd.leg_lengths(m.geometry(), m.configuration().moved(result)) - model.lengths(m)
-    assert np.abs(np.delete(off, leg, axis=1)).max() < 1e-12
-    height = off[:, leg] / radius  # a coordinate of a point in the unit ball, but for 0.1 % of curvature
-    assert np.abs(height).max() < 1.001
-    # Its distribution function: (2 + 3 h - h^3) / 4.
-    assert distance(height, lambda h: np.clip((2 + 3 * h - h**3) / 4, 0, 1)) < 1.945
 
 
 def test_no_error_no_motion(published, neutral):
