@@ -7,12 +7,13 @@ import sys
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from pkgutil import iter_modules
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ninedof.export.model import Fields, Format, model_of
 from ninedof.support.arguments import choice, known_keys, path_argument
 from ninedof.support.files import read_text, write_whole
+
+if TYPE_CHECKING:
+    from ninedof.export.model import Fields, Format
 
 
 def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str | None = None, **options: Any) -> Path:
@@ -66,6 +67,8 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
     file = path_argument("path", path)
     if not file.absolute().parent.is_dir():
         raise ValueError(f"path: got {file}, expected a file in a folder that exists")
+    from ninedof.export.model import model_of  # with the formats, when they are needed
+
     model = model_of(design, file.name.split(".")[0], unit)
     contents = {file: row.text(model, **options)}
     if row.beside is not None:
@@ -79,6 +82,8 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
 @cache
 def formats() -> dict[str, Format]:
     """Return the formats by name: the constant `FORMAT` of every module of this room that has one."""
+    from pkgutil import iter_modules
+
     modules = [import_module(f"ninedof.export.{one.name}") for one in iter_modules(sys.modules[__package__].__path__)]
     return {module.FORMAT.name: module.FORMAT for module in modules if hasattr(module, "FORMAT")}
 

@@ -48,6 +48,7 @@ class RegionMean:
         return objective * float((self.value / self.quadrature) ** share)
 
 
+@short_repr
 @dataclass(frozen=True)
 class RegionReport:
     """The poses that ruled a region study, how densely the best design was looked at, and the worst found."""

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,6 +24,9 @@ from ninedof.sweep.axis import Axis, Grid
 from ninedof.sweep.grid import GridWork
 from ninedof.sweep.poses import COORDINATES
 from ninedof.sweep.result import SweepResult
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
 
 FIGURES = ("6", "7")
 SHOWN = ("x_p", "y_p", "z_p", "theta_x", "theta_y", "theta_z", "x_s", "y_s", "z_s")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from hashlib import sha256
 from time import perf_counter
 from typing import Any, TypedDict, Unpack
 
@@ -21,6 +20,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite, instance, shown, whole
 from ninedof.support.arrays import MOST_THREADS as MOST
+from ninedof.support.files import sha256
 from ninedof.support.margins import margin_of
 from ninedof.support.progress import Progress, phase
 from ninedof.support.structs import options_of

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any
 
 from ninedof import _core
@@ -95,7 +94,6 @@ class LimitProof:
         return outward(shown, up, digits)
 
 
-@short_repr
 @dataclass(frozen=True)
 class MachineCertificate:
     """What is proved of a design at every pose it is made for."""
@@ -124,6 +122,12 @@ class MachineCertificate:
     """Where O is, if the study places it anew at every pose of a region: all of this is proved of O placed by it."""
     machine: str = ""
     """Digest of the machine and its poses: another run goes on with the certificate of the same machine only."""
+
+    def __repr__(self) -> str:
+        """Show how much is proved."""
+        proved = sum(limit.answer == PROVED for limit in self.limits)
+        condition = f"condition number at most {self.condition[1]:.6f}"
+        return f"<MachineCertificate: {proved} of {len(self.limits)} limits proved at {self.where}; {condition}>"
 
     @property
     def proved(self) -> bool:
@@ -210,6 +214,8 @@ def outward(value: float, up: bool, digits: int = 6) -> str:
     """Return a number in a few digits, rounded up or down."""
     if value == 0.0 or not math.isfinite(value):
         return f"{value:g}"
+    from decimal import ROUND_CEILING, ROUND_FLOOR, Context  # when it is needed, as it takes time to load
+
     rounded = Context(prec=digits, rounding=ROUND_CEILING if up else ROUND_FLOOR).create_decimal_from_float(value)
     if -5 < rounded.adjusted() < digits:
         return f"{rounded.normalize():f}"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from decimal import ROUND_FLOOR, Context, Decimal
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +54,8 @@ class OptimumProof:
     @property
     def words(self) -> str:
         """What is proved, as a sentence."""
+        from decimal import ROUND_FLOOR, Context, Decimal  # when it is needed, as it takes time to load
+
         digits = Context(prec=400)  # of any double
         bound = Decimal(self.lower_bound).quantize(Decimal("1e-11"), ROUND_FLOOR, digits)  # never more than was proved
         said = f"Proved: no machine of this class has a condition number below {bound.normalize(digits):f}"

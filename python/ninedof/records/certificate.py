@@ -7,7 +7,6 @@ from pathlib import Path
 
 from ninedof.proof.machine_record import FORMAT, MachineCertificate
 from ninedof.records.load import split
-from ninedof.records.record import folder_of
 from ninedof.support.arguments import path_argument
 from ninedof.support.files import json_bytes, read_json, write_whole
 
@@ -15,7 +14,8 @@ from ninedof.support.files import json_bytes, read_json, write_whole
 def certificate_file(run: str | os.PathLike[str]) -> Path:
     """Return where the certificate of a run, or of one of its points, lies."""
     place, point = split(os.fspath(run))
-    return folder_of(place) / (f"certify-{point}.json" if point else "certify.json")
+    folder = place if place.is_dir() else place.parent
+    return folder / (f"certify-{point}.json" if point else "certify.json")
 
 
 def save_certificate(certificate: MachineCertificate, file: str | os.PathLike[str]) -> Path:

@@ -6,13 +6,10 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from ninedof.export.export import read_design, readable
 from ninedof.motion import Followed
 from ninedof.optimize.result import Result
 from ninedof.pareto import Front
 from ninedof.records.design_file import Design, load_design, save_design
-from ninedof.records.motion import write_motion
-from ninedof.records.record import load_run, write_run
 from ninedof.support.arguments import path_argument, shown
 from ninedof.sweep import SweepResult
 from ninedof.workspace import WorkspaceMap
@@ -59,6 +56,9 @@ def load(path: str | os.PathLike[str]) -> Loaded:
     <SweepResult condition_number(x_p: 5)>
 
     """
+    from ninedof.export.export import read_design, readable  # with the formats, when they are needed
+    from ninedof.records.record import load_run
+
     path_argument("path", path)
     place, point = split(os.fspath(path))
     if place.suffix == ".toml" or place.suffix.lower() in readable():
@@ -96,6 +96,9 @@ def save(run: Loaded, path: str | os.PathLike[str]) -> Path:
     load : the reverse, with an example.
 
     """
+    from ninedof.records.motion import write_motion  # with all kinds of runs, when they are needed
+    from ninedof.records.record import write_run
+
     path_argument("path", path)
     if isinstance(run, Design):
         if Path(path).is_dir():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace
@@ -198,6 +197,8 @@ class Sheet:
         Names of columns are followed by the length unit in brackets, where there is one: "shortest (mm)".
         """
         rows = [leg.flat() for leg in self.legs]
+        import csv  # when it is needed, as it takes time to load
+
         text = io.StringIO()
         writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
         lengths = ("shortest", "longest", "neutral", "stroke", "permitted_shortest", "permitted_longest")

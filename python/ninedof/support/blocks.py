@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import mmap
 from collections.abc import Iterator
 from typing import Any
 
@@ -25,5 +24,9 @@ def blocks(array: NDArray[Any]) -> Iterator[tuple[int, NDArray[Any]]]:
 def forget(array: NDArray[Any]) -> None:
     """Let the pages of an array that is mapped from a file go; they are read again where they are needed."""
     pages = getattr(array, "_mmap", None)
+    if pages is None:
+        return
+    import mmap
+
     if isinstance(pages, mmap.mmap) and hasattr(pages, "madvise"):
         pages.madvise(mmap.MADV_DONTNEED)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -33,7 +32,7 @@ def running(program: str, arguments: Sequence[str]) -> Iterator[None]:
 def command_line() -> str:
     """Return the command line as a shell takes it; "" where Python called."""
     command = _RUNNING.get()
-    return "" if command is None else shlex.join(command.words)
+    return "" if command is None else _typed(command.words)
 
 
 def goes_on(out: Path | None = None) -> None:
@@ -57,4 +56,10 @@ def how_to_go_on(interrupted: bool) -> str:
     """Return how a command ended, and the line to type to go on with its run; "" where it came to its end."""
     command = _RUNNING.get() or _Command([])
     why = "interrupted" if interrupted else command.why
-    return f"{why}; to go on, type: {shlex.join(command.again)}" if why and command.again else why
+    return f"{why}; to go on, type: {_typed(command.again)}" if why and command.again else why
+
+
+def _typed(words: Sequence[str]) -> str:
+    import shlex  # when it is needed, as it takes time to load
+
+    return shlex.join(words)

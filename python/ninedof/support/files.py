@@ -5,15 +5,12 @@ from __future__ import annotations
 import csv
 import math
 import os
-import secrets
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import partial
-from hashlib import sha256
 from pathlib import Path
-from typing import IO, Any, ClassVar, Self
-from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
+from typing import IO, TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +18,9 @@ from numpy.typing import NDArray
 from ninedof.support.arguments import path_argument
 from ninedof.support.blocks import blocks
 from ninedof.support.json import decode, encode
+
+if TYPE_CHECKING:
+    import hashlib
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -35,7 +35,7 @@ CHANGED = "got no file as ninedof wrote it, expected one that was not changed or
 
 def part_name(name: str) -> str:
     """Return a new name for a file that is being written; it begins with PART and the name."""
-    return f"{PART}{name[:SHORT]}-{secrets.token_hex(4)}"
+    return f"{PART}{name[:SHORT]}-{os.urandom(4).hex()}"
 
 
 def write_whole(path: Path, data: bytes | Callable[[IO[bytes]], object]) -> Path:
@@ -125,6 +125,13 @@ def is_plain_name(name: object) -> bool:
     )
 
 
+def sha256(data: bytes) -> hashlib._Hash:
+    """Return the running digest of bytes; the library of digests is loaded when it is needed."""
+    import hashlib
+
+    return hashlib.sha256(data)
+
+
 def json_bytes(entries: Mapping[str, Any]) -> bytes:
     """Return entries, of which `format` is one, as a JSON file with their digest behind them."""
     body = encode(entries).encode().removesuffix(b"\n}")
@@ -168,7 +175,7 @@ def write_npz(path: Path, arrays: Mapping[str, Any], *, compressed: bool = False
 
     A text before the bytes, the salt, ties the file to what it belongs to.
     """
-    return write_whole(path, partial(_pack, arrays, ZIP_DEFLATED if compressed else ZIP_STORED, salt))
+    return write_whole(path, partial(_pack, arrays, compressed, salt))
 
 
 def read_npz(path: Path, salt: str = "") -> Arrays:
@@ -192,8 +199,10 @@ def read_npz(path: Path, salt: str = "") -> Arrays:
         raise ValueError(f"{path}: cannot be read ({error.strerror or error})") from None
 
 
-def _pack(arrays: Mapping[str, Any], compression: int, salt: str, file: IO[bytes]) -> None:
-    with ZipFile(file, "w", compression) as archive:
+def _pack(arrays: Mapping[str, Any], compressed: bool, salt: str, file: IO[bytes]) -> None:
+    from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile  # when they are needed, as they take time to load
+
+    with ZipFile(file, "w", ZIP_DEFLATED if compressed else ZIP_STORED) as archive:
         archive.comment = bytes(DIGITS)
         for name, value in arrays.items():
             array = np.asanyarray(value)

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-import logging
 import os
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from hashlib import sha256
 from pathlib import Path
 from typing import IO, Any, Self
 
 from ninedof.support.arguments import shown
-from ninedof.support.files import PART, Arrays, json_bytes, part_name, read_json, read_npz, write_npz, write_whole
+from ninedof.support.files import (
+    PART,
+    Arrays,
+    json_bytes,
+    part_name,
+    read_json,
+    read_npz,
+    sha256,
+    write_npz,
+    write_whole,
+)
 from ninedof.support.json import decode, encode
 from ninedof.support.versions import versions
 
-LOG = logging.getLogger("ninedof")
 FORMAT = "ninedof-question-1"
 QUESTION, PIECES = "question.json", "pieces"
 MOST_NAMED = 3  # differences of two questions in a message
@@ -128,7 +135,10 @@ class Store:
             self.write(k, arrays)
         except OSError as error:
             if not self._unwritten:
-                LOG.warning("%s; the run goes on, but what cannot be written is lost if it ends early", error)
+                import logging  # when it is needed, as it takes time to load
+
+                words = "%s; the run goes on, but what cannot be written is lost if it ends early"
+                logging.getLogger("ninedof").warning(words, error)
             self._unwritten = True
 
 

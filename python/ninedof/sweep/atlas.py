@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +19,9 @@ from ninedof.sweep.chunks import MOST_CHUNK, chunk_argument, computed, opened
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.sample import BOUNDS, Sample, closed_form, squared_radius_ratio
 from ninedof.sweep.tally import Tally, condition_edges, ratio_edges
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
 
 CHUNK = 2**19  # designs: some 30 ms of work
 PIECES = 256  # chunks of large surveys: a folder has 85 kB for each

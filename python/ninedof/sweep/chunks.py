@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import os
-import secrets
 from collections.abc import Generator, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from itertools import islice
-from typing import Any, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
 
 from ninedof.support.arguments import executor_argument, path_argument, whole
 from ninedof.support.files import Arrays
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.store import Store
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
 
 IN_FLIGHT = 128  # chunks at an executor: enough to keep it busy, few to be lost or pickled early
 MOST_CHUNK, MOST_CHUNKS = 2**24, 2**22  # points of a chunk, chunks of a run
@@ -114,7 +115,9 @@ def _here(work: Work, chunks: list[Chunk]) -> Computed:
 
 def _by(executor: Executor, work: Work, chunks: list[Chunk]) -> Computed:
     """Yield the values of chunks as they come; a few are at the executor, and those are cancelled at the end."""
-    left, token = iter(chunks), secrets.token_hex(8)
+    from concurrent.futures import FIRST_COMPLETED, wait  # when it is needed, as it takes time to load
+
+    left, token = iter(chunks), os.urandom(8).hex()
     waiting: dict[Future[Arrays], Chunk] = {}
     try:
         while True:

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 import os
-import shutil
 from collections.abc import Mapping
-from concurrent.futures import Executor
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -27,6 +25,9 @@ from ninedof.support.versions import versions
 from ninedof.sweep.axis import Grid
 from ninedof.sweep.chunks import computed, opened
 from ninedof.sweep.result import SweepResult
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
 
 
 class Subject(Protocol):
@@ -162,6 +163,8 @@ class Target:
 
 def _free(folder: Path) -> float:
     """Return the bytes that are free on a disk; infinity where it does not say."""
+    import shutil  # when it is needed, as it takes time to load
+
     with suppress(OSError):
         disk = shutil.disk_usage(folder)
         if disk.total:

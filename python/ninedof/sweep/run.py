@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
-from concurrent.futures import Executor
 from dataclasses import replace
-from typing import TypedDict, Unpack
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_argument
@@ -25,6 +24,9 @@ from ninedof.sweep.grid import GridWork
 from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses, best_block
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.variants import Variants
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
 
 # A chunk takes under a tenth of a second: signals are checked between chunks.
 POSES, DESIGNS = 65536, 1024

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from html import escape
 
 from ninedof.support.printable import escaped
 from ninedof.support.units import with_unit
@@ -19,12 +18,14 @@ class Html(str):
 
 def safe(value: object) -> str:
     """Return a value as HTML: escaped, unless it is HTML already."""
-    return str(value) if isinstance(value, Html) else escape(escaped(str(value)))
+    from html import escape  # when it is needed, as it takes time to load
+
+    return value if isinstance(value, Html) else escape(escaped(str(value)))
 
 
 def tag(name: str, *children: object, **attributes: object) -> Html:
     """Return an element; a trailing underscore of an attribute (class_) is dropped, others become hyphens."""
-    pairs = "".join(f' {key.strip("_").replace("_", "-")}="{escape(escaped(str(v)))}"' for key, v in attributes.items())
+    pairs = "".join(f' {key.strip("_").replace("_", "-")}="{safe(str(v))}"' for key, v in attributes.items())
     return Html(f"<{name}{pairs}>{''.join(safe(child) for child in children)}</{name}>")
 
 

@@ -61,12 +61,19 @@ def shown(published):
         "VelocityMatrices": nd.velocity_matrices(published, STACK),
         "Check": nd.check(result, perturbations=100),
         "LowerBound": nd.applicable_bounds(result)[0],
+        "MachineCertificate": result.certify(),
+        "OptimumProof": nd.OptimumProof(3.7, 3.7, True, 100, 0, 1.0, certificate=b"bytes" * 1000),
+        "PathLimits": nd.path_limits(study, nd.follow(published, line, HOME), HOME),
+        "RegionReport": nd.optimize(replace(study, objective={"region": {"ball": 0.1}}), starts=1).region,
+        "CertifiedWorkspace": nd.certified_workspace(
+            published, ([-1, -1, 3], [1, 1, 5]), gap=0.5, criteria={"leg_limits": (2.5, 6.5)}
+        ),
     }
 
 
 def test_everything_prints_short(shown):
     for name, thing in shown.items():
-        for text in (repr(thing), str(thing)):
+        for text in (repr(thing), *([] if "__str__" in vars(type(thing)) else [str(thing)])):  # sentences, if it has
             assert "np." not in text, name
             assert "\n" not in text, name
             assert len(text) <= LONGEST, name
