@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ninedof.conditioning.characteristic_length import KINDS
-from ninedof.design.leg_limits import leg_limits_of
+from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables

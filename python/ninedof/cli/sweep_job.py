@@ -20,7 +20,7 @@ from ninedof.cli.screen import Screen
 from ninedof.design.indices import size_of
 from ninedof.records.record import write_run
 from ninedof.support.arguments import LONGEST
-from ninedof.support.blocks import blocks
+from ninedof.support.arrays import blocks
 from ninedof.sweep import SweepResult
 from ninedof.sweep.cluster import dask_executor, is_of_cluster
 from ninedof.tables import Table

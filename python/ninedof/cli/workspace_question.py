@@ -13,8 +13,7 @@ from ninedof.cli.chosen_design import Chosen
 from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, Threads, Three, Two
 from ninedof.cli.posed import length_at_home
 from ninedof.design.indices import computed
-from ninedof.design.leg_limits import LEGS, SPREADS
-from ninedof.design.limit_numbers import CONES
+from ninedof.design.limit_numbers import CONES, LEGS, SPREADS
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.redundancy.rules import RULES

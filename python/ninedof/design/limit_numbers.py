@@ -1,14 +1,18 @@
-"""What limits are about at the poses of a stack: the table of the core, as arrays."""
+"""What limits are about at the poses of a stack, and the limits of a study on leg lengths, for each leg."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
+
+import numpy as np
 
 from ninedof import _core
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.leg_names import LEGS as LEG_NAMES
 from ninedof.support.arrays import Floats
 
 PARTS: dict[str, tuple[str, ...]] = _core.limit_parts
@@ -16,6 +20,13 @@ PARTS: dict[str, tuple[str, ...]] = _core.limit_parts
 CONES = tuple(name for name in PARTS if ROWS[name].is_angle)
 CLEARANCE = next(name for name, parts in PARTS.items() if "-" in parts[0])
 """The limit on the distance of pairs of legs."""
+SPREADS = _core.limits_over_lengths  # limits that compare poses
+LEGS = {
+    name: [LEG_NAMES.index(part) for part in parts]
+    for name, parts in _core.limit_parts.items()
+    if ROWS[name].kind == "length" and set(parts) <= set(LEG_NAMES)
+}
+"""Constraints of lengths, and their legs in the order of `leg_lengths`."""
 
 
 def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration, axis: Any = (0, 0, 0)) -> Floats:
@@ -49,3 +60,22 @@ def exempt_pairs(g: Geometry, study: Study | None = None) -> list[bool]:
 def apart(g: Geometry, study: Study | None = None) -> list[int]:
     """Return the indices of the pairs of legs that are to keep a distance: those that are not exempt."""
     return [k for k, meet in enumerate(exempt_pairs(g, study)) if not meet]
+
+
+def leg_limits_of(study: Study, zp: float) -> tuple[Floats, Floats]:
+    """Return the least and greatest length of each leg in a study, shapes (9,); 0 and infinity where it has none.
+
+    Parameters
+    ----------
+    study : Study
+    zp : float
+        Height of the platform, for limits in units of it.
+
+    """
+    low, high = np.zeros(9), np.full(9, math.inf)
+    for limit in study.limits:
+        if limit.name in LEGS and limit.at == "poses":
+            unit, legs = zp if limit.of == "zp" else 1.0, LEGS[limit.name]
+            low[legs] = np.maximum(low[legs], unit * limit.low)
+            high[legs] = np.minimum(high[legs], unit * limit.high)
+    return low, high

@@ -13,8 +13,8 @@ import numpy as np
 from ninedof import _core
 from ninedof.support.angles import angle_entry, degrees_of, half_turn, in_radians
 from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
-from ninedof.support.fixed import Fixed
 from ninedof.support.schema import Check, plain, within
+from ninedof.support.structs import Fixed
 
 
 class Row(NamedTuple):

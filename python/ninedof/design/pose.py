@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 from ninedof import _core
-from ninedof.redundancy.rules import STUDY_RULES
+from ninedof.redundancy.rules import STUDY_RULES, WORDS
 from ninedof.support.arguments import Vector, choice, finite, vector
 from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr
@@ -82,3 +84,21 @@ class Pose(Table):
             in_zp=self.unit == "zp",
             weight=self.weight,
         )
+
+
+def rule_words(poses: Sequence[Pose]) -> str:
+    """Return where O is: one word for all poses, or how many poses follow each."""
+    rules = Counter(p.internal_point if isinstance(p.internal_point, str) else "given" for p in poses)
+    if any(p.position != ZERO for p in poses) and len(rules) > 1:
+        at_rest = [p for p in poses if p.position == ZERO and p.internal_point == "shifted"]
+        if len(at_rest) == rules["shifted"]:  # where the platform has not moved, shifted and held are the same
+            del rules["shifted"]
+            rules[next(iter(rules))] += len(at_rest)
+    if len(rules) == 1:
+        return f"O is {_words(next(iter(rules)))} at every pose"
+    counts = (f"{_words(rule)} at {count} {'pose' if count == 1 else 'poses'}" for rule, count in rules.most_common())
+    return f"O is {', '.join(counts)}"
+
+
+def _words(rule: str) -> str:
+    return WORDS.get(rule, rule)

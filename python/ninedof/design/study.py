@@ -30,10 +30,10 @@ from ninedof.support.arguments import (
     text,
     whole,
 )
-from ninedof.support.fixed import Fixed
+from ninedof.support.files import read_toml, write_toml
 from ninedof.support.schema import Check, check_entries, entry, plain
 from ninedof.support.short import short_repr
-from ninedof.support.toml import read_toml, write_toml
+from ninedof.support.structs import Fixed
 from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
 
 Bound = float | tuple[float, float]

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from ninedof.export.model import Format, Model
 from ninedof.robot.geometry import triples
 from ninedof.support.arrays import Floats
-from ninedof.support.versions import versions
+from ninedof.support.extras import versions
 
 NEUTRAL = """\
 typedef struct {

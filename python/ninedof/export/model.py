@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ninedof.design.leg_limits import leg_limits_of
+from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration

@@ -12,7 +12,7 @@ import numpy as np
 
 from ninedof.export.model import LEGS, Format, Model
 from ninedof.support.arrays import Floats
-from ninedof.support.versions import versions
+from ninedof.support.extras import versions
 
 PREFIXES = {"mm": ".MILLI.", "cm": ".CENTI.", "m": "$"}
 CONVERTED = {"in": ("INCH", 25.4), "ft": ("FOOT", 304.8)}

@@ -11,9 +11,8 @@ from ninedof import _core
 from ninedof.design.pose import Pose
 from ninedof.design.study import Study
 from ninedof.support.arguments import Vector, items, table
-from ninedof.support.fields import entries_of
 from ninedof.support.short import short_repr
-from ninedof.support.structs import from_core
+from ninedof.support.structs import entries_of, from_core
 
 DENSE = 100_000  # poses of a dense search
 PASSED = 1e-7  # by which a limit or the index may be passed between the poses, relative

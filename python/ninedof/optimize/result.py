@@ -8,9 +8,8 @@ from enum import StrEnum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ninedof.design.internal_points import rule_words
-from ninedof.design.region_placed import Placing
-from ninedof.design.region_stack import places_o
+from ninedof.design.pose import rule_words
+from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.agreement import agreement_words
@@ -27,11 +26,9 @@ from ninedof.robot.geometry import Geometry
 from ninedof.robot.idle import idle_names
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arguments import choice, finite, instance, items
-from ninedof.support.fields import entries_of
-from ninedof.support.fixed import Fixed
 from ninedof.support.progress import progress_argument
 from ninedof.support.short import short_repr
-from ninedof.support.structs import from_core
+from ninedof.support.structs import Fixed, entries_of, from_core
 from ninedof.tables.html import notebook
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from matplotlib.text import Text
 from ninedof.plot import style
 from ninedof.support.arguments import instance, path_argument, shown
 from ninedof.support.files import write_whole
-from ninedof.support.printable import escaped
+from ninedof.support.short import escaped
 
 
 def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[Path]:

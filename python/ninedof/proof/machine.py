@@ -11,7 +11,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.design.limits import label
 from ninedof.design.region import Region
-from ninedof.design.region_stack import places_o
+from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine_limits import met_at, proved_limits
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate

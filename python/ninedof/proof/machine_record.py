@@ -11,8 +11,8 @@ from ninedof import _core
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.arguments import flag, number, table, text, whole
-from ninedof.support.fields import entries_of
 from ninedof.support.short import short_repr
+from ninedof.support.structs import entries_of
 from ninedof.support.units import amount
 
 FORMAT = "ninedof-machine-certificate-2"

@@ -12,11 +12,10 @@ from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.support.arguments import finite, instance, path_argument
 from ninedof.support.arrays import thread_argument
-from ninedof.support.fields import entries_of
 from ninedof.support.files import write_whole
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.short import short_repr
-from ninedof.support.structs import from_core
+from ninedof.support.structs import entries_of, from_core
 
 FILE = "optimum.certificate"
 GAPS = {"hexagonal": 1e-12, "symmetric": 1e-6}

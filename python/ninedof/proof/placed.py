@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from ninedof import _core
-from ninedof.design.region_placed import Placing
+from ninedof.design.region_poses import Placing
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry

@@ -13,8 +13,8 @@ from ninedof import _core
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
-from ninedof.support.fields import made
 from ninedof.support.short import short_repr
+from ninedof.support.structs import made
 
 Six = tuple[float, ...]
 

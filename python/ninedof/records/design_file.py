@@ -17,8 +17,8 @@ from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.angles import in_radians
 from ninedof.support.arguments import finite, is_number, known_keys, number, path_argument, table
+from ninedof.support.files import read_toml, write_toml
 from ninedof.support.short import short_repr
-from ninedof.support.toml import read_toml, write_toml
 from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
 
 

@@ -26,9 +26,9 @@ from ninedof.pareto import Front
 from ninedof.pareto.limited import limited, without_degrees
 from ninedof.proof.optimum import FILE as CERTIFICATE
 from ninedof.support.command import command_line
-from ninedof.support.fields import entries_of
+from ninedof.support.extras import versions
 from ninedof.support.files import json_bytes, read_json, write_whole
-from ninedof.support.versions import versions
+from ninedof.support.structs import entries_of
 from ninedof.sweep import SweepResult
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.leg_limits import LEGS as OF_LENGTHS
 from ninedof.design.limit_numbers import CONES
+from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
 from ninedof.design.limits import kind_of
 from ninedof.design.study import Study
 from ninedof.motion.follow import Followed, LimitBreak, stretches

@@ -8,8 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.leg_limits import SPREADS
-from ninedof.design.limit_numbers import CLEARANCE, PARTS, apart, limit_numbers
+from ninedof.design.limit_numbers import CLEARANCE, PARTS, SPREADS, apart, limit_numbers
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths

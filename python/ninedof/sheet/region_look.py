@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 from ninedof import _core
 from ninedof.design.pose import Pose
-from ninedof.design.region_placed import Placing
-from ninedof.design.region_stack import configurations_at, poses_at
+from ninedof.design.region_poses import Placing, configurations_at, poses_at
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.support.structs import from_core

@@ -14,8 +14,7 @@ from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.limit_numbers import CLEARANCE, PARTS
-from ninedof.design.region_placed import Placing
-from ninedof.design.region_stack import places_o
+from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples

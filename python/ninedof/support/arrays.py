@@ -1,8 +1,8 @@
-"""Checks and broadcasting of array arguments for the compiled core."""
+"""Checks and broadcasting of array arguments for the core, and large arrays looked at in pieces."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -110,3 +110,27 @@ def _shape_text(trailing: tuple[int, ...]) -> str:
 def thread_argument(threads: Any) -> int:
     """Return a number of threads as the core takes it: 0 for one per processor."""
     return 0 if threads is None else whole("threads", threads, 1, MOST_THREADS)
+
+
+BLOCK = 2**20  # entries, 8 MB
+
+
+def blocks(array: NDArray[Any]) -> Iterator[tuple[int, NDArray[Any]]]:
+    """Yield the number of the first entry of each piece, in the order of C, and the piece; pages read are let go."""
+    if not array.flags.c_contiguous:
+        array = np.ascontiguousarray(array)
+    flat = array.reshape(-1)
+    for first in range(0, flat.size, BLOCK):
+        yield first, flat[first : first + BLOCK]
+        forget(array)
+
+
+def forget(array: NDArray[Any]) -> None:
+    """Let the pages of an array that is mapped from a file go; they are read again where they are needed."""
+    pages = getattr(array, "_mmap", None)
+    if pages is None:
+        return
+    import mmap
+
+    if isinstance(pages, mmap.mmap) and hasattr(pages, "madvise"):
+        pages.madvise(mmap.MADV_DONTNEED)

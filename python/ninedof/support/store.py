@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import IO, Any, Self
 
 from ninedof.support.arguments import shown
+from ninedof.support.extras import versions
 from ninedof.support.files import (
     PART,
     Arrays,
@@ -22,7 +23,6 @@ from ninedof.support.files import (
     write_whole,
 )
 from ninedof.support.json import decode, encode
-from ninedof.support.versions import versions
 
 FORMAT = "ninedof-question-1"
 QUESTION, PIECES = "question.json", "pieces"

@@ -11,10 +11,10 @@ import numpy as np
 
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.support.arguments import finite, known_keys, pair, shown, whole
+from ninedof.support.extras import versions
 from ninedof.support.files import Arrays
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
-from ninedof.support.versions import versions
 from ninedof.sweep.chunks import MOST_CHUNK, chunk_argument, computed, opened
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.sample import BOUNDS, Sample, closed_form, squared_radius_ratio

@@ -12,16 +12,15 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from ninedof.design.index_argument import identity
-from ninedof.design.indices import Index
+from ninedof.design.indices import Index, identity
 from ninedof.support.angles import DEG
 from ninedof.support.arrays import Floats
+from ninedof.support.extras import versions
 from ninedof.support.files import Arrays, naming
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
 from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
-from ninedof.support.versions import versions
 from ninedof.sweep.axis import Grid
 from ninedof.sweep.chunks import computed, opened
 from ninedof.sweep.result import SweepResult

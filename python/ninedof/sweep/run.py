@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.design.index_argument import What, indices_of
+from ninedof.design.indices import What, indices_of
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.angles import DEG, in_radians, plain_name

@@ -8,7 +8,7 @@ from rich import box, table
 from rich.console import Group
 from rich.text import Text
 
-from ninedof.support.printable import escaped
+from ninedof.support.short import escaped
 from ninedof.support.units import heading
 from ninedof.tables.numbers import SCREEN
 from ninedof.tables.table import WORDS, Part, Table

@@ -11,9 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.leg_limits import LEGS as OF_LENGTHS
-from ninedof.design.leg_limits import SPREADS
-from ninedof.design.limit_numbers import CONES
+from ninedof.design.limit_numbers import CONES, SPREADS
+from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.arrays import Floats

@@ -13,7 +13,7 @@ import numpy as np
 
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.family_variables import variables_of
-from ninedof.design.leg_limits import leg_limits_of
+from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.region import Region
 from ninedof.design.study import Study, variable_kinds
 from ninedof.kinematics.kinematics import leg_lengths

@@ -9,9 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number, singular_values
-from ninedof.design.leg_limits import LEGS as OF_LENGTHS
-from ninedof.design.leg_limits import SPREADS
-from ninedof.design.limit_numbers import CONES
+from ninedof.design.limit_numbers import CONES, SPREADS
+from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
 from ninedof.design.limits import ROWS, split_label
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration

@@ -10,7 +10,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.index_argument import What, indices_of
+from ninedof.design.indices import What, indices_of
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry

@@ -9,10 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof import _core
-from ninedof.design.leg_limits import LEGS, SPREADS
-from ninedof.design.limit_numbers import CLEARANCE, PARTS
+from ninedof.design.limit_numbers import CLEARANCE, LEGS, PARTS, SPREADS
 from ninedof.design.region import Region
-from ninedof.design.region_stack import places_o
+from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
 from ninedof.optimize.result import Candidate, Result
 from ninedof.robot.configuration import Configuration

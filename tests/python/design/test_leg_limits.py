@@ -1,7 +1,7 @@
 """Limits of a study on the lengths of single legs."""
 
 import ninedof as nd
-from ninedof.design.leg_limits import leg_limits_of
+from ninedof.design.limit_numbers import leg_limits_of
 
 
 def test_limits_of_legs_by_kind_and_unit():

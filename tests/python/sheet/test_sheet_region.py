@@ -12,7 +12,7 @@ from sizes import size
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.design.region_stack import configurations_at, poses_at
+from ninedof.design.region_poses import configurations_at, poses_at
 from ninedof.export.model import model_of
 from ninedof.optimize.region_report import posed
 

@@ -14,7 +14,7 @@ import sweep_work as work
 from sweep_work import GRID, HOME, G, finished
 
 import ninedof as nd
-from ninedof.design.index_argument import indices_of
+from ninedof.design.indices import indices_of
 from ninedof.sweep import chunks
 from ninedof.sweep import cluster as schedulers
 from ninedof.sweep.axis import axes_of

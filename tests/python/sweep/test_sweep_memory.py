@@ -9,8 +9,8 @@ import pytest
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.cli.sweep_job import describe
-from ninedof.support import blocks as pieces
-from ninedof.support.blocks import blocks, forget
+from ninedof.support import arrays as pieces
+from ninedof.support.arrays import blocks, forget
 from ninedof.sweep.result import SweepResult
 
 SIDE, LEAST_SAVED = 1024, 2**21  # 8 MB; less than this is held at a time

@@ -17,7 +17,7 @@ from ninedof.cli.long_run import piece, run_folder
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.cli.workspace_figures import draw
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
-from ninedof.design.region_stack import places_o
+from ninedof.design.region_poses import places_o
 from ninedof.records.record import write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples

@@ -1,4 +1,4 @@
-"""The poses of a region with O placed anew at each, as the solver of the study places it."""
+"""Poses of a region as configurations of one design: O by a rule, or placed anew as the solver of the study does."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from ninedof import _core
 from ninedof.design.pose import Pose
 from ninedof.design.region import Region
-from ninedof.design.region_stack import configurations_at
 from ninedof.design.study import Study
+from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 
@@ -59,3 +61,43 @@ class Placing:
         """Return the shifts of O at the poses that ruled, in zp."""
         names = [name.removesuffix(".s_x") for name in self.variables if name.endswith(".s_x")]
         return [tuple(self.variables[f"{name}.s_{axis}"] for axis in "xyz") for name in names]
+
+
+ROOT = 1.1127756842787055  # of x^7 = x + 1: powers of its inverse spread points evenly over six dimensions
+
+
+def places_o(region: Region) -> bool:
+    """Return whether the region alone says where O is."""
+    return region.internal_point != "best"
+
+
+def configurations_at(region: Region, neutral: Configuration, at: Floats) -> tuple[Floats, Configuration]:
+    """Return the poses nearest to given coordinates.
+
+    Parameters
+    ----------
+    region : Region
+        One that says where O is.
+    neutral : Configuration
+        The neutral one of the design.
+    at : numpy.ndarray, shape (n, 6)
+        Shift of p (on a path the first from -1 to 1), tilt about x and y, and yaw.
+
+    Returns
+    -------
+    at : numpy.ndarray, shape (n, 6)
+        The nearest coordinates in the region.
+    configurations : Configuration, shape (n,)
+
+    """
+    rows = _core.region_poses(region.for_core(), np.ascontiguousarray(at))
+    near, shift, turn, internal = np.split(rows, [6, 9, 12], axis=1)
+    unit = float(neutral.position[2]) if region.unit == "zp" else 1.0
+    q = from_vectors(turn) @ neutral.rotation
+    return near, Configuration(neutral.position + unit * shift, q, neutral.internal_point + unit * internal)
+
+
+def poses_at(region: Region, at: Floats) -> tuple[Pose, ...]:
+    """Return the poses nearest to given coordinates, for the poses of an objective."""
+    rows = _core.region_poses(region.for_core(), np.ascontiguousarray(at)).tolist()
+    return tuple(Pose(tuple(row[6:9]), tuple(row[9:12]), tuple(row[12:15]), region.unit) for row in rows)
