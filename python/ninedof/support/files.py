@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import os
 from abc import ABC, abstractmethod
@@ -91,6 +90,8 @@ def read_text(path: str | os.PathLike[str]) -> str:
 
 def csv_rows(text: str) -> list[tuple[int, list[str]]]:
     """Return the rows of a CSV text with the numbers of their lines; comments (#) and empty rows are left out."""
+    import csv  # when it is needed, as it takes time to load
+
     reader = csv.reader(text.split("\n"))
     try:
         rows = [(reader.line_num, [entry.strip() for entry in row]) for row in reader]
