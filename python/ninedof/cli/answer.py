@@ -1,15 +1,23 @@
-"""A command: a call that takes a struct of options, and what it answers."""
+"""A command: a call that takes a struct of options. Its answer is printed, or written as a job with figures."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import MISSING, fields
 from inspect import Parameter, Signature, get_annotations
+from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
 import typer
 
 from ninedof.cli.screen import DONE, Screen
+from ninedof.records.record import FILE as RECORD
+from ninedof.report.report import FILE, report
+from ninedof.support.printable import one_line
+from ninedof.support.store import QUESTION
+
+Draw = Callable[[Path], Sequence[Path]]
+FIGURES = (".png", ".svg", ".pdf")
 
 
 class Answer(NamedTuple):
@@ -52,3 +60,53 @@ def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
     )
     parsed.__annotations__ = {}
     return parsed
+
+
+def write_job(
+    screen: Screen, answer: Answer, write: Callable[[Draw], Path], draw: Draw | None = None, report: bool = False
+) -> Path:
+    """Write a run, print its answer, draw its figures and write its report; return its record.
+
+    `write` writes the record and then calls what it is given, in the run folder. Where files cannot be written the
+    answer is printed all the same, its JSON too: a full disk does not lose what was computed.
+    """
+    parts = iter(answer.parts)  # empty once they are printed
+
+    def drawn(folder: Path) -> list[Path]:
+        (folder / FILE).unlink(missing_ok=True)  # that of an interrupted run would not agree with the record
+        screen.print(*parts)
+        try:
+            files = [] if draw is None else list(draw(folder))
+            return files + (_report(folder, screen) if report else [])
+        except KeyboardInterrupt:
+            screen.print(f"interrupted while drawing; run folder {folder} has the record")
+            raise
+
+    try:
+        record = write(drawn)
+    except OSError:
+        screen.print(*parts)
+        screen.data(answer.data)
+        raise
+    screen.print(*parts)
+    return record
+
+
+def _report(folder: Path, screen: Screen) -> list[Path]:
+    """Write the report; one that fails does not fail the job."""
+    screen.say("writing the report")
+    try:
+        return [report(folder)]
+    except Exception as error:  # whatever it is: the run is solved and kept, its report can be written again
+        words = str(error) if isinstance(error, OSError | ValueError) else repr(error)
+        screen.print(one_line(f"the report could not be written: {' '.join(words.split())}"))
+    return []
+
+
+def folder_words(folder: Path) -> str:
+    """Return what a run folder has in it."""
+    names = sorted(path.name for path in folder.iterdir() if path.is_file() and not path.name.startswith("."))
+    stems = [Path(name).stem for name in names if name.endswith(FIGURES[0])]
+    others = [name for name in names if not name.endswith(FIGURES) and name not in (RECORD, FILE, QUESTION)]
+    figures = [f"figure{'s' * (len(stems) > 1)} {', '.join(stems)} (PNG, SVG, PDF)"] if stems else []
+    return f"run folder {folder}: {', '.join([RECORD, *others, *figures, *([FILE] if FILE in names else [])])}"

@@ -13,8 +13,7 @@ import typer
 
 from ninedof.cli import commands
 from ninedof.cli.answer import command
-from ninedof.cli.ending import ended
-from ninedof.cli.interruption import interruptible
+from ninedof.cli.ending import ended, interruptible
 from ninedof.support.command import running
 
 PROGRAM = "ninedof"

@@ -1,11 +1,19 @@
-"""Maps errors of a command to exit statuses, which `screen` lists, and one line on standard error."""
+"""Maps errors and signals to exit statuses, which `screen` lists, and one line on standard error.
+
+Ctrl-C, SIGTERM and SIGHUP while a command runs raise KeyboardInterrupt once: what was done so far is saved. The exit
+status is 130, 143 or 129. A second Ctrl-C ends the process at once.
+"""
 
 from __future__ import annotations
 
 import os
+import signal
 import sys
-from collections.abc import Callable, Sequence
-from types import TracebackType
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from threading import current_thread, main_thread
+from time import monotonic
+from traceback import walk_tb
 
 from typer import Abort, BadParameter
 
@@ -13,9 +21,40 @@ from ninedof.cli.screen import BAD_INPUT, FAILED, INTERRUPTED, REFUSED, status_o
 from ninedof.support.command import how_to_go_on
 from ninedof.support.extras import MissingExtra
 from ninedof.support.short import escaped, one_line
+from ninedof.support.starting import ending
 
 PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 ClickException = BadParameter.__mro__[2]  # what typer raises for options that it cannot read
+SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+ONE_PRESS = 0.1  # seconds: a terminal and a program in between may both hand on one Ctrl-C
+
+
+@contextmanager
+def interruptible() -> Iterator[None]:
+    """Handle signals for the time of a command; a SystemExit with 130 gets the status of the signal that came."""
+    first: list[tuple[int, float]] = []  # the signal that came first, and when
+
+    def handler(number: int, *_: object) -> None:
+        if not first:
+            first.append((number, monotonic()))
+            raise KeyboardInterrupt
+        if number == signal.SIGINT and monotonic() - first[0][1] > ONE_PRESS:
+            os._exit(128 + first[0][0])
+
+    before = {number: signal.getsignal(number) for number in SIGNALS}
+    ours = (signal.SIG_DFL, signal.default_int_handler, ending)  # jobs of nohup ignore some
+    mine = [n for n in SIGNALS if before[n] in ours] if current_thread() is main_thread() else []
+    for number in mine:
+        signal.signal(number, handler)
+    try:
+        yield
+    except SystemExit as end:
+        if end.code == 128 + signal.SIGINT and first:
+            raise SystemExit(128 + first[0][0]) from None
+        raise
+    finally:
+        for number in mine:
+            signal.signal(number, before[number])
 
 
 def ended(work: Callable[[], object], arguments: Sequence[str]) -> int:
@@ -73,28 +112,20 @@ def _words(error: Exception, arguments: Sequence[str]) -> str:
     notes = "".join(f". {note}" for note in getattr(error, "__notes__", ()))
     if isinstance(error, OSError):
         files = [os.fsdecode(file) for file in (error.filename, error.filename2) if isinstance(file, str | bytes)]
-        words = (
-            f"{' and '.join(files)}: {error.strerror}"
-            if files and error.strerror
-            else error.strerror or str(error) or repr(error)
-        )
-        return words + notes
+        reason = error.strerror or str(error) or repr(error)
+        return (f"{' and '.join(files)}: {reason}" if files and error.strerror else reason) + notes
     if _status(error) == BAD_INPUT:
         return as_typed(str(error), arguments)
     if isinstance(error, MemoryError):
         return f"out of memory{f' ({error})' if str(error) else ''}{notes}"
-    if isinstance(error, RecursionError):
-        return "the input is nested too deep"
     words = str(error) if type(error) is RuntimeError else f"{type(error).__name__}: {error}"
     return (words or type(error).__name__) + notes
 
 
 def _is_ours(error: Exception) -> bool:
     """Return whether an error was raised here, or by the core that was called here: its innermost frame is ours."""
-    at: TracebackType | None = error.__traceback__
-    while at is not None and at.tb_next is not None:
-        at = at.tb_next
-    return at is not None and os.path.abspath(at.tb_frame.f_code.co_filename).startswith(PACKAGE + os.sep)
+    frames = [frame for frame, _ in walk_tb(error.__traceback__)]
+    return bool(frames) and os.path.abspath(frames[-1].f_code.co_filename).startswith(PACKAGE + os.sep)
 
 
 def as_typed(message: str, arguments: Sequence[str]) -> str:

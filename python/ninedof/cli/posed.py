@@ -162,6 +162,16 @@ def several(option: str, text: str, expected: str) -> list[float]:
     return values
 
 
+def rule_option(text: str) -> str | float:
+    """Return the rule for O given by --internal-point, or a fraction."""
+    if text in RULES:
+        return text
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(f"--internal-point: got {text!r}, expected {', '.join(RULES)} or a fraction") from None
+
+
 def load_option(text: str) -> list[float]:
     """Return the load given by --load."""
     return several("--load", text, "mx my mz fx fy fz")

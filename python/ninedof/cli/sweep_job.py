@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ninedof.cli.answer import Answer
-from ninedof.cli.job_report import folder_words, write_job
-from ninedof.cli.long_run import run_folder
+from ninedof.cli.answer import Answer, folder_words, write_job
 from ninedof.cli.options import JobOptions, Scheduler
 from ninedof.cli.screen import Screen
 from ninedof.design.indices import size_of
+from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
 from ninedof.support.arguments import LONGEST
 from ninedof.support.arrays import blocks

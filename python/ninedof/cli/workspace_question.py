@@ -11,12 +11,11 @@ import typer
 
 from ninedof.cli.chosen_design import Chosen
 from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, Threads, Three, Two
-from ninedof.cli.posed import length_at_home
+from ninedof.cli.posed import length_at_home, rule_option
 from ninedof.design.indices import computed
 from ninedof.design.limit_numbers import CONES, LEGS, SPREADS
 from ninedof.design.region import Region
 from ninedof.design.study import Study
-from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite
@@ -205,14 +204,12 @@ def _rule(text: str | None, chosen: Chosen, region: Region | None, position: Any
     `position` is the one position of a set of orientations; `turns` says that there are sets of rotations at many,
     where O cannot be shifted: the rule of a region is then "carried".
     """
-    if text is not None and text not in RULES:
-        try:
-            return float(text)
-        except ValueError:
-            raise ValueError(f"--internal-point: got {text!r}, expected {', '.join(RULES)} or a fraction") from None
-    if text == "shifted" and turns:
+    rule = None if text is None else rule_option(text)
+    if rule == "shifted" and turns:
         raise ValueError("--internal-point: got 'shifted' where the platform turns as it moves, expected another rule")
-    return rule_of_region(chosen.geometry, chosen.configuration, region, text, position)
+    if isinstance(rule, float):
+        return rule
+    return rule_of_region(chosen.geometry, chosen.configuration, region, rule, position)
 
 
 def _place(options: WorkspaceOptions, chosen: Chosen, region: Region | None) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
+from ninedof.support.command import goes_on
 from ninedof.support.store import require_run_or_nothing
 
 RUNS = Path("runs")
@@ -18,13 +19,15 @@ def run_folder(out: Path | None) -> Iterator[Path]:
     """Yield the folder of a run: `out`, which is missing, empty or that of a run to go on with, or runs/<time> here.
 
     Whether the run there has the same question is for its `Store` to say, which also makes `out`. A folder of runs/
-    in which nothing is kept is removed.
+    in which nothing is kept is removed. The command that is typed again goes on in the folder.
     """
     if out is not None:
         require_run_or_nothing(out)
+        goes_on(out)
         yield out
         return
     folder = _of_now()
+    goes_on(folder)
     try:
         yield folder
     finally:

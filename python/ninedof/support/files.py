@@ -110,7 +110,9 @@ def finite_or_nan(text: str) -> float:
 
 
 def own_or_new(name: str, path: Path, mark: str) -> None:
-    """Raise ValueError, naming the argument, for a file that exists without the mark of those that ninedof writes."""
+    """Raise ValueError, naming the argument, for a file in no folder or without the mark of those of ninedof."""
+    if not path.absolute().parent.is_dir():
+        raise ValueError(f"{name}: got {path}, expected a file in a folder that exists")
     if path.exists() and not (path.is_file() and mark.encode() in path.read_bytes()):
         raise ValueError(f"{name}: got {path}, which exists and was not written by ninedof, expected another name")
 

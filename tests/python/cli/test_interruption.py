@@ -11,7 +11,7 @@ import pytest
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.cli.commands import paper as paper_command
-from ninedof.cli.interruption import interruptible
+from ninedof.cli.ending import interruptible
 
 LOADING = """
 import signal, sys
@@ -120,16 +120,16 @@ def test_a_second_ctrl_c_ends_at_once_and_an_echo_of_the_first_does_not():
 
 SECOND = """
 import time
-from ninedof.cli import interruption
-with interruption.interruptible():
+from ninedof.cli import ending
+with ending.interruptible():
     try:
         signal.raise_signal(signal.SIGINT)
     except KeyboardInterrupt:
-        interruption.ONE_PRESS = 1000.0
+        ending.ONE_PRESS = 1000.0
         signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGTERM)
         print("saving", flush=True)
-        interruption.ONE_PRESS = -1.0
+        ending.ONE_PRESS = -1.0
         signal.raise_signal(signal.SIGINT)
         print("still here")
 """
@@ -143,46 +143,3 @@ def test_a_job_of_nohup_does_not_hear_its_terminal():
             signal.raise_signal(signal.SIGHUP)
     finally:
         signal.signal(signal.SIGHUP, before)
-
-
-AGAIN = """
-import os, signal, sys, time
-from threading import Thread
-sys.path[:] = {path}
-from ninedof.cli.app import main
-from ninedof.support import files
-from ninedof.support.store import Store
-whole, keep = files.os.replace, Store.write
-
-def kept(store, k, arrays):
-    keep(store, k, arrays)
-    if k == 1:
-        os.kill(os.getpid(), {first})
-
-def replaced(part, path):
-    if str(path).endswith("record.json"):
-        for number in (signal.SIGTERM, signal.SIGHUP) * 3:
-            os.kill(os.getpid(), number)
-            time.sleep(0.01)
-    whole(part, path)
-
-Store.write, files.os.replace = kept, replaced
-for number in (signal.SIGTERM, signal.SIGHUP):
-    signal.signal(number, signal.SIG_DFL)
-main(["pareto", "--against", "radius_ratio", "--value", "2", "--value", "3", "--value", "4", "--starts", "2",
-      "--out", "run", "--no-figures"])
-"""
-
-
-@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="needs the signals of POSIX")
-@pytest.mark.parametrize(("first", "status"), [(signal.SIGTERM, 143), (signal.SIGHUP, 129)])
-def test_signals_that_follow_do_not_end_what_the_first_one_saves(tmp_path, first, status):
-    """The record of what was solved is being written when they come."""
-    script = AGAIN.format(path=sys.path, first=int(first))
-    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.returncode == status, done.stderr
-    assert "Traceback" not in done.stderr
-    front = nd.load(tmp_path / "run")
-    assert front.interrupted
-    assert 1 <= len(front) < 3
-    assert not [file for file in (tmp_path / "run").rglob(".part-*")]

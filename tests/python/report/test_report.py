@@ -16,9 +16,8 @@ from body_volume import body_volume
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.cli.answer import Answer
+from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.app import main
-from ninedof.cli.job_report import write_job
 from ninedof.cli.screen import Screen
 from ninedof.pareto import Front
 from ninedof.pareto.limited import without_degrees
@@ -286,7 +285,7 @@ def test_a_report_that_fails_does_not_fail_the_job(tmp_path, monkeypatch, capsys
         (folder / "front.svg").write_text("<svg xmlns='http://www.w3.org/2000/svg'/>")
         return [folder / "front.svg"]
 
-    monkeypatch.setattr("ninedof.cli.job_report.report", fails)
+    monkeypatch.setattr("ninedof.cli.answer.report", fails)
     monkeypatch.setattr("ninedof.cli.commands.pareto._draw", lambda front, screen, folder: drawn(folder))
     place = tmp_path / "run"
     with pytest.raises(SystemExit) as ended:
@@ -305,7 +304,7 @@ def test_the_page_of_an_interrupted_run_does_not_outlive_it(tmp_path, monkeypatc
     def broken(folder):
         raise ValueError("no page")
 
-    monkeypatch.setattr("ninedof.cli.job_report.report", broken)
+    monkeypatch.setattr("ninedof.cli.answer.report", broken)
     (tmp_path / "report.html").write_text("interrupted")
     write_job(Screen(False), Answer([], {}), lambda draw: draw(tmp_path), None, fails)
     assert not (tmp_path / "report.html").exists()

@@ -10,6 +10,7 @@ import numpy as np
 import typer
 
 from ninedof.cli.answer import Answer
+from ninedof.cli.options import JOINT_ERROR, LEG_ERROR
 from ninedof.cli.posed import Looked, PosesOptions, at_worst
 from ninedof.statics.accuracy import MOST_SAMPLES, ErrorBounds, error_bounds, error_samples
 from ninedof.support.arguments import finite, whole
@@ -32,8 +33,8 @@ GROUPS = ("turn about", "p along", "O along")  # in the order of the components
 class AccuracyOptions(PosesOptions):
     """The options."""
 
-    leg_error: Annotated[float, typer.Option(help="Tolerance of the leg lengths.")] = 0.0
-    joint_error: Annotated[float, typer.Option(help="Tolerance of the joint centres, a radius.")] = 0.0
+    leg_error: Annotated[float, LEG_ERROR] = 0.0
+    joint_error: Annotated[float, JOINT_ERROR] = 0.0
     samples: Annotated[
         int | None, typer.Option(help="Random robots within the tolerances, without linearization, at one pose.")
     ] = None

@@ -9,8 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ninedof.cli.answer import Answer
-from ninedof.cli.job_report import write_job
+from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.options import Options, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.result import Result

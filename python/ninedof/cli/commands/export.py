@@ -60,8 +60,6 @@ def export(options: ExportOptions) -> Answer:
     file = out or Path(_stem(options.design) + row.suffix)
     if file.resolve() == Path(options.design).resolve():
         raise ValueError(f"--out: got {file}, the design itself, expected another file")
-    if not file.absolute().parent.is_dir():
-        raise ValueError(f"--out: got {file}, expected a file in a folder that exists")
     more = {key: x for key in ("leg_mass", "platform_mass", "gravity") if (x := getattr(options, key)) is not None}
     for key in more.keys() - row.options:
         what = ", ".join(map(_typed, row.options)) or "no option"

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-import typer
 
 from ninedof.cli.answer import Answer
+from ninedof.cli.options import LOAD
 from ninedof.cli.posed import Looked, PosesOptions, load_option
 from ninedof.cli.screen import bold
 from ninedof.robot.leg_names import LEGS
@@ -33,10 +33,7 @@ BALANCED = 1e-9  # of the load
 class ForcesOptions(PosesOptions):
     """The options."""
 
-    load: Annotated[
-        list[str],
-        typer.Option(help='A load "mx my mz fx fy fz" on the platform: moment about p and force. May be repeated.'),
-    ]
+    load: Annotated[list[str], LOAD]
 
 
 def forces(options: ForcesOptions) -> Answer:

@@ -11,9 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ninedof.cli.answer import Answer
-from ninedof.cli.job_report import folder_words, write_job
-from ninedof.cli.long_run import run_folder
+from ninedof.cli.answer import Answer, folder_words, write_job
 from ninedof.cli.options import JobOptions, Starts, StudyFile, Threads
 from ninedof.cli.screen import Screen, bold, exit_status
 from ninedof.design.study import Study
@@ -26,6 +24,7 @@ from ninedof.paper.comparison import Comparison, compare
 from ninedof.paper.tables import comparison_table, comparison_words
 from ninedof.proof.optimum import left_out_of
 from ninedof.records.figures import figures_of
+from ninedof.records.folder import run_folder
 from ninedof.records.record import describe_comparison, write_run
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument

@@ -9,13 +9,12 @@ from typing import Annotated
 
 import typer
 
-from ninedof.cli.answer import Answer
-from ninedof.cli.job_report import folder_words, write_job
-from ninedof.cli.long_run import run_folder
+from ninedof.cli.answer import Answer, folder_words, write_job
 from ninedof.cli.options import Options, Report, Threads
 from ninedof.cli.screen import Screen
 from ninedof.paper.tables import verdicts_table
 from ninedof.paper.verdicts import verdicts
+from ninedof.records.folder import run_folder
 from ninedof.records.record import Record, write_drawn
 from ninedof.support.arrays import thread_argument
 from ninedof.support.store import Store

@@ -10,10 +10,8 @@ from typing import Annotated, Any
 
 import typer
 
-from ninedof.cli.answer import Answer
+from ninedof.cli.answer import Answer, folder_words, write_job
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.job_report import folder_words, write_job
-from ninedof.cli.long_run import run_folder
 from ninedof.cli.options import JobOptions, Starts, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
@@ -23,6 +21,7 @@ from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limited import with_degrees
+from ninedof.records.folder import run_folder
 from ninedof.records.load import split
 from ninedof.records.record import write_run
 from ninedof.support.arrays import thread_argument

@@ -10,17 +10,16 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from ninedof.cli.answer import Answer
+from ninedof.cli.answer import Answer, folder_words, write_job
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
-from ninedof.cli.job_report import folder_words, write_job
-from ninedof.cli.long_run import run_folder
 from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, LegLimits, Three, Two
+from ninedof.cli.posed import rule_option
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.design.study import Study
 from ninedof.motion import Followed, Trajectory, follow
 from ninedof.motion.tables import legs_table, limits_table, motion_words
+from ninedof.records.folder import run_folder
 from ninedof.records.motion import plain, write_motion
-from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.path_limits import PathLimits, path_limits
@@ -167,15 +166,10 @@ def _with_weight(
 
 def _rule(text: str | None, study: Study | None) -> str | float:
     """Return the rule for O: that of the option, or of the region of a study."""
-    if text is None:
-        region = study.objective.region if study else None
-        return "carried" if region is None else region.internal_point
-    if text in RULES:
-        return text
-    try:
-        return float(text)
-    except ValueError:
-        raise ValueError(f"--internal-point: got {text!r}, expected {', '.join(RULES)} or a fraction") from None
+    if text is not None:
+        return rule_option(text)
+    region = study.objective.region if study else None
+    return "carried" if region is None else region.internal_point
 
 
 def _draw(result: Followed, screen: Screen, of_study: PathLimits | None, directory: Path) -> list[Path]:

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.options import Design, Options
+from ninedof.cli.options import JOINT_ERROR, LEG_ERROR, LEG_STIFFNESS, LOAD, Design, Options
 from ninedof.cli.posed import load_option, several
 from ninedof.cli.screen import Screen
 from ninedof.sheet.sheet import sheet as sheet_of
@@ -48,10 +48,7 @@ class SheetOptions(Options):
         typer.Option(help='A motion "wx wy wz vx vy vz": angular velocity (rad/time) and velocity of the platform.'),
     ] = None
     twist_rate: Annotated[str | None, typer.Option(help="Its time derivative, 0 by default.")] = None
-    load: Annotated[
-        list[str] | None,
-        typer.Option(help='A load "mx my mz fx fy fz" on the platform: moment about p and force. May be repeated.'),
-    ] = None
+    load: Annotated[list[str] | None, LOAD] = None
     mass: Annotated[float | None, typer.Option(help="Mass of the platform: its weight is added to each load.")] = None
     centre: Annotated[
         str | None, typer.Option(help='Its centre "x y z" in the platform frame; the origin by default.')
@@ -59,9 +56,9 @@ class SheetOptions(Options):
     gravity: Annotated[
         str | None, typer.Option(help='Force per mass "x y z", base axes; "0 0 -9.81" by default: newtons for kg.')
     ] = None
-    leg_error: Annotated[float | None, typer.Option(help="Tolerance of the leg lengths.")] = None
-    joint_error: Annotated[float | None, typer.Option(help="Tolerance of the joint centres, a radius.")] = None
-    leg_stiffness: Annotated[float | None, typer.Option(help="Stiffness of each leg, force/length.")] = None
+    leg_error: Annotated[float | None, LEG_ERROR] = None
+    joint_error: Annotated[float | None, JOINT_ERROR] = None
+    leg_stiffness: Annotated[float | None, LEG_STIFFNESS] = None
     csv: Annotated[Path | None, typer.Option(help="Write the table of the legs to this file.")] = None
 
 
@@ -69,8 +66,6 @@ def sheet(options: SheetOptions) -> None:
     """Print the engineering sheet: joints, legs, clearance, singularities and limits over the poses."""
     screen = Screen(options.json)
     if options.csv is not None:
-        if not options.csv.absolute().parent.is_dir():
-            raise ValueError(f"--csv: got {options.csv}, expected a file in a folder that exists")
         own_or_new("--csv", options.csv, MARK)
     chosen = named_design(options.design)
     vectors: dict[str, Any] = {

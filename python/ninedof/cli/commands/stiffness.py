@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-import typer
 
 from ninedof.cli.answer import Answer
+from ninedof.cli.options import LEG_STIFFNESS
 from ninedof.cli.posed import Looked, PosesOptions
 from ninedof.sheet.sheet import sheet
 from ninedof.statics.statics import stiffness as stiffness_of
@@ -34,7 +34,7 @@ ROWS = ("mx", "my", "mz", "fx", "fy", "fz")
 class StiffnessOptions(PosesOptions):
     """The options."""
 
-    leg_stiffness: Annotated[float, typer.Option(help="Stiffness of each leg, force/length.")]
+    leg_stiffness: Annotated[float, LEG_STIFFNESS]
 
 
 def stiffness(options: StiffnessOptions) -> Answer:

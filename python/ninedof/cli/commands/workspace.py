@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import typer
 
-from ninedof.cli.answer import Answer
+from ninedof.cli.answer import Answer, folder_words, write_job
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
-from ninedof.cli.job_report import folder_words, write_job
-from ninedof.cli.long_run import piece, run_folder
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.cli.workspace_figures import draw
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
 from ninedof.design.region_poses import places_o
+from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
@@ -30,6 +29,7 @@ from ninedof.workspace.region_share import region_share
 from ninedof.workspace.tables import share_words, workspace_table, workspace_words
 
 PLACE = 6
+S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)
 OF_THE_MAP = ("method", "tolerance", "resolution", "points", "seed", "index")
 EXAMPLES = """[bold]Examples[/bold]
 
@@ -66,7 +66,7 @@ def workspace(options: WorkspaceOptions) -> None:
             with screen.bar("poses", options.archetype.replace("_", " ")) as bar:
                 return find_workspace(chosen.geometry, **question.asked, **how, progress=bar.show)
 
-        result = piece(store, 0, WorkspaceMap, search)
+        result = _piece(store, 0, WorkspaceMap, search)
 
     def write(drawing: Any) -> Path:
         return write_run(result, directory, drawing, record)
@@ -80,7 +80,7 @@ def workspace(options: WorkspaceOptions) -> None:
             with screen.bar("boxes", "proving") as bar:
                 return certified_workspace(chosen.geometry, **asked, **proof, **how, progress=bar)
 
-        proved = piece(store, 1, CertifiedWorkspace, prove)
+        proved = _piece(store, 1, CertifiedWorkspace, prove)
         if result.method != "sample":
             proved = proved.with_estimate(result.volume, result.error)
         result = replace(result, certified=proved)
@@ -98,6 +98,16 @@ def workspace(options: WorkspaceOptions) -> None:
     screen.print(folder_words(directory))
     screen.data(data | {"record": str(path)})
     raise typer.Exit(INTERRUPTED if stopped else DONE if result.volume > 0.0 else NO_RESULT)
+
+
+def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -> S:
+    """Return a result that is in the store, or compute and keep it; an interrupted one is no piece."""
+    if (arrays := store.read(number)) is not None:
+        return kind._made(arrays)
+    result = compute()
+    if not result.interrupted:
+        store.keep(number, result._contents())
+    return result
 
 
 def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
