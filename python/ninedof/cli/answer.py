@@ -13,7 +13,7 @@ import typer
 from ninedof.cli.screen import DONE, Screen
 from ninedof.records.record import FILE as RECORD
 from ninedof.report.report import FILE, report
-from ninedof.support.printable import one_line
+from ninedof.support.short import one_line
 from ninedof.support.store import QUESTION
 
 Draw = Callable[[Path], Sequence[Path]]

@@ -1,7 +1,8 @@
-"""The published optimum beside ours: `compare`."""
+"""The published optimum beside ours: `compare`, its table and the remarks below."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,19 +13,18 @@ from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result
-from ninedof.paper.published import (
-    KAPPA,
-    PLATES,
-    PLATFORM_SIDE,
-    ZP,
-    published_geometry,
-    published_variables,
-    published_zs,
-    solved,
-)
+from ninedof.paper import published
+from ninedof.paper.published import KAPPA, published_geometry, published_variables, published_zs, solved
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.progress import Progress
+from ninedof.tables import RIGHT, Column, Line, Table
+
+TITLES = {
+    "published, read so that it gives 3.9110": "published\nreproduced",
+    "best with the same base and height": "same base\nand height",
+    "best with the base at most twice the platform": "base at most\n2 x platform",
+}
 
 
 @dataclass(frozen=True)
@@ -34,15 +34,19 @@ class Row:
     title: str
     variables: dict[str, float]
     condition_number: float
-    legs: tuple[float, float, float]
+    leg_lengths: dict[str, float]
     """l, q, r: by symmetry the three of a kind are equal."""
     radius_ratio: float
     """Base / platform circumradius."""
-    gain: float
-    """Per cent by which the condition number is below the published 3.9110."""
+    gain_percent: float
+    """By which the condition number is below the published 3.9110."""
     active: tuple[str, ...]
     geometry: Geometry
     configuration: Configuration
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain values, without the robot."""
+        return {name: value for name, value in vars(self).items() if name not in ("geometry", "configuration")}
 
 
 @dataclass(frozen=True)
@@ -66,9 +70,20 @@ class Comparison:
     """Why the published point is not a minimum."""
 
     def rows(self) -> tuple[Row, ...]:
-        """Return the designs found, from the published to the best."""
-        found = (self.reproduced, self.best_zs, self.same_base_and_height, self.same_class)
-        return tuple(row for row in found if row is not None)
+        """Return the designs that there are, from the published to the best."""
+        rows = (self.reproduced, self.best_zs, self.same_base_and_height, self.same_class)
+        return tuple(row for row in rows if row is not None)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the comparison as plain values."""
+        values = {"a1": published.A1, "b1": published.B1, "zp": published.ZP, "condition_number": KAPPA}
+        return {
+            "published": values,
+            "as_printed": self.as_printed,
+            "why": self.why,
+            "designs": [row.to_dict() for row in self.rows()],
+            "optimization": self.result.to_dict(),
+        }
 
 
 def compare(
@@ -87,48 +102,100 @@ def compare(
     same = solved("same base and height", threads)
     result = optimize(Study.paper(), starts=starts, seed=seed, threads=threads, progress=progress, **others)
     return Comparison(
-        reproduced=_published("published, read so that it gives 3.9110", below),
+        reproduced=_published_row("published, read so that it gives 3.9110", below),
         crossings=(below, above),
-        best_zs=_published("the same at the best zs", best_zs),
-        same_base_and_height=_found("best with the same base and height", same),
-        same_class=_found("best with the base at most twice the platform", result),
+        best_zs=_published_row("the same at the best zs", best_zs),
+        same_base_and_height=_optimum_row("best with the same base and height", same),
+        same_class=_optimum_row("best with the base at most twice the platform", result),
         as_printed=printed.condition_number or float("inf"),
         result=result,
         why=_why(best_zs, same),
     )
 
 
-def _published(title: str, zs: float) -> Row:
+def _published_row(title: str, zs: float) -> Row:
     return _row(title, published_variables(zs) | {"theta_z": 0.0}, ("a1", "b2", "radius_ratio"))
 
 
-def _found(title: str, result: Result) -> Row | None:
+def _optimum_row(title: str, result: Result) -> Row | None:
     return _row(title, result.best.variables, result.best.active) if result.best else None
 
 
 def _row(title: str, variables: dict[str, float], active: tuple[str, ...]) -> Row:
-    geometry = Geometry.hexagonal(**{name: variables[name] for name in PLATES})
-    configuration = Configuration.neutral(variables["zp"], variables["zs"], variables["theta_z"])
-    kappa = float(condition_number(geometry, configuration))
-    l, _, _, q, _, _, r, _, _ = leg_lengths(geometry, configuration).tolist()
+    g = Geometry.hexagonal(**{name: variables[name] for name in published.PLATES})
+    c = Configuration.neutral(variables["zp"], variables["zs"], variables["theta_z"])
+    kappa = float(condition_number(g, c))
+    legs = dict(zip("lqr", leg_lengths(g, c)[[0, 3, 6]].tolist(), strict=True))
     margin = Study.paper().evaluate(variables).margins["radius_ratio"]  # 1 - ratio / 2
-    ratio = 2.0 * (1.0 - margin)
-    gain = 100.0 * (1.0 - kappa / KAPPA)
-    return Row(title, variables, kappa, (l, q, r), float(ratio), gain, active, geometry, configuration)
+    ratio, gain = 2.0 * (1.0 - margin), 100.0 * (1.0 - kappa / KAPPA)
+    return Row(title, variables, kappa, legs, float(ratio), gain, active, g, c)
 
 
 def _why(best_zs: float, same: Result) -> str:
     slope = Study.paper().evaluate(published_variables(best_zs)).gradient["zp"]
     smaller = (
-        f", and a platform of side {same.best.variables['b1']:.4f} instead of {PLATFORM_SIDE:.4f} on the same base "
-        f"at the same height gives {same.best.condition_number:.4f}"
+        f", and a platform of side {same.best.variables['b1']:.4f} instead of {published.PLATFORM_SIDE:.4f} "
+        f"on the same base at the same height gives {same.best.condition_number:.4f}"
         if same.best
         else ""
     )
-    sigma = np.unique(singular_values(published_geometry(), Configuration.neutral(ZP, best_zs)).round(6))
+    sigma = np.unique(singular_values(published_geometry(), Configuration.neutral(published.ZP, best_zs)).round(6))
     ends = f"{sigma[0]:.3f} and {sigma[1]:.3f} below, {sigma[-2]:.3f} and {sigma[-1]:.3f} above"
     return (
         f"The published point is not a minimum: at zs = {best_zs:.4f} raising the platform changes the condition "
         f"number by {slope:+.3f} per l_c{smaller}. "
         f"Nor is it a kink, where a descent could jam: the singular values of J' are apart there ({ends})."
+    )
+
+
+def comparison_table(designs: Iterable[Mapping[str, Any]]) -> Table:
+    """Return the published optimum beside ours, one design per column."""
+    shown = [row for row in designs if row["title"] in TITLES]
+    heads = ["published\nas printed", *(TITLES[row["title"]] for row in shown)]
+
+    def line(label: str, printed: str, texts: Iterable[str]) -> Line:
+        return Line(label, [printed, *texts])
+
+    def pair(names: Sequence[str]) -> Iterable[str]:
+        return (", ".join(_short(row["variables"][name]) for name in names) for row in shown)
+
+    rows: list[Any] = [
+        line("base a1, a2", "0, -", pair(["a1", "a2"])),
+        line("platform b1, b2", "5.8124, -", pair(["b1", "b2"])),
+        line("base / platform", "-", (f"{row['radius_ratio']:.4f}" for row in shown)),
+        line("height zp", f"{published.ZP:.4f}", (f"{row['variables']['zp']:.4f}" for row in shown)),
+        line("height of O, zs", "-", (f"{row['variables']['zs']:.4f}" for row in shown)),
+        (),
+    ]
+    for label, leg in (("external legs l", "l"), ("upper internal q", "q"), ("lower internal r", "r")):
+        rows.append(line(label, "-", (f"{row['leg_lengths'][leg]:.4f}" for row in shown)))
+    gains = [row["gain_percent"] for row in shown]
+    rows += [
+        (),
+        line("condition number", f"{KAPPA:.4f}", (f"{row['condition_number']:.6f}" for row in shown)),
+        line("below 3.9110 by", "-", ("-" if abs(gain) < 0.005 else f"{gain:.2f} %" for gain in gains)),
+        line("limits reached", "-", ("\n".join(_active(row)) or "nothing" for row in shown)),
+    ]
+    title = "The published optimum beside ours, lengths in units of l_c"
+    return Table(title, [Column(), *(Column(head, "", RIGHT) for head in heads)], rows)
+
+
+def _active(row: Mapping[str, Any]) -> list[str]:
+    values = row["variables"]
+    return [f"{name} = {_short(values[name])}" if name in values else name for name in row["active"]]
+
+
+def _short(value: float) -> str:
+    return "0" if value == 0.0 else f"{value:.4f}"
+
+
+def comparison_words(c: Comparison) -> str:
+    """Return the remarks below the table."""
+    below, above = c.crossings
+    return (
+        f"Read with a as the base, as eqs. (37)-(38) have it, eq. (39) allows no condition number under "
+        f"{c.as_printed:.4f}: a and b are swapped, and a2, b2, zs are missing. "
+        f"With base side {published.BASE_SIDE:.4f} and platform side {published.PLATFORM_SIDE:.4f}, 3.9110 occurs at "
+        f"zs = {below:.4f} and {above:.4f}; the least along zs is {c.best_zs.condition_number:.4f} at "
+        f"{c.best_zs.variables['zs']:.4f}.\n\n{c.why}\n"
     )

@@ -1,8 +1,9 @@
-"""Every number of the paper beside ours: `verdicts`."""
+"""Every number of the paper beside ours: `verdicts` and their table."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,12 +20,12 @@ from ninedof.paper.published import (
     solved,
 )
 from ninedof.robot.configuration import Configuration
+from ninedof.tables import Column, Table
 
 TWIST = 0.05  # rad, towards a lower condition number
 
 
-@dataclass(frozen=True)
-class Verdict:
+class Verdict(NamedTuple):
     """One number or claim of the paper beside ours."""
 
     where: str
@@ -35,17 +36,17 @@ class Verdict:
 
 def verdicts(threads: int | None = None) -> tuple[Verdict, ...]:
     """Return every number of the paper beside ours, with a verdict each."""
-    found = {name: solved(name, threads) for name in STUDIES}
-    kappa = {name: r.condition_number if r.condition_number is not None else np.inf for name, r in found.items()}
+    results = {name: solved(name, threads) for name in STUDIES}
+    kappa = {name: r.condition_number if r.condition_number is not None else np.inf for name, r in results.items()}
     below, above, best_zs = published_zs()
-    same_class = found["base at most twice the platform"]
+    same_class = results["base at most twice the platform"]
     best = same_class.variables or dict.fromkeys(("a1", "a2", "b1", "b2", "zp"), np.nan)
     least = kappa["base at most twice the platform"]
     slopes = displacement_slopes(best_zs)
     moving = {name: value for name, value in slopes.items() if abs(value) > 1e-6}
     twisted = float(condition_number(published_geometry(), Configuration.neutral(ZP, best_zs, TWIST)))
     turn = float(np.degrees(TWIST))
-    open_study = found["eqs. (8)-(9) alone"]
+    open_study = results["eqs. (8)-(9) alone"]
     coupled = best["a1"] == best["b2"] == 0.0
     crossing = max(abs(kappa_at(zs) - KAPPA) for zs in (below, above)) < 5e-5
     beaten = max(kappa["same base and height"], kappa["base no larger"], least) < KAPPA - 5e-5
@@ -144,3 +145,13 @@ def _slope(name: str, value: float) -> str:
 
 def _verdict(holds: bool, yes: str, no: str) -> str:
     return yes if holds else no
+
+
+def verdicts_table(rows: Iterable[Mapping[str, str]]) -> Table:
+    """Return every number of the paper beside ours."""
+    names = ("where", "printed", "ours", "verdict")
+    lines: list[Any] = []
+    for row in rows:
+        lines += [tuple(row[name] for name in names), ()]
+    title = "The paper's numbers and ours, lengths in units of l_c"
+    return Table(title, [Column(name) for name in names], lines)

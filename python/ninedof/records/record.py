@@ -20,8 +20,7 @@ import numpy as np
 from ninedof.design.study import Study
 from ninedof.motion import Followed
 from ninedof.optimize.result import Result, result_from
-from ninedof.paper import published
-from ninedof.paper.comparison import Comparison, Row
+from ninedof.paper.comparison import Comparison
 from ninedof.pareto import Front
 from ninedof.pareto.limited import limited, without_degrees
 from ninedof.proof.optimum import FILE as CERTIFICATE
@@ -132,7 +131,7 @@ def _record_of(run: Run, question: Mapping[str, Any], results: Mapping[str, Any]
     if isinstance(run, Result):
         return Record("optimization", run.study, {"optimization": run.to_dict()})
     if isinstance(run, Comparison):
-        return Record("comparison", run.result.study, describe_comparison(run))
+        return Record("comparison", run.result.study, run.to_dict())
     if isinstance(run, Front):
         front = {**run.to_dict(), "results": [result.to_dict() for result in run.results]}
         return Record("front", run.study, {"front": front})
@@ -210,26 +209,3 @@ def _front(study: Study, record: Record) -> Front:
         value = math.radians(limit) if degrees else limit
         results.append(result_from(limited(study, plain, value if np.isfinite(value) else None), entries))
     return Front(study, **fields, limits=limits, results=tuple(results))
-
-
-def describe_comparison(c: Comparison) -> dict[str, Any]:
-    """Return the comparison with the published optimum as plain values."""
-    return {
-        "published": {"a1": published.A1, "b1": published.B1, "zp": published.ZP, "condition_number": published.KAPPA},
-        "as_printed": c.as_printed,
-        "why": c.why,
-        "designs": [_row(row) for row in c.rows()],
-        "optimization": c.result.to_dict(),
-    }
-
-
-def _row(row: Row) -> dict[str, Any]:
-    return {
-        "title": row.title,
-        "variables": row.variables,
-        "condition_number": row.condition_number,
-        "leg_lengths": dict(zip(("l", "q", "r"), row.legs, strict=True)),
-        "radius_ratio": row.radius_ratio,
-        "gain_percent": row.gain,
-        "active": list(row.active),
-    }

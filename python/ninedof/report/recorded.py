@@ -6,7 +6,7 @@ from typing import Any
 
 from ninedof.design.limits import kind_of
 from ninedof.motion.tables import legs_table, limits_table
-from ninedof.paper.tables import verdicts_table
+from ninedof.paper.verdicts import verdicts_table
 from ninedof.redundancy.rules import where_o
 from ninedof.report import origin
 from ninedof.report.page import Page

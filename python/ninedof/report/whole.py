@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from ninedof.optimize.result import Result
-from ninedof.paper.tables import comparison_table
+from ninedof.paper.comparison import comparison_table
 from ninedof.pareto import Front
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.records.certificate import certificate_file, load_certificate

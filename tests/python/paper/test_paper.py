@@ -25,14 +25,14 @@ def test_better_designs(comparison):
     assert comparison.same_base_and_height.condition_number == pytest.approx(3.7866, abs=5e-5)
     assert comparison.same_base_and_height.variables["b1"] == pytest.approx(2.3434, abs=5e-5)
     assert comparison.same_class.condition_number == pytest.approx(3.762659078596, rel=1e-11)
-    gains = [row.gain for row in comparison.rows()]
+    gains = [row.gain_percent for row in comparison.rows()]
     assert gains == sorted(gains)
 
 
 def test_rows_agree_with_the_general_path(comparison):
     for row in comparison.rows():
         assert row.condition_number == nd.condition_number(row.geometry, row.configuration)
-        assert nd.leg_lengths(row.geometry, row.configuration)[[0, 3, 6]].tolist() == list(row.legs)
+        assert nd.leg_lengths(row.geometry, row.configuration)[[0, 3, 6]].tolist() == list(row.leg_lengths.values())
 
 
 def test_why_says_it_in_two_sentences(comparison):

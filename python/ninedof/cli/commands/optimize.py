@@ -20,12 +20,11 @@ from ninedof.optimize.check import check as examine
 from ninedof.optimize.optimize import optimize as solve
 from ninedof.optimize.result import Result, Status
 from ninedof.optimize.tables import agreement_words, best_prices, candidates_table, proof_words
-from ninedof.paper.comparison import Comparison, compare
-from ninedof.paper.tables import comparison_table, comparison_words
+from ninedof.paper.comparison import Comparison, compare, comparison_table, comparison_words
 from ninedof.proof.optimum import left_out_of
 from ninedof.records.figures import figures_of
 from ninedof.records.folder import run_folder
-from ninedof.records.record import describe_comparison, write_run
+from ninedof.records.record import write_run
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
 from ninedof.support.command import ended_by_time
@@ -85,7 +84,7 @@ def optimize(options: OptimizeOptions) -> None:
         how: dict[str, Any] = {"threads": options.threads, "certify": options.certify, "time_limit": limit}
         run = _solve(study, file, how | {"out": directory}, screen)
     if isinstance(run, Comparison):
-        result, answer = run.result, Answer(_comparison_parts(run), describe_comparison(run))
+        result, answer = run.result, Answer(_comparison_parts(run), run.to_dict())
     else:
         result, answer = run, Answer(_result_parts(run), {"optimization": run.to_dict()})
     data = {**unit_entry(study.unit), **answer.data}
@@ -119,7 +118,7 @@ def _solve(study: Study, file: Path | None, how: dict[str, Any], screen: Screen)
 
 
 def _comparison_parts(comparison: Comparison) -> Iterator[Any]:
-    yield comparison_table(describe_comparison(comparison)["designs"])
+    yield comparison_table(row.to_dict() for row in comparison.rows())
     yield comparison_words(comparison)
     if comparison.result.proof is not None:
         yield bold(*proof_words(comparison.result))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -12,8 +12,7 @@ import typer
 from ninedof.cli.answer import Answer, folder_words, write_job
 from ninedof.cli.options import Options, Report, Threads
 from ninedof.cli.screen import Screen
-from ninedof.paper.tables import verdicts_table
-from ninedof.paper.verdicts import verdicts
+from ninedof.paper.verdicts import verdicts, verdicts_table
 from ninedof.records.folder import run_folder
 from ninedof.records.record import Record, write_drawn
 from ninedof.support.arrays import thread_argument
@@ -44,11 +43,11 @@ def paper(options: PaperOptions) -> None:
     if options.out is not None and not options.figures:
         raise ValueError(f"--out: got {options.out} without --figures, expected both")
     if not options.figures:
-        rows = [asdict(v) for v in verdicts(options.threads)]
+        rows = [v._asdict() for v in verdicts(options.threads)]
         screen.print(verdicts_table(rows))
     else:
         with run_folder(options.out) as directory, Store(directory, {"kind": "paper"}):
-            rows = [asdict(v) for v in verdicts(options.threads)]
+            rows = [v._asdict() for v in verdicts(options.threads)]
             write = partial(write_drawn, Record("paper", {}, {"verdicts": rows}), directory)
             write_job(screen, Answer([verdicts_table(rows)], rows), write, partial(_draw, screen), options.report)
         screen.print(folder_words(directory))
