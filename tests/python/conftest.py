@@ -2,6 +2,7 @@
 
 import functools
 import gc
+import shlex
 import signal
 
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import HealthCheck, settings
 from sizes import size
 
 import ninedof as nd
+from ninedof.cli.app import main
 
 # A job in the background ignores SIGINT, and so would the programs that tests start and interrupt.
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -55,3 +57,15 @@ def neutral():
 def stack():
     """Five configurations around the neutral one, none singular."""
     return nd.Configuration.neutral(zp=3.9828, zs=[1.9, 2.1, 2.3, 2.5, 2.7], theta_z=[0.0, 0.1, -0.2, 0.3, 0.4])
+
+
+@pytest.fixture
+def run(capsys):
+    """Run a command line here; return its exit status and what it prints on standard output and standard error."""
+
+    def run_line(line):
+        with pytest.raises(SystemExit) as end:
+            main(shlex.split(line))
+        return end.value.code, *capsys.readouterr()
+
+    return run_line

@@ -2,7 +2,6 @@
 
 import html
 import json
-import shlex
 import signal
 import subprocess
 import sys
@@ -12,15 +11,7 @@ from pathlib import Path
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import app, main
-
-
-def run(capsys, line):
-    """Run a command line in this process; return status, standard output, standard error."""
-    with pytest.raises(SystemExit) as end:
-        main(shlex.split(line))
-    captured = capsys.readouterr()
-    return end.value.code, captured.out, captured.err
+from ninedof.cli.app import app
 
 
 @pytest.fixture(autouse=True)
@@ -29,8 +20,8 @@ def _in_a_folder_of_its_own(tmp_path, monkeypatch):
     monkeypatch.setenv("COLUMNS", "100")
 
 
-def test_main_job(capsys, tmp_path):
-    status, out, _ = run(capsys, "--out run")
+def test_main_job(run, tmp_path):
+    status, out, _ = run("--out run")
     assert status == 0
     for figure in (
         "3.9110",
@@ -57,8 +48,8 @@ def test_main_job(capsys, tmp_path):
     assert set(record["files"]) == names - kept - {"record.json"}
 
 
-def test_standard_output_is_json_only(capsys):
-    status, out, err = run(capsys, "--json --no-figures --threads 1")
+def test_standard_output_is_json_only(run):
+    status, out, err = run("--json --no-figures --threads 1")
     assert status == 0
     data = json.loads(out)
     assert data["optimization"]["candidates"][0]["condition_number"] == pytest.approx(3.762659078596, rel=1e-9)
@@ -67,9 +58,9 @@ def test_standard_output_is_json_only(capsys):
     assert "3.762659" in err
 
 
-def test_starts_and_seed_reach_the_record(capsys):
+def test_starts_and_seed_reach_the_record(run):
     command = "optimize --starts 5 --seed 7 --no-figures --out run"
-    run(capsys, command)
+    run(command)
     record = json.loads(Path("run/record.json").read_text())
     assert record["study"]["solver"] == {"starts": 5, "seed": 7}
     assert record["command"] == f"ninedof {command}"
@@ -82,7 +73,7 @@ STUDIES = {
 }
 
 
-def test_a_limit_at_the_neutral_pose_is_named_on_the_screen(capsys):
+def test_a_limit_at_the_neutral_pose_is_named_on_the_screen(run):
     Path("study.toml").write_text(
         """
         [constraints]
@@ -91,35 +82,35 @@ def test_a_limit_at_the_neutral_pose_is_named_on_the_screen(capsys):
         position = [0.2, 0, 0]
         """
     )
-    status, out, _ = run(capsys, "optimize study.toml --starts 4 --no-figures --out run")
+    status, out, _ = run("optimize study.toml --starts 4 --no-figures --out run")
     assert status == 0
     assert "1 % more leg_ratio at neutral buys" in out
     line = "pareto study.toml --against 'leg_ratio at neutral' --value 1.9 --value 2.1"
-    status, out, _ = run(capsys, f"{line} --starts 4 --json --no-figures --out front")
+    status, out, _ = run(f"{line} --starts 4 --json --no-figures --out front")
     assert status == 0
     assert json.loads(out)["front"]["against"] == "leg_ratio at neutral"
-    status, _, err = run(capsys, "pareto study.toml --against 'stroke at neutral' --value 1.0")
+    status, _, err = run("pareto study.toml --against 'stroke at neutral' --value 1.0")
     assert status == 2
     assert 'stroke.at: got "neutral"' in err
 
 
 @pytest.mark.parametrize("status", STUDIES)
-def test_study_file(capsys, status):
+def test_study_file(run, status):
     text, code = STUDIES[status]
     Path("study.toml").write_text(text)
-    got, out, _ = run(capsys, "optimize study.toml --no-figures --out run")
+    got, out, _ = run("optimize study.toml --no-figures --out run")
     assert got == code
     assert status in out
     record = json.loads(Path("run/record.json").read_text())
     assert record["results"]["optimization"]["status"] == status
 
 
-def test_study_over_poses_shows_prices_and_poses(capsys):
+def test_study_over_poses_shows_prices_and_poses(run):
     Path("study.toml").write_text(
         "[constraints]\nradius_ratio = { max = 2.0 }\n[objective]\nunit = 'zp'\n"
         "[objective.box]\nhalf = [0.1, 0.0, 0.0]\n[solver]\nstarts = 8\n"
     )
-    status, out, _ = run(capsys, "study.toml --no-figures --out run")
+    status, out, _ = run("study.toml --no-figures --out run")
     assert status == 0
     text = " ".join(out.split())
     for part in (
@@ -134,21 +125,21 @@ def test_study_over_poses_shows_prices_and_poses(capsys):
     assert len(best["conditions"]) == 3
     assert best["objective"] == pytest.approx(max(best["conditions"]), rel=1e-9)
     assert "radius_ratio" in best["prices"]
-    evaluated = json.loads(run(capsys, "evaluate run --json")[1])
+    evaluated = json.loads(run("evaluate run --json")[1])
     assert evaluated["condition_number"] == pytest.approx(best["condition_number"], rel=1e-9)
 
 
-def test_a_run_never_overwrites_another(capsys):
+def test_a_run_never_overwrites_another(run):
     Path("run").mkdir()
     Path("run/mine.txt").write_text("kept")
-    status, _, err = run(capsys, "--out run --no-figures")
+    status, _, err = run("--out run --no-figures")
     assert status == 2
     assert "which holds 'mine.txt'" in err
     assert [p.name for p in Path("run").iterdir()] == ["mine.txt"]
 
 
-def test_evaluate_published_design(capsys):
-    status, out, _ = run(capsys, "evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.3745 --json")
+def test_evaluate_published_design(run):
+    status, out, _ = run("evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.3745 --json")
     data = json.loads(out)
     assert status == 0
     assert data["condition_number"] == pytest.approx(3.9110, abs=5e-5)
@@ -158,8 +149,8 @@ def test_evaluate_published_design(capsys):
     assert min(kinds.values(), key=lambda k: k["condition_number"]) == kinds["optimal"]
 
 
-def test_evaluate_a_singular_design(capsys):
-    status, out, _ = run(capsys, "evaluate --a1 1 --a2 2 --b1 0.5 --b2 1 --zp 3 --zs 1 --json")
+def test_evaluate_a_singular_design(run):
+    status, out, _ = run("evaluate --a1 1 --a2 2 --b1 0.5 --b2 1 --zp 3 --zs 1 --json")
     data = json.loads(out)
     assert status == 0
     assert data["condition_number"] == "inf"
@@ -167,21 +158,21 @@ def test_evaluate_a_singular_design(capsys):
     assert data["singular"] is True
 
 
-def test_evaluate_reads_degrees(capsys):
+def test_evaluate_reads_degrees(run):
     published = "evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4432 --json"
-    turned = json.loads(run(capsys, published + " --theta-z-deg 2.8647889756541161")[1])
+    turned = json.loads(run(published + " --theta-z-deg 2.8647889756541161")[1])
     assert turned["condition_number"] == pytest.approx(3.8819, abs=5e-5)
 
 
-def test_evaluate_the_best_design_of_a_run(capsys):
-    run(capsys, "--out run --no-figures")
-    status, out, _ = run(capsys, "evaluate run --json")
+def test_evaluate_the_best_design_of_a_run(run):
+    run("--out run --no-figures")
+    status, out, _ = run("evaluate run --json")
     assert status == 0
     assert json.loads(out)["condition_number"] == pytest.approx(3.762659078596, rel=1e-9)
 
 
-def test_paper_prints_a_verdict_on_every_number(capsys):
-    status, out, _ = run(capsys, "paper --json")
+def test_paper_prints_a_verdict_on_every_number(run):
+    status, out, _ = run("paper --json")
     rows = json.loads(out)
     assert status == 0
     assert {"eq. (7)", "eq. (39a)", "eq. (39b)", "eq. (39c)", "eq. (40)", "eq. (41)", "sec. 5"} <= {
@@ -190,7 +181,7 @@ def test_paper_prints_a_verdict_on_every_number(capsys):
     assert all(r["verdict"] for r in rows)
 
 
-def test_the_figures_of_the_paper_are_drawn_where_asked(capsys, tmp_path, monkeypatch):
+def test_the_figures_of_the_paper_are_drawn_where_asked(run, tmp_path, monkeypatch):
     """Without Figs. 6 and 7, whose sweeps have tests of their own."""
     few = {name: partial(nd.sweep_figure, name, points) for name, points in (("6", 5), ("7", 2))}
     monkeypatch.setattr("ninedof.paper.figures.sweep_figure", lambda name: few[name]())
@@ -200,7 +191,7 @@ def test_the_figures_of_the_paper_are_drawn_where_asked(capsys, tmp_path, monkey
         return [folder / f"{stem}.png"]
 
     monkeypatch.setattr("ninedof.plot.save", save)
-    status, out, err = run(capsys, "paper --figures --json --out figures")
+    status, out, err = run("paper --figures --json --out figures")
     assert status == 0
     assert "drawing Fig. 5, the plates" in err
     figures = {f"figure_{k}.png" for k in range(1, 8)}
@@ -217,13 +208,13 @@ def test_the_figures_of_the_paper_are_drawn_where_asked(capsys, tmp_path, monkey
         assert all(html.escape(cell) in page for cell in cells)
     assert "Fig. 5, the plates." in page
     assert "ninedof paper --figures --json --out figures" in page
-    assert "got the record of a run of kind paper" in run(capsys, "sheet figures")[2]
-    assert run(capsys, "paper --out other")[0] == 2
+    assert "got the record of a run of kind paper" in run("sheet figures")[2]
+    assert run("paper --out other")[0] == 2
 
 
 @pytest.mark.parametrize("line", ["--help", "optimize --help", "evaluate -h", "paper --help"])
-def test_help(capsys, line):
-    status, out, _ = run(capsys, line)
+def test_help(run, line):
+    status, out, _ = run(line)
     assert status == 0
     assert "Usage" in out
     if " " in line:
@@ -239,8 +230,8 @@ def test_every_command_has_a_row_in_the_tour():
     assert [name for name in commands if not any(f"ninedof {name}" in row for row in rows)] == []
 
 
-def test_version(capsys):
-    status, out, _ = run(capsys, "--version")
+def test_version(run):
+    status, out, _ = run("--version")
     assert status == 0
     assert out.strip().count(".") == 2
 

@@ -1,13 +1,11 @@
 """The argument DESIGN, and the commands that ask one question about a design: their numbers are the library's."""
 
 import json
-import shlex
 
 import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.cli.chosen_design import named_design
 
 STUDY = nd.Study(
@@ -32,16 +30,9 @@ LOAD = "'0 1 0 0 0 -100'"
 KAPPA = 1e-12  # relative
 
 
-def run(capsys, line):
-    with pytest.raises(SystemExit) as end:
-        main(shlex.split(line))
-    captured = capsys.readouterr()
-    return end.value.code, captured.out, captured.err
-
-
-def data_of(capsys, line, expected=0):
+def data_of(run, line, expected=0):
     """What a command says with --json, which has no literal that JSON lacks."""
-    status, out, err = run(capsys, line + " --json")
+    status, out, err = run(line + " --json")
     assert status == expected, err
 
     def refuse(literal):
@@ -57,6 +48,7 @@ def folder(tmp_path_factory):
     nd.save(nd.optimize(STUDY), place / "run")
     nd.save(nd.pareto(STUDY, "leg_ratio", values=[2.0, 2.5]), place / "front")
     (place / "design.toml").write_text(GENERAL)
+    (place / "poses.csv").write_text("t,x,y,z,yaw_deg\n0,0,0,3.6,0\n")
     return place
 
 
@@ -70,58 +62,58 @@ NAMES = ("design.toml", "run", "run/record.json", "front#2")
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_command_takes_every_name(capsys, tmp_path, name):
+def test_every_command_takes_every_name(run, tmp_path, name):
     """The same design for all of them: its condition number, leg lengths or joints say so."""
     found = nd.load(name)
     g, c, lc = found.geometry, found.configuration, found.characteristic_length
     kappa = float(nd.condition_number(g, c, lc))
-    assert data_of(capsys, f"evaluate {name}")["condition_number"] == pytest.approx(kappa, rel=KAPPA)
-    sheet = data_of(capsys, f"sheet {name}")
+    assert data_of(run, f"evaluate {name}")["condition_number"] == pytest.approx(kappa, rel=KAPPA)
+    sheet = data_of(run, f"sheet {name}")
     assert np.array(sheet["joints"]["base_external_1"]["own_frame"]) == pytest.approx(g.base_external[0])
-    followed = data_of(capsys, f"path {name} --line 0 0 0.01 --points 5 --no-figures --out {tmp_path / 'path'}")
+    followed = data_of(run, f"path {name} --line 0 0 0.01 --points 5 --no-figures --out {tmp_path / 'path'}")
     assert followed["motion"]["condition_number"]["first"] == pytest.approx(kappa, rel=KAPPA)
-    swept = data_of(capsys, f"sweep {name} --over x_p=0,0.1 --no-figures --out {tmp_path / 'sweep'}")
+    swept = data_of(run, f"sweep {name} --over x_p=0,0.1 --no-figures --out {tmp_path / 'sweep'}")
     assert swept["sweep"]["arrays"]["condition_number"][0] == pytest.approx(kappa, rel=KAPPA)
     line = f"workspace {name} --method sample --points 2000 --legs 0.1 90 --no-study-limits --no-figures"
-    assert data_of(capsys, f"{line} --out {tmp_path / 'space'}")["workspace"]["home_allowed"]
-    modes = data_of(capsys, f"modes {name}")
+    assert data_of(run, f"{line} --out {tmp_path / 'space'}")["workspace"]["home_allowed"]
+    modes = data_of(run, f"modes {name}")
     assert modes["condition_number"][modes["given_pose"] - 1] == pytest.approx(kappa, rel=1e-6)
 
 
-def test_the_numbers_of_each_command_are_those_of_its_function(capsys):
+def test_the_numbers_of_each_command_are_those_of_its_function(run):
     found = nd.load("design.toml")
     g, home = found.geometry, found.configuration
     turned = home.moved([0.0, np.radians(5.0), 0.0, 0.1, 0.0, -0.2, 0.0, 0.0, 0.0])
     held = " --position 0.1 0 3.3 --rotation-deg 0 5 0 --internal-point held"
     bounds = nd.error_bounds(g, turned, 0.01, 0.02)
-    data = data_of(capsys, f"accuracy design.toml --leg-error 0.01 --joint-error 0.02 --samples 50 {held}")
+    data = data_of(run, f"accuracy design.toml --leg-error 0.01 --joint-error 0.02 --samples 50 {held}")
     assert data["position"] == pytest.approx([bounds.position], rel=1e-9)
     assert data["rotation_deg"] == pytest.approx([np.degrees(bounds.rotation)], rel=1e-9)
     off = np.linalg.norm(nd.error_samples(g, turned, 0.01, 0.02, samples=50)[:, 3:6], axis=1)
     assert data["samples"]["position"] == pytest.approx(np.quantile(off, 0.95), rel=1e-6)
     forces = nd.leg_forces(g, turned, [0, 1, 0], [0, 0, -100]).forces
-    data = data_of(capsys, f"forces design.toml --load {LOAD} --load '0 0 0 1 0 0' {held}")
+    data = data_of(run, f"forces design.toml --load {LOAD} --load '0 0 0 1 0 0' {held}")
     assert np.array(data["forces"]).shape == (2, 1, 9)
     assert np.array(data["forces"])[0, 0] == pytest.approx(forces, rel=1e-9, abs=1e-9)
-    data = data_of(capsys, f"stiffness design.toml --leg-stiffness 2e4 {held}")
+    data = data_of(run, f"stiffness design.toml --leg-stiffness 2e4 {held}")
     assert np.array(data["stiffness"])[0] == pytest.approx(nd.stiffness(g, turned, 2e4), rel=1e-9, abs=1e-6)
     motion = [0, 0, 0.1, 0, 0, -1.0, 0, 0, 0]
     reached = nd.distance_to_singularity(g, turned, motion, most=4.0)
     text = " ".join(map(str, motion))
-    data = data_of(capsys, f"singularity design.toml --direction '{text}' --most 4 {held}")
+    data = data_of(run, f"singularity design.toml --direction '{text}' --most 4 {held}")
     assert data["distance"] == pytest.approx([reached.distance], rel=1e-9)
     assert data["at"] == [str(reached.mechanism)]
     best = nd.best_internal_point(
         g, turned.position, turned.rotation, start=turned.internal_point, **{"characteristic_length": 2.0}
     )
-    data = data_of(capsys, f"best design.toml {held}")
+    data = data_of(run, f"best design.toml {held}")
     assert data["value"] == pytest.approx([best.value], rel=1e-9)
     assert data["now"] == pytest.approx([nd.condition_number(g, turned, 2.0)], rel=1e-9)
-    data = data_of(capsys, f"modes design.toml {held}")
+    data = data_of(run, f"modes design.toml {held}")
     assert data["count"] == nd.forward_position(g, nd.leg_lengths(g, turned)).count
 
 
-def test_places_of_the_internal_point(capsys):
+def test_places_of_the_internal_point(run):
     found = nd.load("design.toml")
     home = found.configuration
     own = home.rotation.T @ (home.internal_point - home.position)
@@ -135,65 +127,65 @@ def test_places_of_the_internal_point(capsys):
         "'1 2 3'": [1, 2, 3],
     }
     for word, place in expected.items():
-        data = data_of(capsys, f"forces design.toml --load {LOAD} --internal-point {word} {at}")
+        data = data_of(run, f"forces design.toml --load {LOAD} --internal-point {word} {at}")
         assert data["poses"][0]["internal_point"] == pytest.approx(place, abs=1e-12)
         assert np.array(data["poses"][0]["rotation"]) == pytest.approx(turned, abs=1e-12)
-    assert data_of(capsys, f"forces design.toml --load {LOAD} {at}")["poses"][0]["internal_point"] == pytest.approx(
+    assert data_of(run, f"forces design.toml --load {LOAD} {at}")["poses"][0]["internal_point"] == pytest.approx(
         expected["carried"], abs=1e-12
     )
-    half = data_of(capsys, f"forces design.toml --load {LOAD} --internal-point 0.5 {at}")["poses"][0]
+    half = data_of(run, f"forces design.toml --load {LOAD} --internal-point 0.5 {at}")["poses"][0]
     below, above = found.geometry.base_internal.mean(axis=0), found.geometry.platform_internal.mean(axis=0)
     assert half["internal_point"] == pytest.approx(0.5 * (below + [0.1, 0.2, 3.4] + turned @ above), abs=1e-12)
-    placed = data_of(capsys, f"best design.toml {at}")["internal_point"][0]
-    best = data_of(capsys, f"forces design.toml --load {LOAD} --internal-point best {at}")["poses"][0]
+    placed = data_of(run, f"best design.toml {at}")["internal_point"][0]
+    best = data_of(run, f"forces design.toml --load {LOAD} --internal-point best {at}")["poses"][0]
     assert best["internal_point"] == pytest.approx(placed, abs=1e-9)
 
 
-def test_all_poses_of_a_study(capsys):
+def test_all_poses_of_a_study(run):
     result = nd.load("run")
     stack = result.configurations
-    data = data_of(capsys, f"forces run --load {LOAD} --all-poses")
+    data = data_of(run, f"forces run --load {LOAD} --all-poses")
     forces = nd.leg_forces(result.geometry, stack, [0, 1, 0], [0, 0, -100]).forces
     assert np.array(data["forces"])[0] == pytest.approx(forces, rel=1e-9, abs=1e-9)
     assert len(data["poses"]) == len(stack) == 4
     worst = max(nd.error_bounds(result.geometry, stack, 0.01).position)
-    status, out, _ = run(capsys, "accuracy run --leg-error 0.01 --all-poses")
+    status, out, _ = run("accuracy run --leg-error 0.01 --all-poses")
     assert status == 0
     assert f"{worst:.4g}" in out
     assert "4 poses of the study" in out
-    best = data_of(capsys, "best run --all-poses")
+    best = data_of(run, "best run --all-poses")
     assert all(a <= b * (1 + 1e-9) for a, b in zip(best["value"], best["now"], strict=True))
-    nearest = data_of(capsys, "singularity run --all-poses")["distance"]["position"]["nearest"]
+    nearest = data_of(run, "singularity run --all-poses")["distance"]["position"]["nearest"]
     expected = nd.nearest_singularity(result.geometry, stack, "position")
     assert nearest["distance"] == pytest.approx(expected.distance, rel=1e-9)
     assert (nearest["pose"], nearest["kind"]) == (expected.pose, str(expected.mechanism))
-    assert nearest["distance"] <= min(data_of(capsys, "singularity run")["distance"]["position"]["backward"])
+    assert nearest["distance"] <= min(data_of(run, "singularity run")["distance"]["position"]["backward"])
 
 
-def test_a_singular_design_has_words_for_infinity(capsys, folder):
+def test_a_singular_design_has_words_for_infinity(run, folder):
     (folder / "flat.toml").write_text(GENERAL.replace("zs = 1.6", "zs = 0.0").replace("-2.0, 0.1]]", "-2.0, 0.0]]"))
-    assert data_of(capsys, "accuracy flat.toml --leg-error 0.01")["position"] == ["inf"]
-    status, out, _ = run(capsys, "forces flat.toml --load '0 0 0 1 2 3'")
+    assert data_of(run, "accuracy flat.toml --leg-error 0.01")["position"] == ["inf"]
+    status, out, _ = run("forces flat.toml --load '0 0 0 1 2 3'")
     assert status == 0
     assert "singular: at some pose no leg forces balance all of load 1" in out
-    assert data_of(capsys, "singularity flat.toml")["distance"]["internal_point"]["nearest"]["distance"] == 0.0
-    data_of(capsys, "stiffness flat.toml --leg-stiffness 1")
-    data_of(capsys, "best flat.toml", expected=3)
+    assert data_of(run, "singularity flat.toml")["distance"]["internal_point"]["nearest"]["distance"] == 0.0
+    data_of(run, "stiffness flat.toml --leg-stiffness 1")
+    data_of(run, "best flat.toml", expected=3)
 
 
-def test_leg_limits_of_the_study_bound_the_best_point(capsys, folder):
+def test_leg_limits_of_the_study_bound_the_best_point(run, folder):
     study = nd.Study(constraints={"upper_length": (None, 2.4), "radius_ratio": (None, 2.0)}, starts=4)
     if not (folder / "limited").exists():
         nd.save(nd.optimize(study), folder / "limited")
-    data = data_of(capsys, "best limited --position 0.2 0 3.2")
+    data = data_of(run, "best limited --position 0.2 0 3.2")
     assert data["limits"][1][3:6] == [2.4] * 3
-    free = data_of(capsys, "best limited --position 0.2 0 3.2 --legs 0.1 99")
+    free = data_of(run, "best limited --position 0.2 0 3.2 --legs 0.1 99")
     assert free["value"][0] <= data["value"][0] * (1.0 + 1e-14)
 
 
 @pytest.mark.parametrize("command", ["accuracy", "forces", "stiffness", "singularity", "modes", "best"])
-def test_help_has_examples_that_name_a_point_of_a_front_or_a_run(capsys, command):
-    status, out, _ = run(capsys, f"{command} --help")
+def test_help_has_examples_that_name_a_point_of_a_front_or_a_run(run, command):
+    status, out, _ = run(f"{command} --help")
     assert status == 0
     assert "Examples" in out
     assert f"ninedof {command} runs/" in " ".join(out.split())
@@ -204,8 +196,8 @@ def test_help_has_examples_that_name_a_point_of_a_front_or_a_run(capsys, command
     "stiffness design.toml --leg-stiffness 123456", "singularity run --all-poses", "modes design.toml",
     "best run --all-poses", "best run --all-poses --legs 1 2",
 ])  # fmt: skip
-def test_screens_fit_80_columns(capsys, line):
-    out = run(capsys, line)[1]
+def test_screens_fit_80_columns(run, line):
+    out = run(line)[1]
     assert max(map(len, out.splitlines())) <= 80
     assert "…" not in out
 
@@ -213,13 +205,13 @@ def test_screens_fit_80_columns(capsys, line):
 # --- Sweeps of any family ---------------------------------------------------------------------------------------------
 
 
-def swept(capsys, tmp_path, line):
-    return data_of(capsys, f"sweep {line} --no-figures --out {tmp_path / 'sweep'}")["sweep"]
+def swept(run, tmp_path, line):
+    return data_of(run, f"sweep {line} --no-figures --out {tmp_path / 'sweep'}")["sweep"]
 
 
-def test_a_sweep_over_variables_of_a_symmetric_run(capsys, tmp_path):
+def test_a_sweep_over_variables_of_a_symmetric_run(run, tmp_path):
     result = nd.load("run")
-    turned = swept(capsys, tmp_path, "run --over platform_internal_angle_deg=-30,10 --index condition_number")
+    turned = swept(run, tmp_path, "run --over platform_internal_angle_deg=-30,10 --index condition_number")
     angle = np.radians([-30.0, 10.0])
     assert turned["coords"]["platform_internal_angle_deg"] == [-30.0, 10.0]
     for value, kappa in zip(angle, turned["arrays"]["condition_number"], strict=True):
@@ -227,20 +219,20 @@ def test_a_sweep_over_variables_of_a_symmetric_run(capsys, tmp_path):
         assert kappa == pytest.approx(point.condition_number, rel=1e-9)
 
 
-def test_a_sweep_over_variables_of_a_general_design_file(capsys, tmp_path):
+def test_a_sweep_over_variables_of_a_general_design_file(run, tmp_path):
     found = nd.load("design.toml")
-    moved = swept(capsys, tmp_path, "design.toml --over base_internal_1_x=1.9,2.0 --index leg_lengths")
+    moved = swept(run, tmp_path, "design.toml --over base_internal_1_x=1.9,2.0 --index leg_lengths")
     assert np.array(moved["arrays"]["leg_lengths"][0]) == pytest.approx(
         nd.leg_lengths(found.geometry, found.configuration)
     )
     assert moved["arrays"]["leg_lengths"][1][6] != moved["arrays"]["leg_lengths"][0][6]
 
 
-def test_any_index_of_the_table_can_be_swept(capsys, tmp_path):
+def test_any_index_of_the_table_can_be_swept(run, tmp_path):
     from ninedof.design.indices import INDICES
 
     indices = " ".join(f"--index {name}" for name in INDICES)
-    found = swept(capsys, tmp_path, f"front#1 --over zs=1.0,1.2 {indices}")
+    found = swept(run, tmp_path, f"front#1 --over zs=1.0,1.2 {indices}")
     assert set(found["arrays"]) == set(INDICES)
     result = nd.load("front#1")
     study = nd.Study("symmetric", objective=nd.Objective("six_legged"))
@@ -249,9 +241,9 @@ def test_any_index_of_the_table_can_be_swept(capsys, tmp_path):
         assert value == ("inf" if np.isinf(expected) else pytest.approx(expected, rel=1e-12))
 
 
-def test_names_that_no_family_of_the_design_has(capsys, tmp_path):
+def test_names_that_no_family_of_the_design_has(run, tmp_path):
     for name, over in (("run", "a1=1:2:3"), ("design.toml", "base_external_radius=1:2:3")):
-        status, _, err = run(capsys, f"sweep {name} --over {over} --out {tmp_path / 'sweep'}")
+        status, _, err = run(f"sweep {name} --over {over} --out {tmp_path / 'sweep'}")
         assert status == 2
         assert f"which {name} does not have as variables" in err
 

@@ -2,13 +2,11 @@
 
 import csv
 import json
-import shlex
 
 import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import main
 
 STUDY = """
 [design]
@@ -28,15 +26,8 @@ def _in_a_folder_of_its_own(tmp_path, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
 
 
-def run(capsys, line):
-    with pytest.raises(SystemExit) as end:
-        main(shlex.split(line))
-    captured = capsys.readouterr()
-    return end.value.code, captured.out, captured.err
-
-
-def test_a_circle_of_the_published_design(capsys, tmp_path):
-    status, out, _ = run(capsys, "path --circle 0.5 --points 101 --duration 2 --legs 2 5.2 --force 0 0 -9 --out run")
+def test_a_circle_of_the_published_design(run, tmp_path):
+    status, out, _ = run("path --circle 0.5 --points 101 --duration 2 --legs 2 5.2 --force 0 0 -9 --out run")
     assert status == 3
     assert "limit breaks: l1 high, from t = 0.159" in out
     assert "never move: q1, q2, q3" in out
@@ -61,19 +52,19 @@ def test_a_circle_of_the_published_design(capsys, tmp_path):
     assert (table == np.concatenate(columns, axis=1)).all()
 
 
-def test_a_run_with_its_limits(capsys):
+def test_a_run_with_its_limits(run):
     with open("study.toml", "w") as file:
         file.write(STUDY)
     with open("poses.csv", "w") as file:
         file.write(POSES.replace(",yaw_deg", "").replace(",0\n", "\n"))
-    assert run(capsys, "optimize study.toml --starts 4 --no-figures --out optimum")[0] == 0
-    status, out, _ = run(capsys, "path optimum poses.csv --no-figures --json --internal-point best --out along")
+    assert run("optimize study.toml --starts 4 --no-figures --out optimum")[0] == 0
+    status, out, _ = run("path optimum poses.csv --no-figures --json --internal-point best --out along")
     assert status == 0
     motion = json.loads(out)["motion"]
     assert [motion["legs"][leg]["high"] for leg in ("l1", "q1", "r1")] == [6.5, 6.5, 3.2]
     assert motion["legs"]["l1"]["low"] == 1.5
     assert motion["legs"]["r1"]["longest"] <= 3.2
-    status, out, _ = run(capsys, "path optimum poses.csv --no-figures --legs 1 2")
+    status, out, _ = run("path optimum poses.csv --no-figures --legs 1 2")
     assert status == 3
     assert "limit breaks: l1 high, from t = 0 to 1" in out
     assert "Limits of the study along the path" in out
@@ -107,12 +98,12 @@ starts = 2
 """
 
 
-def test_every_limit_of_a_run(capsys, tmp_path):
+def test_every_limit_of_a_run(run, tmp_path):
     with open("machine.toml", "w") as file:
         file.write(REGION)
-    assert run(capsys, "optimize machine.toml --no-figures --out machine")[0] == 0
+    assert run("optimize machine.toml --no-figures --out machine")[0] == 0
     line = "path machine --points 201 --mass 2 --centre 0.1 0 0 --out along"
-    status, out, _ = run(capsys, f"{line} --line 0.3 0.3 -0.3 --json")
+    status, out, _ = run(f"{line} --line 0.3 0.3 -0.3 --json")
     motion = json.loads(out)["motion"]
     assert (status, motion["breaks"], motion["internal_point"]) == (0, [], "shifted")
     rows = {row["name"]: row for row in motion["limits"]}
@@ -123,14 +114,14 @@ def test_every_limit_of_a_run(capsys, tmp_path):
     with (tmp_path / "along" / "poses.csv").open(newline="") as file:
         table = list(csv.DictReader(file))
     assert min(float(row["margin_base_cone"]) for row in table) == pytest.approx(rows["base_cone"]["margin"])
-    status, out, _ = run(capsys, f"{line}2 --line 1 0 0 --no-figures")
+    status, out, _ = run(f"{line}2 --line 1 0 0 --no-figures")
     assert status == 3
     assert "limit breaks: base_cone l" in out
     assert "°" in out
 
 
-def test_the_weight_of_a_path_is_that_of_a_force(capsys):
+def test_the_weight_of_a_path_is_that_of_a_force(run):
     line = "path --circle 0.3 --points 21 --no-figures --json"
-    heavy = json.loads(run(capsys, f"{line} --mass 2 --gravity 0 0 -10 --moment 0 1 0")[1])["motion"]["legs"]
-    forced = json.loads(run(capsys, f"{line} --force 0 0 -20 --moment 0 1 0")[1])["motion"]["legs"]
+    heavy = json.loads(run(f"{line} --mass 2 --gravity 0 0 -10 --moment 0 1 0")[1])["motion"]["legs"]
+    forced = json.loads(run(f"{line} --force 0 0 -20 --moment 0 1 0")[1])["motion"]["legs"]
     assert all(heavy[leg]["push"] == pytest.approx(forced[leg]["push"], abs=1e-12) for leg in forced)

@@ -1,24 +1,15 @@
 """`ninedof sheet` on runs and design files, and what `ninedof evaluate` says of a run's poses."""
 
 import json
-import shlex
 from pathlib import Path
 
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.records.record import load_run as load
 from ninedof.records.record import write_run
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
-
-
-def run(capsys, line):
-    with pytest.raises(SystemExit) as end:
-        main(shlex.split(line))
-    captured = capsys.readouterr()
-    return end.value.code, captured.out, captured.err
 
 
 @pytest.fixture(scope="module")
@@ -34,10 +25,10 @@ def machine(tmp_path_factory):
     return folder
 
 
-def test_the_sheet_of_a_run(capsys, machine, tmp_path, monkeypatch):
+def test_the_sheet_of_a_run(run, machine, tmp_path, monkeypatch):
     monkeypatch.setenv("COLUMNS", "120")
     line = f"sheet {machine} --csv {tmp_path / 'legs.csv'} --load '0 0 0 0,0,-10' --leg-error 0.01 --leg-stiffness 1e4"
-    status, out, _ = run(capsys, line)
+    status, out, _ = run(line)
     assert status == 0
     for words in (
         "r1, r2, r3 never move",
@@ -49,7 +40,7 @@ def test_the_sheet_of_a_run(capsys, machine, tmp_path, monkeypatch):
     ):
         assert words in out
     assert (tmp_path / "legs.csv").read_text().startswith("leg,shortest,longest,neutral,stroke,stroke_ratio,idle,")
-    status, out, _ = run(capsys, line + " --turn-deg 30 --json")
+    status, out, _ = run(line + " --turn-deg 30 --json")
     data, expected = json.loads(out), load(machine).sheet()
     assert data["motion"]["angular_speed_deg"] == pytest.approx(30.0)
     assert [leg["longest"] for leg in data["legs"]] == [leg.longest for leg in expected.legs]
@@ -57,23 +48,23 @@ def test_the_sheet_of_a_run(capsys, machine, tmp_path, monkeypatch):
     assert len(data["limits"]) == len(expected.limits) == 2
 
 
-def test_the_sheet_of_a_design_file(capsys):
-    status, out, _ = run(capsys, f"sheet {EXAMPLES / '04_design.toml'} --json")
+def test_the_sheet_of_a_design_file(run):
+    status, out, _ = run(f"sheet {EXAMPLES / '04_design.toml'} --json")
     data = json.loads(out)
     assert status == 0
     assert (len(data["poses"]), data["limits"], data["idle"]) == (1, [], [])
 
 
-def test_evaluate_shows_the_poses_and_limits_of_a_run(capsys, machine, monkeypatch):
+def test_evaluate_shows_the_poses_and_limits_of_a_run(run, machine, monkeypatch):
     monkeypatch.setenv("COLUMNS", "120")
     found = load(machine).sheet()
-    status, out, _ = run(capsys, f"evaluate {machine}")
+    status, out, _ = run(f"evaluate {machine}")
     assert status == 0
     assert f"{found.condition_number.value:.6f}" in out
     assert found.condition_number.value > load(machine).condition_number
     assert f"{found.legs[3].shortest:.4f} to {found.legs[3].longest:.4f}" in out
     assert "platform_cone" in out
-    data = json.loads(run(capsys, f"evaluate {machine} --json --lc 100")[1])
+    data = json.loads(run(f"evaluate {machine} --json --lc 100")[1])
     again = load(machine).sheet(characteristic_length=100.0)
     assert data["sheet"]["condition_number"]["value"] == again.condition_number.value
     assert data["sheet"]["limits"][0]["name"] == "leg_ratio"

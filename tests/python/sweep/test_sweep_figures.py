@@ -2,7 +2,6 @@
 
 import json
 import re
-import shlex
 import signal
 import subprocess
 import sys
@@ -210,13 +209,6 @@ def test_the_atlas_is_drawn():
 # --- The command ------------------------------------------------------------------------------------------------------
 
 
-def run(capsys, line):
-    with pytest.raises(SystemExit) as end:
-        main(shlex.split(line))
-    captured = capsys.readouterr()
-    return end.value.code, captured.out, captured.err
-
-
 @pytest.fixture
 def here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
@@ -224,8 +216,8 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_sweep_over_poses(here, capsys):
-    status, out, _ = run(capsys, "sweep --over x_p=-1:1:5 --over theta_z_deg=-30,0,30 --index leg_ratio --out run")
+def test_sweep_over_poses(here, run):
+    status, out, _ = run("sweep --over x_p=-1:1:5 --over theta_z_deg=-30,0,30 --index leg_ratio --out run")
     assert status == 0
     assert "leg ratio" in out
     names = {p.name for p in (here / "run").iterdir()}
@@ -246,8 +238,8 @@ def test_sweep_over_poses(here, capsys):
     assert found["leg_ratio"].tobytes() == expected["leg_ratio"].tobytes()
 
 
-def test_sweep_prints_json(here, capsys):
-    status, out, err = run(capsys, "sweep --over x_p=-1:1:5 --json --no-figures --out run")
+def test_sweep_prints_json(here, run):
+    status, out, err = run("sweep --over x_p=-1:1:5 --json --no-figures --out run")
     assert status == 0
     data = json.loads(out)
     summary = data["sweep"]["indices"]["condition_number"]
@@ -258,36 +250,36 @@ def test_sweep_prints_json(here, capsys):
     assert "condition number" in err
 
 
-def test_sweep_of_a_design_file_and_of_designs(here, capsys):
+def test_sweep_of_a_design_file_and_of_designs(here, run):
     Path("design.toml").write_text(
         "characteristic_length = 2.0\n[geometry]\na1 = 0.0\na2 = 6.0\nb1 = 3.0\nb2 = 0.0\n"
         "[configuration]\nzp = 4.0\nzs = 2.5\n"
     )
     line = "sweep design.toml --over z_s=2.0,2.5 --absolute --internal-point held --no-figures --json --out one"
-    data = json.loads(run(capsys, line)[1])
+    data = json.loads(run(line)[1])
     g, c = nd.Geometry.hexagonal(0.0, 6.0, 3.0, 0.0), nd.Configuration.neutral(4.0, [2.0, 2.5])
     assert data["sweep"]["arrays"]["condition_number"] == nd.condition_number(g, c, 2.0).tolist()
     line = "sweep --a1 0 --a2 6 --b1 3 --zp 4 --zs 2.5 --over b2=0:1:3 --no-figures --json --out two"
-    data = json.loads(run(capsys, line)[1])
+    data = json.loads(run(line)[1])
     assert data["sweep"]["coords"]["b2"] == [0.0, 0.5, 1.0]
-    data = json.loads(run(capsys, "sweep --over a1=0:1:3 --over b2=0:1:3 --no-figures --json --out three")[1])
+    data = json.loads(run("sweep --over a1=0:1:3 --over b2=0:1:3 --no-figures --json --out three")[1])
     assert data["sweep"]["indices"]["condition_number"]["least"]["at"] == {"a1": 0.0, "b2": 0.0}
 
 
 @pytest.mark.parametrize("figure", ["6", "7"])
-def test_the_named_figures(here, capsys, figure):
-    status, out, _ = run(capsys, f"sweep figure-{figure} --points 9 --out run")
+def test_the_named_figures(here, run, figure):
+    status, out, _ = run(f"sweep figure-{figure} --points 9 --out run")
     assert status == 0
     assert f"Fig. {figure}" in out
     assert nd.SweepResult.load("run/sweep.npz").attributes["figure"] == figure
     assert Path("run/sweep.svg").is_file()
 
 
-def test_the_atlas_command(here, capsys, monkeypatch):
+def test_the_atlas_command(here, run, monkeypatch):
     marked = []
     draw = plot.atlas
     monkeypatch.setattr(plot, "atlas", lambda result, optimum: marked.append(optimum) or draw(result, optimum))
-    status, out, _ = run(capsys, "atlas --designs 50000 --out run")
+    status, out, _ = run("atlas --designs 50000 --out run")
     assert status == 0
     assert "Best of all designs" in out
     names = {p.name for p in (here / "run").iterdir()}
@@ -302,7 +294,7 @@ def test_the_atlas_command(here, capsys, monkeypatch):
         "atlas.pdf",
     }
     np.testing.assert_allclose(marked, [(2.0, 3.762659078596)], rtol=1e-9)  # docs/values.md
-    data = json.loads(run(capsys, "atlas --designs 50000 --seed 1 --no-figures --json --out other")[1])
+    data = json.loads(run("atlas --designs 50000 --seed 1 --no-figures --json --out other")[1])
     assert data["atlas"]["designs"] == 50000
     assert {"radius_ratio", "condition_number", "design"} == set(data["atlas"]["best"][0])
 
@@ -368,27 +360,27 @@ BAD = {
 
 
 @pytest.mark.parametrize("line", BAD)
-def test_bad_input_ends_in_one_line_and_status_2(here, capsys, line):
-    status, out, err = run(capsys, line)
+def test_bad_input_ends_in_one_line_and_status_2(here, run, line):
+    status, out, err = run(line)
     assert status == 2
     assert out == ""
     assert BAD[line] in " ".join(err.split())
     assert "%" not in err or "a1=-1" in line  # no bar before the first point
     assert not list(here.iterdir())
     (here / "mine").mkdir()
-    assert run(capsys, f"{line} --out mine")[0] == 2
+    assert run(f"{line} --out mine")[0] == 2
     assert not list(here.glob("*/*"))
     assert (here / "mine").exists()
 
 
-def test_without_dask_the_error_says_what_to_install(here, capsys, monkeypatch):
+def test_without_dask_the_error_says_what_to_install(here, run, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    status, _, err = run(capsys, "sweep --over x_p=0:1:3 --scheduler tcp://127.0.0.1:1 --out run")
+    status, _, err = run("sweep --over x_p=0:1:3 --scheduler tcp://127.0.0.1:1 --out run")
     assert status == 2
     assert "pip install 'ninedof[cluster]'" in " ".join(err.split())
 
 
-def test_an_interrupted_command_is_resumed(here, capsys):
+def test_an_interrupted_command_is_resumed(here, run):
     """Ctrl-C: status 130, a message has the line to go on, which does; another question is refused."""
     line = [sys.executable, "-m", "ninedof", "sweep", "figure-7", "--points", "4001", "--out", "run", "--no-figures"]
     process = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -402,10 +394,10 @@ def test_an_interrupted_command_is_resumed(here, capsys):
     assert f"to go on, type: ninedof {' '.join(line[3:])}" in err
     kept = len(finished("run"))
     assert kept >= 1
-    status, _, err = run(capsys, "sweep figure-7 --points 5 --out run --no-figures")
+    status, _, err = run("sweep figure-7 --points 5 --out run --no-figures")
     assert status == 2
     assert "another question" in err
-    status, _, err = run(capsys, "sweep figure-7 --points 4001 --out run --no-figures")
+    status, _, err = run("sweep figure-7 --points 4001 --out run --no-figures")
     assert status == 0
 
 
