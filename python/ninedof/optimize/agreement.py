@@ -1,4 +1,4 @@
-"""What the ends of the starts say about a better optimum, in words."""
+"""The chance of a better optimum, from the ends of the starts, in words."""
 
 from __future__ import annotations
 

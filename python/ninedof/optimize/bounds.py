@@ -152,20 +152,20 @@ def applicable_bounds(result: Result) -> list[LowerBound]:
     best = instance("result", result, Result).best
     if best is None:
         raise ValueError(f"result: got one without a design ({result.status}), expected one with a design")
-    found = [
+    bounds = [
         LowerBound(
             "isotropy", 1.0, True, "no design is isotropic: the condition number stays above 1 at every finite size"
         )
     ]
     if result.proof is not None:
         sentence = result.proof.words.removeprefix("Proved: ").removesuffix(".")
-        found.append(LowerBound("certificate", result.proof.lower_bound, True, sentence))
+        bounds.append(LowerBound("certificate", result.proof.lower_bound, True, sentence))
     if result.study.family == "hexagonal":
-        found.append(_hexagonal(result.study.variables["theta_z"]))
+        bounds.append(_hexagonal(result.study.variables["theta_z"]))
     if _is_symmetric(best.geometry, best.configuration):
-        found.extend(_symmetric(best.geometry, best.configuration, best.characteristic_length))
-    known = result.lower_bound or 0.0
-    return sorted((b for b in found if b.proved or b.value > known), key=lambda bound: -bound.value)
+        bounds.extend(_symmetric(best.geometry, best.configuration, best.characteristic_length))
+    least = result.lower_bound or 0.0
+    return sorted((b for b in bounds if b.proved or b.value > least), key=lambda bound: -bound.value)
 
 
 def _hexagonal(theta_z: float | tuple[float, float]) -> LowerBound:
@@ -193,9 +193,9 @@ def _symmetric(g: Geometry, c: Configuration, length: float) -> list[LowerBound]
         shortest, longest = leg_length_bounds(g, c)
         ratio = max(float(longest.max() / shortest.min()), 1.0) * (1.0 + SLACK)
         value = planar_leg_ratio_bound(ratio) * (1.0 - SLACK)
-        said = outward(ratio, up=False, digits=4)  # legs within less stay above more
+        legs = outward(ratio, up=False, digits=4)  # legs within less stay above more
         sentence = (
-            f"no three-fold symmetric design with flat plates and legs within {said} : 1 can be under {_digits(value)}"
+            f"no three-fold symmetric design with flat plates and legs within {legs} : 1 can be under {_digits(value)}"
         )
         out.append(LowerBound("leg ratio", value, True, sentence))
     return out

@@ -119,8 +119,8 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0, *, certify: 
     Examples
     --------
     >>> import ninedof as nd
-    >>> found = nd.check(nd.optimize(nd.Study.paper()), perturbations=500)
-    >>> found.passed, found["stationarity"].passed
+    >>> verdict = nd.check(nd.optimize(nd.Study.paper()), perturbations=500)
+    >>> verdict.passed, verdict["stationarity"].passed
     (True, True)
 
     """
@@ -141,8 +141,8 @@ def _of_design(result: Result) -> Iterator[Finding]:
     point = result.solved.evaluate(best.variables)
     yield _robot(result, point)
     conditions = _conditions(point)
-    stated = np.append(np.asarray(best.conditions, dtype=np.float64), best.condition_number)
-    figure = _difference(conditions, stated) if conditions.shape == stated.shape else math.inf
+    claims = np.append(np.asarray(best.conditions, dtype=np.float64), best.condition_number)
+    figure = _difference(conditions, claims) if conditions.shape == claims.shape else math.inf
     ends = f"{conditions.min():.6f} to {conditions.max():.6f}"
     sentence = f"{len(conditions)} by the general path, {ends}: differences up to {figure:.1e}"
     allowed = EQUAL * max(1.0, float(conditions.max()))

@@ -17,7 +17,7 @@ from ninedof.design.study import Study
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.result import Candidate, Result, Status, candidate_of
-from ninedof.optimize.warm import Warm, listed, warm_starts
+from ninedof.optimize.warm import Warm, warm_starts, warm_variables
 from ninedof.proof.optimum import GAPS, OptimumProof, left_out_of, prove_optimum
 from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
 from ninedof.support.arrays import thread_argument
@@ -104,20 +104,25 @@ def optimize(
     count = thread_argument(threads)
     if flag("certify", certify):
         left_out_of(study)  # raises where no proof is known, before the work
-    given = listed(warm)
+    additional = warm_variables(warm)
     seconds = number("time_limit", time_limit)
     if not seconds > 0.0:
         raise ValueError(f"time_limit: got {shown(time_limit)}, expected seconds, more than 0")
     if out is not None:
         out = path_argument("out", out)
-        warm_starts(study, given)  # raises, before there is a folder
-    question = {"kind": "optimize", "study": study.to_dict(), "warm": [dict(one) for one in given], "proof": certify}
+        warm_starts(study, additional)  # raises, before there is a folder
+    question = {
+        "kind": "optimize",
+        "study": study.to_dict(),
+        "warm": [dict(one) for one in additional],
+        "proof": certify,
+    }
     with nullcontext() if out is None else Store(out, question, 1) as store:
         pieces = Pieces(store)
-        found = _optimized(study, count, progress, given, pieces, seconds)
-        return (
-            found if not certify or found.best is None or found.interrupted else _proved(found, count, progress, pieces)
-        )
+        result = _optimized(study, count, progress, additional, pieces, seconds)
+        if not certify or result.best is None or result.interrupted:
+            return result
+        return _proved(result, count, progress, pieces)
 
 
 def _optimized(
@@ -137,7 +142,7 @@ def _anew(
     how: dict[str, Any] = {"seed": study.seed, "threads": threads, "time_limit": time_limit}
     settings = _core.Settings(starts=study.starts, warm=warm_starts(study, warm), **how)
     begin, region = perf_counter(), study.objective.region
-    report, solved = None, study
+    report, study_at_poses = None, study
     if region is None:
         end = _core.optimize(study.problem(), settings, progress)
     else:
@@ -145,9 +150,9 @@ def _anew(
         end, over = _core.optimize_region(study.problem(True), region.for_core(), settings, progress, words)
         if end.candidates:
             report = RegionReport.from_core(over)
-            solved = report.posed(study)
+            study_at_poses = report.posed(study)
     unit = f" (lengths in {study.unit})" if end.status == Status.INFEASIBLE and study.unit else ""
-    problem = solved.problem()
+    problem = study_at_poses.problem()
     return from_core(
         Result,
         end,
@@ -166,28 +171,28 @@ def _proved(result: Result, threads: int, progress: Progress | None, pieces: Pie
     Where the proof leaves limits out, the optimum of the study without them is what it can come up to. After Ctrl-C the
     result is `interrupted`.
     """
-    study, known = result.study, float(result.condition_number)  # type: ignore[arg-type]
+    study, best = result.study, float(result.condition_number)  # type: ignore[arg-type]
     left_out = {label.removesuffix(" at neutral").removesuffix(".min") for label in left_out_of(study)}
     if left_out:
-        kept = {name: limit for name, limit in study.constraints.items() if name not in left_out}
-        relaxed = _optimized(replace(study, constraints=kept), threads, progress, listed(result), pieces)
+        others = {name: limit for name, limit in study.constraints.items() if name not in left_out}
+        relaxed = _optimized(replace(study, constraints=others), threads, progress, warm_variables(result), pieces)
         if relaxed.interrupted:
             return replace(result, interrupted=True)
-        known = min(known, relaxed.condition_number or known)
+        best = min(best, relaxed.condition_number or best)
     if progress is not None:
         phase(progress, "proving that no design is better")
 
-    def prove(known: float, gap: float) -> OptimumProof:
+    def prove(best: float, gap: float) -> OptimumProof:
         how: dict[str, Any] = {"time_limit": LONGEST, "threads": threads or None, "progress": progress}
-        return pieces.proof(lambda: prove_optimum(study, known, gap=gap, **how))
+        return pieces.proof(lambda: prove_optimum(study, best, gap=gap, **how))
 
     gap = GAPS[study.family]
-    proof = prove(known, gap)
+    proof = prove(best, gap)
     while proof.better is not None and not proof.interrupted:  # one that keeps what the proof sees of the bounds
-        known, gap = proof.better, min(max(10.0 * gap, 1e-3), 0.5)
-        if known * (1.0 - gap) <= 1.0:
+        best, gap = proof.better, min(max(10.0 * gap, 1e-3), 0.5)
+        if best * (1.0 - gap) <= 1.0:
             break  # what was proved so far is all that can be aimed at
-        proof = prove(known, gap)
+        proof = prove(best, gap)
     return replace(result, proof=proof, interrupted=proof.interrupted)
 
 

@@ -27,7 +27,7 @@ class Pieces:
     def __init__(self, store: Store | None = None) -> None:
         """Begin with the pieces of a store; without one all are computed."""
         self._store, self._next = store, 0
-        self.computed = 0
+        self.new_pieces = 0
         """Number of pieces that were not in the store."""
 
     def result(self, study: Study, compute: Callable[[], Result], time_limit: float = math.inf) -> Result:
@@ -55,7 +55,7 @@ class Pieces:
         """Return the next piece, if it was kept: those behind one that is missing are not read."""
         piece = None if self._store is None else self._store.read(self._next)
         self._next += piece is not None
-        self.computed += piece is None
+        self.new_pieces += piece is None
         return piece
 
     def _keep(self, arrays: Arrays) -> None:

@@ -1,4 +1,4 @@
-"""What is known of the best design of a region study."""
+"""The best design of a region study over its region."""
 
 from __future__ import annotations
 
@@ -67,12 +67,12 @@ class RegionReport:
     limit: str
     """The name of that limit; "" without limits."""
     mean: RegionMean | None = None
-    """Where the objective is a mean over the region."""
+    """Of an objective that is a mean over the region."""
     gain: float = math.inf
     """By how much the objective could still fall near this design, relative and to first order: it cannot be less than
     at these poses, and what passes a limit between them is paid for at its price."""
     leg_ranges: tuple[tuple[float, float], ...] = ()
-    """Where O is placed at every pose and limits compare poses: the shortest and longest length of each leg (l, q, r)
+    """If O is placed at every pose and limits compare poses: the shortest and longest length of each leg (l, q, r)
     that O keeps in all of the region."""
 
     @property
@@ -89,13 +89,13 @@ class RegionReport:
         """The report in a sentence."""
         if self.looked_at == 0:
             return f"{self._ruling} poses of the region were imposed; the design was not looked at between them"
-        passed = f"{self.limit} is passed by {-self.margin:.1e} of it"
+        verdict = f"{self.limit} is passed by {-self.margin:.1e} of it"
         if self.margin >= -PASSED:
-            passed = "no limit is passed"
+            verdict = "no limit is passed"
         average = "" if self.mean is None else f"{self.mean.words}; "
         return (
             f"{average}{self._ruling} poses of the region ruled; of {self.looked_at} looked at the worst has "
-            f"{self.objective:.6f}, and {passed}{self._ranges}"
+            f"{self.objective:.6f}, and {verdict}{self._ranges}"
         )
 
     @property
@@ -138,10 +138,10 @@ class RegionReport:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> RegionReport:
         """Return the report of a mapping as `to_dict` makes it."""
-        found = entries_of(cls, data, "region", skipped=["poses", "objective_at"])
-        listed = items("region.poses", data.get("poses"), "a list of poses")
-        poses = tuple(_pose(f"region.poses[{k}]", pose) for k, pose in enumerate(listed))
-        return cls(**found, poses=poses, objective_at=_pose("region.objective_at", data.get("objective_at")))
+        entries = entries_of(cls, data, "region", skipped=["poses", "objective_at"])
+        rows = items("region.poses", data.get("poses"), "a list of poses")
+        poses = tuple(_pose(f"region.poses[{k}]", pose) for k, pose in enumerate(rows))
+        return cls(**entries, poses=poses, objective_at=_pose("region.objective_at", data.get("objective_at")))
 
 
 def _posed(pose: _core.Pose) -> Pose:

@@ -1,4 +1,4 @@
-"""What an optimization returns: distinct local optima and how the search ended."""
+"""Results of optimizations: distinct local optima and the end of the search."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ninedof.optimize.tables import candidates_table
 from ninedof.proof.machine import certify, machine_digest
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.optimum import OptimumProof
-from ninedof.proof.placed import rule_of
+from ninedof.proof.point_rule import rule_of
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -41,7 +41,7 @@ MOST_PLACED = 200  # poses at which O is placed for the summary, a few milliseco
 
 
 class Status(StrEnum):
-    """How an optimization ended."""
+    """The end of an optimization."""
 
     OPTIMAL = "optimal"
     """Feasible and stationary by independent checks of the design."""
@@ -86,7 +86,7 @@ class Candidate:
     constraint_violation: float
     """Largest negative margin; 0 if none."""
     reached: int
-    """How many starts ended at this objective; warm starts are not counted."""
+    """Number of starts that ended at this objective; warm starts are not counted."""
 
     def __post_init__(self) -> None:
         """Make what is there by name unchangeable, as all else is."""
@@ -111,7 +111,7 @@ class _OfBest(property, Generic[T]):
 
 @dataclass(frozen=True)
 class Result:
-    """What an optimization returns. The properties of a design are those of the best candidate, or None without one."""
+    """The result of an optimization. Properties of a design are those of the best candidate, or None without one."""
 
     status: Status
     reason: str
@@ -134,7 +134,7 @@ class Result:
     region: RegionReport | None = field(default=None, kw_only=True)
     """Of a region study: what was looked at, and the worst that was found."""
     proof: OptimumProof | None = field(default=None, kw_only=True)
-    """What is proved of every design of the study, where a proof was asked for."""
+    """The proof about every design of the study, with `certify`."""
     runs_completed: int | None = field(default=None, kw_only=True)
     """Starts followed to their end in the round that found the best design, where that is known; warm starts, which are
     no evidence, are not counted."""
@@ -160,7 +160,7 @@ class Result:
 
     @property
     def agreement(self) -> str:
-        """How many starts arrived, were followed and were given up, and what may have been missed: a sentence."""
+        """Sentence on starts that arrived, were followed and given up, and on optima that they may have missed."""
         arrived = min(self.best.reached, self._completed) if self.best else 0
         return agreement_words(self._completed, arrived, self.runs_abandoned, self.status == Status.OPTIMAL)
 
@@ -190,7 +190,7 @@ class Result:
 
     @property
     def words(self) -> str:
-        """What `objective` is: that of the study, or that at a few poses of a region not looked at between them."""
+        """Name of `objective`: that of the study, or that at a few poses of a region not looked at between them."""
         if self.region is None or self.region.looked_at > 0:
             return self.study.words
         return self.study.objective.worded(self.study.unit, len(self.solved.objective.poses))
@@ -203,7 +203,7 @@ class Result:
 
     @cached_property
     def internal_points(self) -> str:
-        """Where O is at the poses of the study, and which legs never move because of it; "" with fewer than two."""
+        """Place of O at the poses of the study, and legs that never move because of it; "" with fewer than two."""
         best = self.best
         if best is None or len(self.solved.objective.poses) < 2:
             return ""
@@ -211,14 +211,14 @@ class Result:
         idle = ", ".join(idle_names(leg_lengths(best.geometry, best.configurations)))
         if not idle:
             return where
-        said = f'{where}; {idle} never move, with internal_point = "best" they would'
+        sentence = f'{where}; {idle} never move, with internal_point = "best" they would'
         poses = best.configurations[1:]
         if self.study.objective.index != "condition_number" or len(poses) > MOST_PLACED:
-            return said
-        placed = best_internal_point(
+            return sentence
+        best_points = best_internal_point(
             best.geometry, poses.position, poses.rotation, characteristic_length=best.characteristic_length
         )
-        return f"{said}: this design would have {placed.value.max():.6f} at worst, limits aside"
+        return f"{sentence}: this design would have {best_points.value.max():.6f} at worst, limits aside"
 
     def __repr__(self) -> str:
         """Show the status, and the objective and active limits of the best candidate."""
@@ -314,13 +314,13 @@ class Result:
 
 def candidate_from(problem: _core.Problem, data: Mapping[str, Any], where: str = "candidate") -> Candidate:
     """Return the candidate of a mapping as `Candidate.to_dict` makes it, with its robot and poses."""
-    known = entries_of(Candidate, data, where, skipped=ROBOT)
-    values = known["variables"]
+    entries = entries_of(Candidate, data, where, skipped=ROBOT)
+    values = entries["variables"]
     missing = [name for name in problem.names if name not in values]
     if missing:
         raise ValueError(f"{where}.variables: got none of the name {missing[0]}, expected all of the study")
     x = [finite(f"{where}.variables.{name}", values[name]) for name in problem.names]
-    return Candidate(**known, **_robot(problem, x))
+    return Candidate(**entries, **_robot(problem, x))
 
 
 def candidate_of(problem: _core.Problem, end: _core.Candidate) -> Candidate:
@@ -336,22 +336,22 @@ def _robot(problem: _core.Problem, x: Sequence[float]) -> dict[str, Any]:
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:
     """Return the result of a mapping as `Result.to_dict` makes it."""
-    known = entries_of(Result, data, skipped=["status", "candidates", "study", "region", "proof"])
+    entries = entries_of(Result, data, skipped=["status", "candidates", "study", "region", "proof"])
     region = None if data.get("region") is None else RegionReport.from_dict(data["region"])
     problem = (study if region is None else region.posed(study)).problem()
-    listed = items("candidates", data.get("candidates"), "a list of candidates")
+    rows = items("candidates", data.get("candidates"), "a list of candidates")
     return Result(
-        **known,
+        **entries,
         region=region,
         proof=None if data.get("proof") is None else OptimumProof.from_dict(data["proof"]),
         status=Status(choice("status", data.get("status"), list(Status))),
-        candidates=tuple(candidate_from(problem, entry, f"candidates[{k}]") for k, entry in enumerate(listed)),
+        candidates=tuple(candidate_from(problem, entry, f"candidates[{k}]") for k, entry in enumerate(rows)),
         study=study,
     )
 
 
-def _to_dict(found: Candidate | Result) -> dict[str, Any]:
-    return {f.name: _plain(getattr(found, f.name)) for f in fields(found) if not f.metadata.get("derived")}
+def _to_dict(record: Candidate | Result) -> dict[str, Any]:
+    return {f.name: _plain(getattr(record, f.name)) for f in fields(record) if not f.metadata.get("derived")}
 
 
 def _plain(value: Any) -> Any:

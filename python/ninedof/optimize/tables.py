@@ -15,21 +15,21 @@ MOST_FIXED = 8  # variables; of more, only the free ones are listed
 
 def candidates_table(result: Any) -> Table:
     """Return the best candidates side by side, best first."""
-    shown, study = result.candidates[:SHOWN], result.study
-    heads = ["best", *(f"no. {k}" for k in range(2, len(shown) + 1))]
+    candidates, study = result.candidates[:SHOWN], result.study
+    heads = ["best", *(f"no. {k}" for k in range(2, len(candidates) + 1))]
     rows: list[Any] = [*_index_lines(result), ()]
     for name in listed_variables(study.variables):
         if name != LENGTH:
-            values = [study.shown(name, c.variables[name]) for c in shown]
+            values = [study.shown(name, c.variables[name]) for c in candidates]
             rows.append(Line(name, values, SHORT, study.unit_of(name)))
     if study.characteristic_length != 1.0:
-        rows.append(Line("characteristic length", [c.characteristic_length for c in shown], SHORT, study.unit))
+        rows.append(Line("characteristic length", [c.characteristic_length for c in candidates], SHORT, study.unit))
     rows += [
         (),
-        Line("limits reached", [", ".join(c.active) or "nothing" for c in shown]),
-        Line("starts that ended here", [c.reached for c in shown], "d"),
-        Line("stationarity", [c.optimality_residual for c in shown], ".1e"),
-        Line("violation", [c.constraint_violation for c in shown], ".1e"),
+        Line("limits reached", [", ".join(c.active) or "nothing" for c in candidates]),
+        Line("starts that ended here", [c.reached for c in candidates], "d"),
+        Line("stationarity", [c.optimality_residual for c in candidates], ".1e"),
+        Line("violation", [c.constraint_violation for c in candidates], ".1e"),
     ]
     count = len(result.candidates)
     title = "1 local optimum" if count == 1 else f"{count} distinct local optima, best first"
@@ -44,14 +44,14 @@ def listed_variables(variables: Mapping[str, Any]) -> list[str]:
 
 def _index_lines(result: Any) -> Iterator[Line]:
     """Yield the objective and, if it differs, the condition numbers at the neutral pose and over the poses."""
-    objective, shown = result.study.objective, result.candidates[:SHOWN]
-    yield Line(result.words, [c.objective for c in shown], ".6f")
+    objective, candidates = result.study.objective, result.candidates[:SHOWN]
+    yield Line(result.words, [c.objective for c in candidates], ".6f")
     if objective.index == "condition_number" and not objective.poses and objective.region is None:
         return
-    yield Line("neutral condition number", [c.condition_number for c in shown], ".6f")
+    yield Line("neutral condition number", [c.condition_number for c in candidates], ".6f")
     if len(result.solved.objective.poses) > 1 and objective.region is None:
-        yield Line("worst over the poses", [max(c.conditions) for c in shown], ".6f")
-        yield Line("best over the poses", [min(c.conditions) for c in shown], ".6f")
+        yield Line("worst over the poses", [max(c.conditions) for c in candidates], ".6f")
+        yield Line("best over the poses", [min(c.conditions) for c in candidates], ".6f")
 
 
 def agreement_words(result: Any) -> Iterator[str]:

@@ -25,22 +25,22 @@ def warm_starts(study: Study, warm: Warm | Iterable[Warm] | None) -> Floats | No
     Fixed variables keep the study's value. A characteristic length or an offset of O that is not free in this study is
     ignored, so that the result of one study may start another.
     """
-    starts = listed(warm)
+    starts = warm_variables(warm)
     names = set(study.problem().names)
     rows = [_row(study, names, start) for start in starts]
     return np.array(rows) if rows else None
 
 
-def listed(warm: Warm | Iterable[Warm] | None) -> list[Mapping[str, float]]:
+def warm_variables(warm: Warm | Iterable[Warm] | None) -> list[Mapping[str, float]]:
     """Return the values of each start by name: a result stands for its best candidates."""
     if warm is None:
         return []
     expected = "a Result, a Candidate, a mapping of names to values, or a sequence of them"
-    given = [warm] if isinstance(warm, Result | Candidate | Mapping) else warm
-    if isinstance(given, str | bytes | bytearray | memoryview | np.ndarray) or not isinstance(given, Iterable):
+    entries = [warm] if isinstance(warm, Result | Candidate | Mapping) else warm
+    if isinstance(entries, str | bytes | bytearray | memoryview | np.ndarray) or not isinstance(entries, Iterable):
         raise ValueError(f"warm: got {shown(warm)}, expected {expected}")
     starts: list[Mapping[str, float]] = []
-    for item in given:
+    for item in entries:
         if isinstance(item, Result):
             starts.extend(c.variables for c in item.candidates[:MOST_OF_A_RESULT])
         elif isinstance(item, Candidate):
@@ -56,8 +56,8 @@ def _row(study: Study, names: set[str], start: Mapping[str, Any]) -> list[float]
     fixed = {name: bound for name, bound in study.variables.items() if not isinstance(bound, tuple)}
     try:
         start = in_radians(start, dict.fromkeys(study.angles, finite))
-        named = {n: v for n, v in start.items() if n in names or not _of_the_poses(n)}
-        return study.vector(named | {name: value for name, value in fixed.items() if name in named})
+        values = {n: v for n, v in start.items() if n in names or not _of_the_poses(n)}
+        return study.vector(values | {name: value for name, value in fixed.items() if name in values})
     except ValueError as error:
         raise ValueError(f"warm: {error}") from None
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
-from ninedof.pareto.limited import unit_of, without_degrees
+from ninedof.pareto.limits import unit_of, without_degrees
 from ninedof.support.units import unit_entry, with_unit
 from ninedof.tables import RIGHT, Column, Table
 from ninedof.tables.html import notebook
@@ -46,9 +46,9 @@ class Front:
 
     def __repr__(self) -> str:
         """Show the ends of the limit and of the objective."""
-        found = [value for value in self.objectives if not math.isnan(value)]
+        values = [value for value in self.objectives if not math.isnan(value)]
         ends = f"{self.limits[0]:.6g} to {self.limits[-1]:.6g}" if self.limits else "none"
-        words = f"{self.study.words} = {max(found):.6f} to {min(found):.6f}" if found else "no design"
+        words = f"{self.study.words} = {max(values):.6f} to {min(values):.6f}" if values else "no design"
         count = f"{len(self)} limits of {self.against}, {ends}"
         return f"<Front: {count}; {words}{', interrupted' * self.interrupted}>"
 
@@ -62,7 +62,7 @@ class Front:
 
     @property
     def limit_name(self) -> str:
-        """What prices and active limits call the limit: `against` without _deg."""
+        """The limit's name in prices and active limits: `against` without _deg."""
         return str(without_degrees(self.against)[0])
 
     @property
@@ -161,10 +161,10 @@ def _row_words(front: Front, row: Mapping[str, Any]) -> str:
     """Return what a row of the table of a front reached, or why it has no design."""
     if row["objective"] is None or row["status"] != Status.OPTIMAL:
         return f"{row['status']}: {row['reason']}"
-    reached = ", ".join(row["active"]) or "nothing"
+    active = ", ".join(row["active"]) or "nothing"
     if row["dominated"]:
-        return f"{reached} (no better than a tighter limit)"
-    return f"{reached} ({front.limit_name} without effect)" if row["price"] == 0.0 else reached
+        return f"{active} (no better than a tighter limit)"
+    return f"{active} ({front.limit_name} without effect)" if row["price"] == 0.0 else active
 
 
 class Preferred(NamedTuple):

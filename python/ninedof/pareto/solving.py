@@ -11,7 +11,7 @@ from ninedof.optimize.optimize import optimize
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import SAME, objective_of
-from ninedof.pareto.limited import limited, unit_of
+from ninedof.pareto.limits import unit_of, with_limit
 from ninedof.support.angles import degrees_of
 from ninedof.support.progress import Progress
 from ninedof.support.store import Store
@@ -20,7 +20,7 @@ from ninedof.support.units import amount
 BETTER = 1e-12  # relative: what the objective of an optimum must gain to replace another
 
 
-class Sweep:
+class FrontSolver:
     """The limits solved so far and the best result for each.
 
     Every optimization follows from those before it, so an interrupted run is continued by doing everything again with
@@ -49,13 +49,13 @@ class Sweep:
             Whether the starts are others and fewer: the limit was solved before, or is only looked at.
 
         """
-        study = limited(self.study, self.against, limit)
+        study = with_limit(self.study, self.against, limit)
         if few:
             study = study.with_solver(max(1, study.starts // 4), study.seed + 1)
-        computed = self._pieces.computed
+        before = self._pieces.new_pieces
         result = self.optimum(study, [one for one in warm if one is not None and one.candidates])
         self._solved += 1
-        if self._progress is not None and self._pieces.computed > computed:
+        if self._progress is not None and self._pieces.new_pieces > before:
             value = objective_of(result)
             self._progress(self._solved, max(self.planned, self._solved), None if math.isnan(value) else value)
         if limit is None:
@@ -98,10 +98,10 @@ class Sweep:
             if best is not None and self._is_worse(limit, best[1]):
                 self.solve(limit, [best[1]], few=True)
                 if self._is_worse(limit, best[1]):  # not an optimum of this limit
-                    study, words = limited(self.study, self.against, limit), self._words(best[0])
+                    study, words = with_limit(self.study, self.against, limit), self._words(best[0])
                     reason = f"the design found for the limit {words} is better than all found for this one"
-                    adopted = {"study": study, "status": Status.STOPPED, "reason": f"{reason}, so it is used here too"}
-                    self.results[limit] = replace(best[1], **adopted)  # type: ignore[arg-type]
+                    changes = {"study": study, "status": Status.STOPPED, "reason": f"{reason}, so it is used here too"}
+                    self.results[limit] = replace(best[1], **changes)  # type: ignore[arg-type]
             if not math.isnan(objective_of(self.results[limit])):
                 best = limit, self.results[limit]
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import objective_of
-from ninedof.pareto.limited import floor_of, own_value, value_at
-from ninedof.pareto.solving import Sweep
+from ninedof.pareto.limits import floor_of, own_value, value_at
+from ninedof.pareto.solving import FrontSolver
 
 MOST_OBJECTIVE = 3.0  # times the best objective: designs above it are ignored
 NEAR_LEAST = 1.002  # times the least condition number; at 1 only one design is left
@@ -16,7 +16,7 @@ STEPS_DOWN = 12  # halvings
 BISECTIONS, IN_REGIONS = 6, 4  # a study over a region takes seconds
 
 
-def of_a_limit(sweep: Sweep) -> tuple[float, float] | None:
+def of_a_limit(solver: FrontSolver) -> tuple[float, float] | None:
     """Return the tightest and the loosest limit to solve, or None if no design exists.
 
     The loosest limit is the value of the best design without the limit. The tightest is, to a few per cent, the least
@@ -28,55 +28,55 @@ def of_a_limit(sweep: Sweep) -> tuple[float, float] | None:
         If the study is unbounded without the limit and has no value for it: the limits then have no scale.
 
     """
-    without = sweep.solve(None)
+    without = solver.solve(None)
     if without.status == Status.INFEASIBLE:
         return None
-    high = _loosest(sweep, without)
-    best = objective_of(sweep.solve(high, [without]))
-    return None if math.isnan(best) else (_tightest(sweep, high, best), high)
+    high = _loosest(solver, without)
+    best = objective_of(solver.solve(high, [without]))
+    return None if math.isnan(best) else (_tightest(solver, high, best), high)
 
 
-def between_indices(sweep: Sweep) -> tuple[float, float] | None:
+def between_indices(solver: FrontSolver) -> tuple[float, float] | None:
     """Return the range of the condition limit: just above its least value, up to the optimum of the other index.
 
     The other index alone may be unbounded or have an optimum of extreme size, so it gets a wide condition limit.
     """
-    study = sweep.study
+    study = solver.study
     plain = replace(study.objective, index="condition_number", aggregate="worst", condition_limit=None)
-    sweep.open_ended = least = sweep.optimum(replace(study, objective=plain))
+    solver.open_ended = least = solver.optimum(replace(study, objective=plain))
     if least.status != Status.OPTIMAL or least.best is None:
         return None
     low = NEAR_LEAST * least.best.objective
-    sweep.open_ended = widest = sweep.solve(max(MOST_OBJECTIVE * low, low + 1.0), [least])
+    solver.open_ended = widest = solver.solve(max(MOST_OBJECTIVE * low, low + 1.0), [least])
     if math.isnan(objective_of(widest)) or widest.best is None:
         return None
     high = max(*widest.best.conditions, low)
-    sweep.solve(high, [widest])
+    solver.solve(high, [widest])
     return low, high
 
 
-def _loosest(sweep: Sweep, without: Result) -> float:
+def _loosest(solver: FrontSolver, without: Result) -> float:
     if not math.isnan(objective_of(without)) and without.best is not None:
-        study = replace(sweep.study, objective=without.solved.objective)
-        return max(value_at(study, sweep.against, without.best.variables), floor_of(sweep.study, sweep.against))
-    own = own_value(sweep.study, sweep.against)
+        study = replace(solver.study, objective=without.solved.objective)
+        return max(value_at(study, solver.against, without.best.variables), floor_of(solver.study, solver.against))
+    own = own_value(solver.study, solver.against)
     if own is None:
         raise ValueError(
-            f"values: got None, expected limits to sweep: without a limit on {sweep.against} the study is "
+            f"values: got None, expected limits to solver: without a limit on {solver.against} the study is "
             f"{without.status}, so none can be derived ({without.reason})"
         )
     return 4.0 * own
 
 
-def _tightest(sweep: Sweep, high: float, objective: float) -> float:
+def _tightest(solver: FrontSolver, high: float, objective: float) -> float:
     """Halve the limit until no useful design exists, then bisect for the last limit with one."""
-    in_region = sweep.study.objective.region is not None  # seconds each, and the limit is not one of the front
+    in_region = solver.study.objective.region is not None  # seconds each, and the limit is not one of the front
 
     def is_useful(limit: float, looser: float) -> bool:
-        value = objective_of(sweep.solve(limit, [sweep.results[looser]], few=in_region))
+        value = objective_of(solver.solve(limit, [solver.results[looser]], few=in_region))
         return value <= MOST_OBJECTIVE * objective  # False for NaN, which means no design
 
-    floor, good = floor_of(sweep.study, sweep.against), high
+    floor, good = floor_of(solver.study, solver.against), high
     for _ in range(STEPS_DOWN):
         bad = max(0.5 * good, floor)
         if bad >= good:

@@ -15,8 +15,8 @@ import numpy as np
 from ninedof.design.study import Study
 from ninedof.optimize.result import Status
 from ninedof.pareto.front import Front, objective_of
-from ninedof.pareto.limited import CONDITION_LIMIT, resolve, with_degrees, without_degrees
-from ninedof.pareto.solving import Sweep
+from ninedof.pareto.limits import CONDITION_LIMIT, resolve, with_degrees, without_degrees
+from ninedof.pareto.solving import FrontSolver
 from ninedof.pareto.span import BISECTIONS, between_indices, of_a_limit
 from ninedof.support.angles import degrees_of
 from ninedof.support.arguments import finite, instance, items, path_argument, shown, whole
@@ -94,63 +94,63 @@ def pareto(
     plain, degrees = without_degrees(against)
     if study.length_note:
         warnings.warn(study.length_note, stacklevel=2)
-    posed, limit = resolve(replace(study), plain)  # a copy has no note of its own
-    chosen = None if values is None else _values(values, limit, degrees)
-    begin, interrupted, limits = perf_counter(), False, chosen
-    question = {"study": posed.to_dict(), "against": limit, "values": chosen, "points": points}
+    study, limit = resolve(replace(study), plain)  # a copy has no note of its own
+    fixed = None if values is None else _values(values, limit, degrees)
+    begin, interrupted, limits = perf_counter(), False, fixed
+    question = {"study": study.to_dict(), "against": limit, "values": fixed, "points": points}
     with nullcontext() if out is None else Store(path_argument("out", out), question, 1) as store:
-        sweep = Sweep(posed, limit, threads, progress, store)
+        solver = FrontSolver(study, limit, threads, progress, store)
         try:
-            if chosen is None:
-                limits = _trace(sweep, points)
+            if fixed is None:
+                limits = _trace(solver, points)
             else:
-                sweep.both_ways(chosen)
-            sweep.repair()
+                solver.both_ways(fixed)
+            solver.repair()
         except KeyboardInterrupt:
             interrupted = True
-    solved = sorted(sweep.results if limits is None else set(limits) & set(sweep.results))
-    results = tuple(sweep.results[value] for value in solved)
-    named = tuple(degrees_of(value) if degrees else value for value in solved)
-    return Front(posed, against if degrees else limit, named, results, interrupted, perf_counter() - begin)
+    order = sorted(solver.results if limits is None else set(limits) & set(solver.results))
+    results = tuple(solver.results[value] for value in order)
+    labels = tuple(degrees_of(value) if degrees else value for value in order)
+    return Front(study, against if degrees else limit, labels, results, interrupted, perf_counter() - begin)
 
 
 def _values(values: Sequence[float], limit: str, degrees: bool) -> list[float]:
     """Return the limits in increasing order, angles in radians."""
-    listed = {finite(f"values[{k}]", value) for k, value in enumerate(items("values", values, "a sequence of limits"))}
-    if not listed or min(listed) <= 0.0:
+    limits = {finite(f"values[{k}]", value) for k, value in enumerate(items("values", values, "a sequence of limits"))}
+    if not limits or min(limits) <= 0.0:
         raise ValueError(f"values: got {shown(values)}, expected one or more limits above 0")
-    if not degrees and with_degrees(limit) != limit and max(listed) > math.pi:
+    if not degrees and with_degrees(limit) != limit and max(limits) > math.pi:
         in_degrees = f'degrees are given with against="{with_degrees(limit)}"'
-        raise ValueError(f"values: got {max(listed):g} radians, expected at most pi ({in_degrees})")
-    return sorted(math.radians(value) if degrees else value for value in listed)
+        raise ValueError(f"values: got {max(limits):g} radians, expected at most pi ({in_degrees})")
+    return sorted(math.radians(value) if degrees else value for value in limits)
 
 
-def _trace(sweep: Sweep, count: int) -> list[float]:
+def _trace(solver: FrontSolver, count: int) -> list[float]:
     """Find the range, solve evenly spaced limits, then halve the widest gaps."""
-    sweep.planned = 4 + BISECTIONS
-    ends = between_indices(sweep) if sweep.against == CONDITION_LIMIT else of_a_limit(sweep)
+    solver.planned = 4 + BISECTIONS
+    ends = between_indices(solver) if solver.against == CONDITION_LIMIT else of_a_limit(solver)
     if ends is None:  # one row with the reason: the study without the limit
-        assert sweep.open_ended is not None
-        sweep.results[math.inf] = sweep.open_ended
+        assert solver.open_ended is not None
+        solver.results[math.inf] = solver.open_ended
         return [math.inf]
     low, high = ends
     first = max(2, round(FIRST * count))
     limits = [low, *np.geomspace(low, high, first)[1:-1].tolist(), high] if high > low * (1.0 + 1e-6) else [high]
-    sweep.both_ways(limits)
-    while 1 < len(limits) < count and (gap := _widest(sweep, limits)) is not None:
-        limits = sorted([*limits, sweep.between(*gap)])
-    below = max((value for value in sweep.results if value < low), default=None)
-    is_edge = below is not None and sweep.results[below].status == Status.INFEASIBLE
+    solver.both_ways(limits)
+    while 1 < len(limits) < count and (gap := _widest(solver, limits)) is not None:
+        limits = sorted([*limits, solver.between(*gap)])
+    below = max((value for value in solver.results if value < low), default=None)
+    is_edge = below is not None and solver.results[below].status == Status.INFEASIBLE
     return [below, *limits] if below is not None and is_edge else limits
 
 
-def _widest(sweep: Sweep, limits: Sequence[float]) -> tuple[float, float] | None:
+def _widest(solver: FrontSolver, limits: Sequence[float]) -> tuple[float, float] | None:
     """Return the neighbours farthest apart in limit and objective, each relative to its range; None if all are close.
 
     Gaps in the objective have three times the weight: steep parts get more points.
     """
     points = np.array(
-        [(limit, value) for limit in limits if not math.isnan(value := objective_of(sweep.results[limit]))]
+        [(limit, value) for limit in limits if not math.isnan(value := objective_of(solver.results[limit]))]
     )
     if len(points) < 2:
         return None

@@ -176,12 +176,12 @@ def hexagonal_condition_number_bounds(
     (array([3.911 , 3.9071]), True)
 
     """
-    given = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
-    columns = {name: (without_infinity(name, as_floats(name, value, ())), 0) for name, value in given.items()}
+    numbers = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
+    columns = {name: (without_infinity(name, as_floats(name, value, ())), 0) for name, value in numbers.items()}
     shape, arrays = broadcast_leading(columns)
     designs = np.stack([array.reshape(-1) for array in arrays], axis=-1)
-    found = _core.hexagonal_condition_number_bounds(designs, thread_argument(threads))
-    return _split(found, shape, ())
+    rows = _core.hexagonal_condition_number_bounds(designs, thread_argument(threads))
+    return _split(rows, shape, ())
 
 
 def singular_value_bounds(
@@ -218,8 +218,8 @@ def leg_length_bounds(geometry: Geometry, configuration: Configuration, threads:
     Parameters as in `condition_number_bounds`. Arrays of shape (..., 9) in the order of `leg_lengths`, a few units in
     the last place apart.
     """
-    found = _core.leg_length_bounds(*operands(geometry, configuration), thread_argument(threads))
-    return _split(found, configuration.shape, (9,))
+    rows = _core.leg_length_bounds(*operands(geometry, configuration), thread_argument(threads))
+    return _split(rows, configuration.shape, (9,))
 
 
 def determinant_bounds(
@@ -230,8 +230,8 @@ def determinant_bounds(
     Parameters as in `condition_number_bounds`. Two poses of one robot with proved opposite signs have a singularity
     between them, on every path.
     """
-    found = _core.determinant_bounds(*operands(geometry, configuration), thread_argument(threads))
-    lower, upper = _split(found, configuration.shape, (3,))
+    rows = _core.determinant_bounds(*operands(geometry, configuration), thread_argument(threads))
+    lower, upper = _split(rows, configuration.shape, (3,))
     return DeterminantBounds(*(Bounds(lower[..., k], upper[..., k]) for k in range(3)))
 
 
@@ -243,13 +243,12 @@ def _at_poses(
     length: ArrayLike | str,
     threads: int | None,
 ) -> Bounds:
-    given = operands_and_length(geometry, configuration, length)
-    found = getattr(_core, name)(*given, thread_argument(threads))
-    return _split(found, configuration.shape, tail)
+    rows = getattr(_core, name)(*operands_and_length(geometry, configuration, length), thread_argument(threads))
+    return _split(rows, configuration.shape, tail)
 
 
-def _split(found: Floats, shape: tuple[int, ...], tail: tuple[int, ...]) -> Bounds:
+def _split(rows: Floats, shape: tuple[int, ...], tail: tuple[int, ...]) -> Bounds:
     """Return rows (n, 2 columns) of lower, then upper bounds apart, each of shape (*shape, *tail)."""
-    both = found.reshape(len(found), 2, math.prod(tail))
+    both = rows.reshape(len(rows), 2, math.prod(tail))
     lower, upper = (np.ascontiguousarray(both[:, k]).reshape((*shape, *tail))[()] for k in range(2))
     return Bounds(lower, upper)

@@ -13,8 +13,7 @@ from ninedof.design.limits import label
 from ninedof.design.region import Region
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
-from ninedof.proof.machine_limits import met_at, proved_limits
-from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate
+from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate, ProofPose
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -23,7 +22,7 @@ from ninedof.support.arrays import MOST_THREADS as MOST
 from ninedof.support.files import sha256
 from ninedof.support.margins import margin_of
 from ninedof.support.progress import Progress, phase
-from ninedof.support.structs import options_of
+from ninedof.support.structs import from_core, options_of
 
 
 class CertifyOptions(TypedDict, total=False):
@@ -89,12 +88,15 @@ def certify(
         For a bad argument.
 
     """
-    given = options_of("certify", CertifyOptions, options, gap=0.05, time_limit=300.0, tolerance=1e-6, threads=0)
+    values = options_of("certify", CertifyOptions, options, gap=0.05, time_limit=300.0, tolerance=1e-6, threads=0)
     region = study.objective.region
-    gap, seconds = finite("gap", given["gap"], 1e-9), finite("time_limit", given["time_limit"], 0.0)
-    tolerance, threads = finite("tolerance", given["tolerance"], 0.0, 0.01), whole("threads", given["threads"], 0, MOST)
-    resume, progress, keep = given["resume"], given["progress"], given["keep"]
-    if (condition_number := given["condition_number"]) is not None:
+    gap, seconds = finite("gap", values["gap"], 1e-9), finite("time_limit", values["time_limit"], 0.0)
+    tolerance, threads = (
+        finite("tolerance", values["tolerance"], 0.0, 0.01),
+        whole("threads", values["threads"], 0, MOST),
+    )
+    resume, progress, keep = values["resume"], values["progress"], values["keep"]
+    if (condition_number := values["condition_number"]) is not None:
         condition_number = finite("condition_number", condition_number, 1.0)
     if resume is not None:
         instance("resume", resume, MachineCertificate)
@@ -109,45 +111,46 @@ def certify(
     if resume is not None and resume.machine != digest:
         raise ValueError("resume: got a certificate of another machine, expected one of this machine")
     begin = perf_counter()
-    followed = _rule(region, configurations[0], given["rule"], resume)
+    rule = _rule(region, configurations[0], values["rule"], resume)
     end = perf_counter() + seconds  # finding a rule does not count for the time limit
     over = None if region is None else region.for_core()
-    by_rule = None if followed is None else followed.for_core()
+    by_rule = None if rule is None else rule.for_core()
 
-    def posed(at: Configuration, *where: Any) -> _core.PosedRobot:
+    def robot(at: Configuration, *where: Any) -> _core.PosedRobot:
         return _core.PosedRobot(geometry, at, float(characteristic_length), *where)
 
     def settings(bounds: list[float]) -> _core.ConditionSettings:
-        left = end - perf_counter()
-        return _core.ConditionSettings(threads=threads, seconds=left, gap=gap, wanted=bounds, tolerance=tolerance)
+        remaining = end - perf_counter()
+        return _core.ConditionSettings(threads=threads, seconds=remaining, gap=gap, wanted=bounds, tolerance=tolerance)
 
     phase(progress, "proving the limits")
     alone = configurations[[0, 0]]
-    machine = posed(alone if only_neutral else configurations, over, by_rule)
-    limits, lengths = proved_limits(study, machine, only_neutral, tolerance, threads, seconds)
+    machine = robot(alone if only_neutral else configurations, over, by_rule)
+    over_poses = _core.limits_over_poses(machine, study.problem(), tolerance, threads, seconds)
+    limits = [_limit_proof(limit, only_neutral) for limit in over_poses.limits]
 
     phase(progress, "proving the condition number")
     objective = study.objective
     bounds = {"condition_limit": objective.condition_limit, "condition_number": condition_number}
-    wanted = {name: bound for name, bound in bounds.items() if bound is not None}
+    limits_of_index = {name: bound for name, bound in bounds.items() if bound is not None}
     at_neutral = []
     if (bound := objective.neutral_condition_limit) is not None:
         of_neutral = _core.search_condition(
-            posed(alone, None, None), settings([bound]), _core.ConditionState(), None, None
+            robot(alone, None, None), settings([bound]), _core.ConditionState(), None, None
         )
         if of_neutral.interrupted:
             raise KeyboardInterrupt
         at_neutral.append(_condition_proof(label("condition_limit", "neutral"), bound, of_neutral, True, tolerance))
 
-    def made(state: _core.ConditionState, interrupted: bool) -> MachineCertificate:
-        of_condition = [_condition_proof(*bound, state, only_neutral, tolerance) for bound in wanted.items()]
+    def certificate(state: _core.ConditionState, interrupted: bool) -> MachineCertificate:
+        of_condition = [_condition_proof(*bound, state, only_neutral, tolerance) for bound in limits_of_index.items()]
         return MachineCertificate(
             where=_where(study, only_neutral),
             unit=study.unit,
             limits=(*limits, *of_condition, *at_neutral),
-            lengths=lengths,
+            lengths=over_poses.lengths,
             condition=(state.low, state.high),
-            condition_at=met_at(state.at, only_neutral),
+            condition_at=_proof_pose(state.at, only_neutral),
             condition_boxes=state.boxes,
             left=tuple(map(tuple, state.left)),
             left_count=state.left_count,
@@ -155,13 +158,15 @@ def certify(
             tolerance=tolerance,
             seconds=perf_counter() - begin,
             interrupted=interrupted,
-            rule=followed,
+            rule=rule,
             machine=digest,
         )
 
-    kept = None if keep is None else lambda state: keep(made(state, True))
-    state = _core.search_condition(machine, settings(list(wanted.values())), _state_of(resume), kept, progress)
-    return made(state, state.interrupted)
+    keep_state = None if keep is None else lambda state: keep(certificate(state, True))
+    state = _core.search_condition(
+        machine, settings(list(limits_of_index.values())), _state_of(resume), keep_state, progress
+    )
+    return certificate(state, state.interrupted)
 
 
 def machine_digest(
@@ -187,13 +192,12 @@ def _state_of(earlier: MachineCertificate | None) -> _core.ConditionState:
 def _rule(
     region: Region | None,
     neutral: Configuration,
-    given: PointRule | Callable[[], PointRule] | None,
+    option: PointRule | Callable[[], PointRule] | None,
     resume: MachineCertificate | None,
 ) -> PointRule | None:
     """Return the rule that O follows, if it follows one."""
-    placed = region is not None and not places_o(region)
-    if not placed:
-        if given is not None:
+    if region is None or places_o(region):
+        if option is not None:
             raise ValueError(
                 'rule: got one, expected none: O follows a rule where internal_point is "best" in a region'
             )
@@ -201,16 +205,27 @@ def _rule(
     earlier = None if resume is None else resume.rule
     if resume is not None and earlier is None:
         raise ValueError("resume: got a certificate without a rule for O, expected one with it")
-    if isinstance(given, PointRule) and earlier is not None and given != earlier:
+    if isinstance(option, PointRule) and earlier is not None and option != earlier:
         raise ValueError("rule: got another one than that of the certificate to go on with, expected the same")
-    if given is None and earlier is None:
+    if option is None and earlier is None:
         raise ValueError('rule: got none, expected one that says where O is: internal_point is "best" in the region')
-    rule = earlier or (given() if callable(given) and not isinstance(given, PointRule) else given)
+    rule = earlier or (option() if callable(option) and not isinstance(option, PointRule) else option)
     if not isinstance(rule, PointRule):
         raise ValueError(f"rule: got {shown(rule)}, expected a PointRule")
     if not rule.about(neutral):
         raise ValueError("rule: got one about another neutral pose, expected that of the design")
     return rule
+
+
+def _limit_proof(limit: _core.LimitOverPoses, only_neutral: bool) -> LimitProof:
+    margin = float(margin_of(limit.kind, limit.side, limit.limit, limit.value[limit.side == "max"]))
+    poses = tuple(_proof_pose(at, only_neutral or limit.at_neutral) for at in limit.at)
+    return from_core(LimitProof, limit, margin=margin, at=poses)
+
+
+def _proof_pose(at: _core.MetAt, neutral: bool) -> ProofPose:
+    """Return the pose of an extreme value; listed ones are counted from 1, and the neutral one alone is 0."""
+    return ProofPose(at.shift, at.tilt, at.yaw, None if at.pose < 0 else 0 if neutral else at.pose + 1)
 
 
 def _condition_proof(
@@ -220,14 +235,14 @@ def _condition_proof(
     edge = limit * (1.0 + tolerance)
     answer = PROVED if high <= edge else VIOLATED if low > edge else UNDECIDED
     margin = float(margin_of("ratio", "max", limit, high))
-    at = (met_at(state.at, only_neutral),)
+    at = (_proof_pose(state.at, only_neutral),)
     return LimitProof(name, "ratio", "max", limit, answer, (low, high), margin, "", at, state.boxes)
 
 
 def _where(study: Study, only_neutral: bool) -> str:
     objective = study.objective
     count = len(objective.poses)
-    listed = f"{count} listed pose{'s' * (count != 1)}"
+    poses = f"{count} listed pose{'s' * (count != 1)}"
     if objective.region is not None:
-        return objective.region.worded(study.unit) + (f" and of {listed}" if count else "")
-    return "the study, the neutral one" if only_neutral else f"the study, {listed}"
+        return objective.region.worded(study.unit) + (f" and of {poses}" if count else "")
+    return "the study, the neutral one" if only_neutral else f"the study, {poses}"

@@ -1,4 +1,4 @@
-"""What is proved of a machine: its limits one by one, in words and as plain values."""
+"""The certificate of a machine: its limits one by one, in words and as plain values."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PROVED, VIOLATED, UNDECIDED = "proved", "violated", "undecided"
 
 
 @dataclass(frozen=True)
-class Met:
+class ProofPose:
     """A pose: a listed one, counted from 1, or shifts and turns from the neutral one."""
 
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -30,8 +30,8 @@ class Met:
 
     def for_core(self) -> _core.MetAt:
         """Return the pose as the core counts poses."""
-        listed = -1 if self.listed is None else max(self.listed - 1, 0)
-        return _core.MetAt(shift=self.shift, tilt=self.tilt, yaw=self.yaw, pose=listed)
+        number = -1 if self.listed is None else max(self.listed - 1, 0)
+        return _core.MetAt(shift=self.shift, tilt=self.tilt, yaw=self.yaw, pose=number)
 
     def worded(self, unit: str = "") -> str:
         """Return the pose in words, angles in degrees."""
@@ -65,11 +65,11 @@ class LimitProof:
     value: tuple[float, float]
     """The worst value over all poses is in here, rigorously; one end was met at a pose."""
     margin: float
-    """What is proved to be left of the limit, as `margin_of`: negative where the limit is not proved."""
+    """The least margin of the limit, proved, as `margin_of`: negative where the limit is not proved."""
     which: str
     """The leg, pair of legs or determinant that is worst."""
-    at: tuple[Met, ...]
-    """Where the worst value was met; of a stroke where the leg is longest and where it is shortest."""
+    at: tuple[ProofPose, ...]
+    """The pose of the worst value; of a stroke where the leg is longest and where it is shortest."""
     boxes: int
 
     def shown(self, value: float) -> float:
@@ -86,17 +86,17 @@ class LimitProof:
 
     def outward(self, value: float, up: bool, digits: int) -> str:
         """Return a value as it is shown, rounded up or down."""
-        shown = self.shown(value)
+        size = self.shown(value)
         up, digits = flag("up", up), whole("digits", digits, 1, 400)
         if self.kind == "angle" and value != 0.0:  # less than two units in the last place from the exact degrees
             for _ in range(2):
-                shown = math.nextafter(shown, math.inf if up else -math.inf)
-        return outward(shown, up, digits)
+                size = math.nextafter(size, math.inf if up else -math.inf)
+        return outward(size, up, digits)
 
 
 @dataclass(frozen=True)
 class MachineCertificate:
-    """What is proved of a design at every pose it is made for."""
+    """Proved statements about a design at every pose it is made for."""
 
     where: str
     """The poses in words."""
@@ -107,7 +107,7 @@ class MachineCertificate:
     """Every leg (l, q, r) stays between these lengths."""
     condition: tuple[float, float]
     """The worst condition number over all poses is in here; the first was met, the second is proved."""
-    condition_at: Met
+    condition_at: ProofPose
     condition_boxes: int
     left: tuple[tuple[float, ...], ...]
     """Boxes of poses where the condition number is not proved to be below `target`; empty if it is, or too many."""
@@ -119,7 +119,7 @@ class MachineCertificate:
     seconds: float
     interrupted: bool = False
     rule: PointRule | None = None
-    """Where O is, if the study places it anew at every pose of a region: all of this is proved of O placed by it."""
+    """The rule for O, if a region places it anew at every pose: all of this is proved of O placed by it."""
     machine: str = ""
     """Digest of the machine and its poses: another run goes on with the certificate of the same machine only."""
 
@@ -150,14 +150,14 @@ class MachineCertificate:
                 "What is proved holds for this rule. With O placed for the least condition number, that is at no "
                 "pose larger.",
             )
-        proved = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
+        names = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
         if self.limits and self.limits[0].answer == PROVED:
             out.append(
                 "Proved: none of these poses is singular, and the machine never leaves its side of a singularity."
             )
-        if proved:
-            limits = "the limit" if len(proved) == 1 else "the limits"
-            out.append(f"Proved, up to {self.tolerance:g} of each: {limits} {', '.join(proved)}.")
+        if names:
+            limits = "the limit" if len(names) == 1 else "the limits"
+            out.append(f"Proved, up to {self.tolerance:g} of each: {limits} {', '.join(names)}.")
         if self.condition[0] > 0.0:
             out.append(
                 f"The worst condition number met is {outward(self.condition[0], False)}, at "
@@ -175,7 +175,7 @@ class MachineCertificate:
             ends = [limit.outward(x, up, 9) for x, up in zip(limit.value, (False, True), strict=True)]
             size = [amount(end, limit.unit(self.unit)) for end in ends]
             if limit.answer == VIOLATED:
-                poses = [met.worded(self.unit) for met in limit.at]
+                poses = [pose.worded(self.unit) for pose in limit.at]
                 at = f" at {poses[0]}" if len(poses) == 1 else f" between {' and '.join(poses)}" if poses else ""
                 by = "" if self.rule is None else " by the rule"
                 out.append(f"Violated{by}: {name}: {size[limit.side == 'min']}{at}.")

@@ -19,7 +19,7 @@ from ninedof.support.structs import entries_of, from_core
 
 FILE = "optimum.certificate"
 GAPS = {"hexagonal": 1e-12, "symmetric": 1e-6}
-"""What is aimed at: of hexagons five numbers matter, of other symmetric designs seven."""
+"""Relative gaps to prove: of hexagons five numbers matter, of other symmetric designs seven."""
 MOST_BOXES = 100_000_000  # a gigabyte of tree, some five minutes
 PLAIN = ("lower_bound", "target", "complete", "boxes", "open", "seconds", "better", "interrupted")
 
@@ -32,7 +32,7 @@ class OptimumProof:
     lower_bound: float
     """No design of the study has a condition number below it, at the neutral pose."""
     target: float
-    """What was to be proved; `lower_bound` if the search came to its end."""
+    """The bound to be proved; `lower_bound` if the search came to its end."""
     complete: bool
     boxes: int
     """Boxes of designs examined."""
@@ -40,8 +40,8 @@ class OptimumProof:
     """Boxes left for which less than the target is proved."""
     seconds: float
     better: float | None = None
-    """Where a design below the target was found in the domain of the search, which then ended: its condition number is
-    no greater. Perhaps no design of the study: the proof takes the radii and the twist of hexagons as independent
+    """The condition number of a design below the target, or a greater one, where the search met one in its domain and
+    ended. Perhaps no design of the study: the proof takes the radii and the twist of hexagons as independent
     within their ranges, and leaves limits out."""
     left_out: tuple[str, ...] = ()
     """Limits of the study that the proof does without: the bound holds for more designs than the study allows."""
@@ -52,15 +52,15 @@ class OptimumProof:
 
     @property
     def words(self) -> str:
-        """What is proved, as a sentence."""
+        """The bound as a sentence."""
         from decimal import ROUND_FLOOR, Context, Decimal  # when it is needed, as it takes time to load
 
         digits = Context(prec=400)  # of any double
         bound = Decimal(self.lower_bound).quantize(Decimal("1e-11"), ROUND_FLOOR, digits)  # never more than was proved
-        said = f"Proved: no machine of this class has a condition number below {bound.normalize(digits):f}"
+        sentence = f"Proved: no machine of this class has a condition number below {bound.normalize(digits):f}"
         if not self.left_out:
-            return f"{said}."
-        return f"{said}. The proof does without {', '.join(self.left_out)}: with them it holds all the more."
+            return f"{sentence}."
+        return f"{sentence}. The proof does without {', '.join(self.left_out)}: with them it holds all the more."
 
     def gap(self, condition_number: float) -> float:
         """Return what is left open below a condition number, as a fraction of it."""
@@ -176,12 +176,12 @@ def _problem(study: Study) -> _core.Problem:
 
 @short_repr
 @dataclass(frozen=True)
-class Checked:
+class CertificateCheck:
     """The verdict of the checker of a certificate."""
 
     proved: bool
     words: str
-    """What is proved, or why the certificate is refused."""
+    """The proved statement, or the reason of a refusal."""
     boxes: int
     recut: int
     """Boxes that were cut further than by the search."""
@@ -189,7 +189,7 @@ class Checked:
     """Of a proof: the designs that it is about, one line each, as the checker read them; angles in radians."""
 
 
-def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None = None) -> Checked:
+def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None = None) -> CertificateCheck:
     """Check a certificate of an optimum, without trusting the search that wrote it.
 
     By the code of the program ninedof_check, which shares none with the search: interval numbers, formulas and the
@@ -204,7 +204,7 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
 
     Returns
     -------
-    Checked
+    CertificateCheck
         A certificate that is damaged, changed or no proof is refused with the reason.
 
     Raises
@@ -218,4 +218,4 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
     except OSError as error:
         raise ValueError(f"certificate: got {path!s}, expected a file that can be read ({error.strerror})") from None
     progress_argument(progress)
-    return from_core(Checked, _core.check_certificate(data, progress))
+    return from_core(CertificateCheck, _core.check_certificate(data, progress))

@@ -1,18 +1,22 @@
-"""A rule that says where O is at every pose of a region: what a controller follows and what is proved."""
+"""A rule for O at every pose of a region: a controller follows it, and proofs hold for it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
+from ninedof.design.region_poses import Placing
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
+from ninedof.support.progress import Progress, phase
 from ninedof.support.short import short_repr
 from ninedof.support.structs import made
 
@@ -40,21 +44,15 @@ class PointRule:
     """Lengths along the axes of the base, for each term."""
 
     @classmethod
-    def of(
-        cls,
-        neutral: Configuration,
-        rule: _core.PointRule,
-    ) -> PointRule:
+    def of(cls, neutral: Configuration, rule: _core.PointRule) -> PointRule:
         """Make a rule about a neutral configuration."""
-        x, y, z = neutral.position.tolist()
-        a, b, c = neutral.internal_point.tolist()
         return cls(
-            (x, y, z),
+            tuple(neutral.position.tolist()),
             tuple(map(tuple, neutral.rotation.tolist())),
-            (a, b, c),
+            tuple(neutral.internal_point.tolist()),
             tuple(map(float, rule.scale)),
             tuple(tuple(map(int, row)) for row in rule.powers),
-            tuple(_three(row) for row in rule.coefficients),
+            tuple((float(x), float(y), float(z)) for x, y, z in rule.coefficients),
         )
 
     def about(self, neutral: Configuration) -> bool:
@@ -77,10 +75,10 @@ class PointRule:
 
     def at(self, coordinates: ArrayLike) -> Floats:
         """Return s of coordinates (shift of p, tilt about x and y, yaw), shape (..., 6)."""
-        given = np.asarray(coordinates, dtype=float)
-        if given.shape[-1:] != (6,):
-            raise ValueError(f"coordinates: got shape {given.shape}, expected (..., 6)")
-        x = given / np.array(self.scale)
+        rows = np.asarray(coordinates, dtype=float)
+        if rows.shape[-1:] != (6,):
+            raise ValueError(f"coordinates: got shape {rows.shape}, expected (..., 6)")
+        x = rows / np.array(self.scale)
         powers = np.stack([x**n for n in range(max(map(max, self.powers)) + 1)])
         out = np.broadcast_to(np.array(self.internal_point), (*x.shape[:-1], 3)).copy()
         for term, coefficient in zip(self.powers, self.coefficients, strict=True):
@@ -125,6 +123,25 @@ class PointRule:
         return made(cls, data, "rule")
 
 
+def rule_of(
+    place: Placing,
+    geometry: Geometry,
+    configurations: Configuration,
+    characteristic_length: float,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> PointRule:
+    """Fit a rule for O, and mend it where proofs of its limits fail.
+
+    A progress with a method `phase` is told what begins. Ctrl-C raises: half a rule is none.
+    """
+    region = place.study.objective.region
+    assert region is not None
+    c, length = configurations, float(characteristic_length)
+    machine = _core.PosedRobot(geometry, c, length, region.for_core(), None)
+    return PointRule.of(place.neutral, _core.fit_rule(machine, place.for_core(), threads, partial(phase, progress)))
+
+
 def tilt_and_yaw(turn: Floats) -> tuple[Floats, Floats]:
     """Return the tilt vectors (x, y) and the yaws of turns exp(tilt) Rz(yaw), shape (..., 3, 3)."""
     x, y, z = np.moveaxis(turn[..., :, 2], -1, 0)
@@ -134,8 +151,3 @@ def tilt_and_yaw(turn: Floats) -> tuple[Floats, Floats]:
     tilt = np.stack([-size * y, size * x, np.zeros_like(x)], axis=-1)
     about_z = np.swapaxes(from_vectors(tilt.reshape(-1, 3)).reshape(turn.shape), -1, -2) @ turn
     return tilt[..., :2], np.arctan2(about_z[..., 1, 0], about_z[..., 0, 0])
-
-
-def _three(row: Any) -> tuple[float, float, float]:
-    x, y, z = row
-    return float(x), float(y), float(z)

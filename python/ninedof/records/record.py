@@ -22,7 +22,7 @@ from ninedof.motion import Followed
 from ninedof.optimize.result import Result, result_from
 from ninedof.paper.comparison import Comparison
 from ninedof.pareto import Front
-from ninedof.pareto.limited import limited, without_degrees
+from ninedof.pareto.limits import with_limit, without_degrees
 from ninedof.proof.optimum import FILE as CERTIFICATE
 from ninedof.support.command import command_line
 from ninedof.support.extras import versions
@@ -207,5 +207,5 @@ def _front(study: Study, record: Record) -> Front:
     results = []
     for limit, entries in zip(limits, data["results"], strict=True):
         value = math.radians(limit) if degrees else limit
-        results.append(result_from(limited(study, plain, value if np.isfinite(value) else None), entries))
+        results.append(result_from(with_limit(study, plain, value if np.isfinite(value) else None), entries))
     return Front(study, **fields, limits=limits, results=tuple(results))

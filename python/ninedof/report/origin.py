@@ -11,7 +11,7 @@ from typing import Any
 
 from ninedof.design.study import Study
 from ninedof.pareto import Front
-from ninedof.pareto.limited import with_degrees
+from ninedof.pareto.limits import with_degrees
 from ninedof.support.angles import degrees_of
 from ninedof.support.json import encode
 from ninedof.tables.html import Html, facts, joined, listing, paragraphs, tag

@@ -48,7 +48,7 @@ class LegRow:
     twist_acceleration: tuple[float, float] | None = None
     """Least and largest acceleration for the given twist and its rate."""
     permitted: tuple[float, float] | None = None
-    """Where O is placed at every pose of a region and limits compare poses: the lengths between which placing O keeps
+    """If O is placed at every pose of a region and limits compare poses: the lengths between which placing O keeps
     the leg. `shortest` and `longest` are those that the region was found to need."""
 
     def flat(self) -> dict[str, Any]:
@@ -78,21 +78,21 @@ class LegRow:
         return row | {"idle": self.idle, "forces": [{"min": low, "max": high} for low, high in self.forces]}
 
 
-def leg_rows(g: Geometry, c: Configuration, found: Mapping[str, Floats]) -> tuple[LegRow, ...]:
+def leg_rows(g: Geometry, c: Configuration, numbers: Mapping[str, Floats]) -> tuple[LegRow, ...]:
     """Return the nine rows over a stack of poses, the neutral one first, from the numbers of a sheet there."""
     lengths = leg_lengths(g, c)
     low, high = lengths.min(axis=0), lengths.max(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):  # a leg of length 0
         ratio = high / low
     idle = idle_legs(lengths)
-    speed, acceleration = (found[name].max(axis=0) for name in ("speed", "acceleration"))
-    cones = {name: dict(zip(PARTS[name], found[name].max(axis=0).tolist(), strict=True)) for name in CONES}
-    forces = found.get("force", np.empty((len(c), 0))).reshape(len(c), -1, 9)
-    given = [name for name in ("twist_speed", "twist_acceleration") if name in found]
+    speed, acceleration = (numbers[name].max(axis=0) for name in ("speed", "acceleration"))
+    cones = {name: dict(zip(PARTS[name], numbers[name].max(axis=0).tolist(), strict=True)) for name in CONES}
+    forces = numbers.get("force", np.empty((len(c), 0))).reshape(len(c), -1, 9)
+    ranges = [name for name in ("twist_speed", "twist_acceleration") if name in numbers]
 
     def of_leg(k: int) -> dict[str, Any]:
         return {name: angles.get(LEGS[k]) for name, angles in cones.items()} | {
-            name: _ends(found[name][:, k]) for name in given
+            name: _ends(numbers[name][:, k]) for name in ranges
         }
 
     return tuple(

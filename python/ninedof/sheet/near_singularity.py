@@ -36,14 +36,14 @@ class NearSingularity(NamedTuple):
 def near_singularities(g: Geometry, c: Configuration, internal: str) -> dict[str, NearSingularity]:
     """Return the nearest singularity of a stack of poses, `nearest_singularity`, for each of MOTIONS."""
     out = {}
-    for name, found in zip(MOTIONS, _core.nearest_singularities(g, c, internal == "held"), strict=True):
-        there = found.configuration
+    for name, nearest in zip(MOTIONS, _core.nearest_singularities(g, c, internal == "held"), strict=True):
+        there = nearest.configuration
         out[name] = from_core(
             NearSingularity,
-            found,
+            nearest,
             motion=name,
-            mechanism=str(mechanism_of(found.mechanism)),
-            direction=tuple(found.direction.tolist()),
+            mechanism=str(mechanism_of(nearest.mechanism)),
+            direction=tuple(nearest.direction.tolist()),
             position=tuple(there.position.tolist()),
             rotation=tuple(map(tuple, there.rotation.tolist())),
             internal_point=tuple(there.internal_point.tolist()),

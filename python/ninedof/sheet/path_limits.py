@@ -22,7 +22,7 @@ from ninedof.support.margins import tolerance_of
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PathLimits:
-    """What `path_limits` returns."""
+    """The limits of a study along a motion, over time."""
 
     time: Floats
     """Shape (n,)."""
@@ -32,19 +32,19 @@ class PathLimits:
     @cached_property
     def breaks(self) -> tuple[LimitBreak, ...]:
         """Stretches of time in which a limit is passed by more than 1e-6 of it; angles in radians."""
-        found: list[LimitBreak] = []
+        breaks: list[LimitBreak] = []
         for one in self.limits:
             tolerance = tolerance_of(kind_of(one.name), one.limit)
-            found += stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, tolerance)
-        return tuple(sorted(found, key=lambda broken: (broken.begin, broken.limit)))
+            breaks += stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, tolerance)
+        return tuple(sorted(breaks, key=lambda stretch: (stretch.begin, stretch.limit)))
 
     @property
     def margins(self) -> dict[str, Floats]:
         """The least margin of each limit over its legs, by name, over time."""
-        found: dict[str, Floats] = {}
+        least: dict[str, Floats] = {}
         for one in self.limits:
-            found[one.name] = np.minimum(found[one.name], one.margin) if one.name in found else one.margin
-        return found
+            least[one.name] = np.minimum(least[one.name], one.margin) if one.name in least else one.margin
+        return least
 
     def worst(self) -> list[dict[str, Any]]:
         """Return the least margin of each side of each limit as plain values; angles in degrees, as "limit_deg"."""
@@ -57,14 +57,14 @@ class PathLimits:
             row = {"limit": one.limit, "value": float(one.value[k])}
             if one.name in CONES:
                 row = {f"{name}_deg": float(np.degrees(value)) for name, value in row.items()}
-            named = {"name": one.name, "part": one.part, "side": one.side}
-            rows[key] = named | row | {"margin": margin, "at": float(self.time[k])}
+            names = {"name": one.name, "part": one.part, "side": one.side}
+            rows[key] = names | row | {"margin": margin, "at": float(self.time[k])}
         return list(rows.values())
 
     def __repr__(self) -> str:
         """Show the limits that are passed."""
-        broken = ", ".join(sorted({entry.limit for entry in self.breaks}))
-        return f"<PathLimits: {len(self.time)} poses, {'breaks ' + broken if broken else 'within limits'}>"
+        names = ", ".join(sorted({entry.limit for entry in self.breaks}))
+        return f"<PathLimits: {len(self.time)} poses, {'breaks ' + names if names else 'within limits'}>"
 
 
 def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLimits:
@@ -92,8 +92,8 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     >>> study = nd.Study(variables={"a1": 0.0, "b2": 0.0}, constraints=limits)  # joints in pairs: these legs may meet
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> home = nd.Configuration.neutral(3.9828, 2.4432)
-    >>> found = nd.follow(g, nd.Trajectory.line(home, [0.5, 0, 0]), home)
-    >>> nd.path_limits(study, found, home)
+    >>> motion = nd.follow(g, nd.Trajectory.line(home, [0.5, 0, 0]), home)
+    >>> nd.path_limits(study, motion, home)
     <PathLimits: 1001 poses, breaks base_cone l1 max, base_cone l2 max, base_cone r1 max, base_cone r3 max>
 
     """

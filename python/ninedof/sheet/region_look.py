@@ -15,8 +15,8 @@ SAMPLES = 10_000
 PLACED = 2000  # the most where O is placed anew at every pose, which takes a thousand times as long
 
 
-class RegionLook(NamedTuple):
-    """How a region was looked over."""
+class RegionSearch(NamedTuple):
+    """The search of a region."""
 
     region: str
     """In words."""
@@ -30,7 +30,7 @@ class RegionLook(NamedTuple):
 
 def look_over(
     study: Study, neutral: Configuration, question: _core.SheetQuestion, count: int, placing: Placing | None = None
-) -> tuple[RegionLook, Configuration, tuple[Pose, ...]]:
+) -> tuple[RegionSearch, Configuration, tuple[Pose, ...]]:
     """Return how the region of a study was looked over, and its worst poses as configurations and as poses.
 
     Where O is placed anew at every pose, descents follow the lengths of the legs: those of the external legs do not
@@ -40,8 +40,8 @@ def look_over(
     assert region is not None
     design = None if placing is None else placing.for_core()
     samples = 2 * (count if placing is None else min(count, PLACED))
-    found = _core.sheet_over_region(question, region.for_core(), samples, design)
-    look, at = from_core(RegionLook, found, region=region.worded(study.unit)), found.worst
+    end = _core.sheet_over_region(question, region.for_core(), samples, design)
+    search, at = from_core(RegionSearch, end, region=region.worded(study.unit)), end.worst
     if placing is not None:
-        return look, *placing(at)
-    return look, configurations_at(region, neutral, at)[1], poses_at(region, at)
+        return search, *placing(at)
+    return search, configurations_at(region, neutral, at)[1], poses_at(region, at)

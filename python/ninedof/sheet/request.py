@@ -1,4 +1,4 @@
-"""What a sheet is asked for: the motion behind the speeds of the legs, loads, tolerances, stiffness."""
+"""The question of a sheet: the motion behind the speeds of the legs, loads, tolerances, stiffness."""
 
 from __future__ import annotations
 
@@ -50,15 +50,15 @@ class Motion(NamedTuple):
     angular_speed: float
     """rad/time."""
     internal: str
-    """How O moves: "least" squares of the leg rates and of the leg accelerations, "held", "shifted" or "carried" as in
-    `ninedof.redundancy.rules`."""
+    """The motion of O: "least" squares of the leg rates and of the leg accelerations, "held", "shifted" or "carried" as
+    in `ninedof.redundancy.rules`."""
     twist: tuple[float, ...] | None = None
     """Angular velocity (rad/time) and velocity of the platform's origin, base frame; None without one."""
     twist_rate: tuple[float, ...] = (0.0,) * 6
     """Its time derivative."""
 
     @classmethod
-    def checked(
+    def of(
         cls,
         linear_speed: float,
         angular_speed: float,
@@ -90,7 +90,7 @@ class Weight(NamedTuple):
     """Force per mass, base axes: with 9.81 and kilograms forces are in newtons, in any unit of length."""
 
     @classmethod
-    def checked(cls, mass: float | None, centre: ArrayLike | None, gravity: ArrayLike | None) -> Weight | None:
+    def of(cls, mass: float | None, centre: ArrayLike | None, gravity: ArrayLike | None) -> Weight | None:
         """Return the weight of valid arguments, None without a mass; at the platform's origin by default."""
         if mass is None:
             for name, value in (("centre", centre), ("gravity", gravity)):

@@ -22,7 +22,7 @@ from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
 from ninedof.sheet.pose_words import turn_deg
-from ninedof.sheet.region_look import SAMPLES, RegionLook, look_over
+from ninedof.sheet.region_look import SAMPLES, RegionSearch, look_over
 from ninedof.sheet.request import Motion, SheetOptions, SheetRequest, Weight, shown_internal
 from ninedof.sheet.tables import lengths_table, limits_table, summary_parts, worst_table
 from ninedof.singularity.singularity import singularity_margins
@@ -112,18 +112,18 @@ class Sheet:
     nearest_singularity: str
     """The name of the determinant of least modulus."""
     singularities: dict[str, NearSingularity]
-    """How far they are, by way of moving: "shift", "turn", "internal"."""
+    """By way of moving: "shift", "turn", "internal"."""
     accuracy: Accuracy | None
     stiffness: Stiffness | None
     limits: tuple[LimitRow, ...]
     """Each limit of the study beside the value at the study's own poses, of a region at its worst poses too; empty
     where the input has no study."""
-    region: RegionLook | None
-    """How the region of the study was looked over; None without one."""
+    region: RegionSearch | None
+    """The search of the region of the study; None without one."""
     unit: str = ""
     """Name of the length unit; "" without one."""
     leg_ranges: tuple[tuple[float, float], ...] | None = None
-    """Where O is placed anew at every pose of a region: the length that each leg keeps in all of it, empty if no limit
+    """If O is placed anew at every pose of a region: the length that each leg keeps in all of it, empty if no limit
     compares poses. None for others."""
 
     @property
@@ -137,8 +137,8 @@ class Sheet:
         rows = []
         for triple, points in triples(self.geometry).items():
             for i, point in enumerate(points):
-                placed = p + q @ point if triple.startswith("platform") else point
-                rows.append((f"{triple}_{i + 1}", point, placed))
+                at_neutral = p + q @ point if triple.startswith("platform") else point
+                rows.append((f"{triple}_{i + 1}", point, at_neutral))
         return rows
 
     def summary(self) -> str:
@@ -163,7 +163,7 @@ class Sheet:
         """
         c = self.configurations
         out: dict[str, Any] = {
-            "joints": {name: {"own_frame": own, "neutral_pose": placed} for name, own, placed in self.joints()},
+            "joints": {name: {"own_frame": own, "neutral_pose": at_neutral} for name, own, at_neutral in self.joints()},
             "poses": [
                 {"position": p, "rotation": q, "rotation_deg": turn, "internal_point": s}
                 for p, q, turn, s in zip(
@@ -271,18 +271,18 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     --------
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
-    >>> found = nd.sheet(g, nd.Configuration.neutral(zp=[3.9, 3.7, 4.1], zs=2.4))
-    >>> leg = found.legs[0]
+    >>> one = nd.sheet(g, nd.Configuration.neutral(zp=[3.9, 3.7, 4.1], zs=2.4))
+    >>> leg = one.legs[0]
     >>> leg.name, round(leg.shortest, 4), round(leg.longest, 4), round(leg.stroke_ratio, 4)
     ('l1', 4.7049, 5.0255, 1.0682)
-    >>> found.idle  # O stays where it is
+    >>> one.idle  # O stays where it is
     ('r1', 'r2', 'r3')
 
     """
-    given = options_of("sheet", SheetOptions, options, linear_speed=1.0, angular_speed=0.0, samples=SAMPLES)
+    values = options_of("sheet", SheetOptions, options, linear_speed=1.0, angular_speed=0.0, samples=SAMPLES)
     g, c, own_length = _robot(design, poses)
-    request = _request(g, c, own_length, given)
-    count = whole("samples", given["samples"], 1, MOST_SAMPLES)
+    request = _request(g, c, own_length, values)
+    count = whole("samples", values["samples"], 1, MOST_SAMPLES)
     study: Study | None = getattr(design, "solved", None)
     variables, look = getattr(design, "variables", None), None
     question = request.question(g, c[0], study)
@@ -318,27 +318,27 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         else None,
         limits=limit_rows(study, variables) if study is not None and isinstance(variables, Mapping) else (),
         region=look,
-        unit=getattr(study or design, "unit", "") if given["unit"] is None else unit_argument(given["unit"]),
+        unit=getattr(study or design, "unit", "") if values["unit"] is None else unit_argument(values["unit"]),
         leg_ranges=ranges,
     )
 
 
-def _request(g: Geometry, c: Configuration, own_length: float | str, given: Mapping[str, Any]) -> SheetRequest:
-    length = length_argument(own_length if given["characteristic_length"] is None else given["characteristic_length"])
-    weight = Weight.checked(given["mass"], given["centre"], given["gravity"])
-    loads = np.zeros((1, 6)) if given["loads"] is None and weight is not None else given["loads"]
-    internal = shown_internal(c) if given["internal"] is None else given["internal"]
-    errors = [given["leg_errors"], given["joint_errors"]]
+def _request(g: Geometry, c: Configuration, own_length: float | str, values: Mapping[str, Any]) -> SheetRequest:
+    length = length_argument(own_length if values["characteristic_length"] is None else values["characteristic_length"])
+    weight = Weight.of(values["mass"], values["centre"], values["gravity"])
+    loads = np.zeros((1, 6)) if values["loads"] is None and weight is not None else values["loads"]
+    internal = shown_internal(c) if values["internal"] is None else values["internal"]
+    errors = [values["leg_errors"], values["joint_errors"]]
     exact = all(error is None for error in errors)
     legs, joints = (0.0 if error is None else error for error in errors)
     return SheetRequest(
-        motion=Motion.checked(
-            given["linear_speed"], given["angular_speed"], internal, given["twist"], given["twist_rate"]
+        motion=Motion.of(
+            values["linear_speed"], values["angular_speed"], internal, values["twist"], values["twist_rate"]
         ),
         loads=_loads(loads),
         weight=weight,
         errors=None if exact else (legs, joints),
-        leg_stiffness=given["leg_stiffness"],
+        leg_stiffness=values["leg_stiffness"],
         characteristic_length=float(length_of(g, c[0], length)) if isinstance(length, str) else length,
     )
 
@@ -364,10 +364,10 @@ def _robot(design: Any, poses: Configuration | None) -> tuple[Geometry, Configur
 
 
 def _loads(loads: ArrayLike | None) -> Floats:
-    found = np.zeros((0, 6)) if loads is None else np.atleast_2d(as_floats("loads", loads, (6,)))
-    if found.ndim != 2 or not np.isfinite(found).all():
+    rows = np.zeros((0, 6)) if loads is None else np.atleast_2d(as_floats("loads", loads, (6,)))
+    if rows.ndim != 2 or not np.isfinite(rows).all():
         raise ValueError(f"loads: got {shown(loads)}, expected rows of six finite numbers, moment and force")
-    return found
+    return rows
 
 
 def _extreme(values: Floats, place: Callable[[Floats], Any]) -> Extreme:
@@ -384,12 +384,12 @@ def _clearance(distances: Floats) -> Clearance:
 
 def _determinants(g: Geometry, c: Configuration) -> dict[str, Determinant]:
     margins = singularity_margins(g, c)
-    found = {}
+    determinants = {}
     for name in ("det_b", "det_c", "det_n"):
         values = np.asarray(getattr(margins, name))
         changes = bool(np.any(values * np.sign(values[0]) <= 0.0))
-        found[name] = Determinant(*_extreme(np.abs(values), np.argmin), changes)
-    return found
+        determinants[name] = Determinant(*_extreme(np.abs(values), np.argmin), changes)
+    return determinants
 
 
 def _joined(c: Configuration, more: Configuration) -> Configuration:

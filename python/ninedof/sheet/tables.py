@@ -87,8 +87,8 @@ def worst_table(sheet: Any) -> Table:
     columns = [Column(), Column("value", "", RIGHT), Column("pose", "", RIGHT), Column()]
     rows = list(_worst_rows(sheet))
     used = sorted({row[2] for row in rows if row and row[2]})
-    shown = [(*row[:2], "" if row[2] is None else row[2] or "neutral", row[3]) if row else () for row in rows]
-    return Table(title, columns, shown, [f"pose {k}: {_pose(sheet, k)}" for k in used])
+    cells = [(*row[:2], "" if row[2] is None else row[2] or "neutral", row[3]) if row else () for row in rows]
+    return Table(title, columns, cells, [f"pose {k}: {_pose(sheet, k)}" for k in used])
 
 
 def _worst_rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
@@ -127,7 +127,8 @@ def _worst_rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
 def _joints(sheet: Any) -> Table:
     columns = [Column("joint"), *(Column(name, sheet.unit, SHORT) for name in ("x", "y", "z", "neutral x", "y", "z"))]
     rows = [
-        (name.replace("_", " "), *(round(float(x), 9) for x in (*own, *placed))) for name, own, placed in sheet.joints()
+        (name.replace("_", " "), *(round(float(x), 9) for x in (*own, *at_neutral)))
+        for name, own, at_neutral in sheet.joints()
     ]
     title = "Joints in the frame of base or platform, and in base axes at the neutral pose"
     return Table(title, columns, list(grouped(rows)))
@@ -170,8 +171,8 @@ def _ranges(sheet: Any, ranges: Sequence[Sequence[Any]]) -> list[Any]:
 def _twist(sheet: Any) -> Table:
     """Return the rates and accelerations for the given twist."""
     rows = _ranges(sheet, [[leg.twist_speed for leg in sheet.legs], [leg.twist_acceleration for leg in sheet.legs]])
-    given = (("", sheet.motion.twist), ("rate: ", sheet.motion.twist_rate))
-    notes = [f"{words}angular {vector_words(x[:3])}, linear {vector_words(x[3:])}" for words, x in given if x]
+    twists = (("", sheet.motion.twist), ("rate: ", sheet.motion.twist_rate))
+    notes = [f"{words}angular {vector_words(x[:3])}, linear {vector_words(x[3:])}" for words, x in twists if x]
     return Table(f"Legs {over(sheet)}: least to largest for the twist", _speeds(sheet), rows, notes)
 
 

@@ -13,7 +13,7 @@ from ninedof.optimize.check import check
 from ninedof.pareto import pareto
 from ninedof.pareto import solving as sweeping
 from ninedof.pareto.front import front_table
-from ninedof.pareto.limited import limited, resolve, value_at
+from ninedof.pareto.limits import resolve, value_at, with_limit
 
 PAPER = nd.Study.paper()
 
@@ -120,25 +120,25 @@ def test_impossible_limits_are_rows_too():
 
 def test_other_options_of_the_limit_are_kept():
     study = nd.Study(constraints={"zs_fraction": (0.2, 0.9), "leg_ratio": (None, 3.0)})
-    moved = limited(study, "zs_fraction", 0.5)
+    moved = with_limit(study, "zs_fraction", 0.5)
     assert moved.constraints["zs_fraction"] == (0.2, 0.5)
     assert moved.constraints["leg_ratio"] == (None, 3.0)
-    stroke = limited(MOVING, "stroke", 0.1).constraints["stroke"]
+    stroke = with_limit(MOVING, "stroke", 0.1).constraints["stroke"]
     assert dict(stroke) == {"max": 0.1, "of": "zp"}
-    assert limited(study, "zs_fraction", None).constraints["zs_fraction"] == (0.2, None)
-    assert "leg_ratio" not in limited(study, "leg_ratio", None).constraints
+    assert with_limit(study, "zs_fraction", None).constraints["zs_fraction"] == (0.2, None)
+    assert "leg_ratio" not in with_limit(study, "leg_ratio", None).constraints
     assert study.constraints["zs_fraction"] == (0.2, 0.9)
 
 
 def test_a_limit_at_the_neutral_pose_is_swept_beside_that_at_the_poses():
     both = [{"max": 3.0}, {"max": 2.5, "at": "neutral"}]
     study = replace(MOVING, constraints=ROOMY | {"leg_ratio": both})
-    low, high = limited(study, "leg_ratio", 2.9), limited(study, "leg_ratio at neutral", 2.0)
+    low, high = with_limit(study, "leg_ratio", 2.9), with_limit(study, "leg_ratio at neutral", 2.0)
     assert low.constraints["leg_ratio"] == ({"max": 2.9}, {"max": 2.5, "at": "neutral"})
     assert high.constraints["leg_ratio"] == ({"max": 3.0}, {"max": 2.0, "at": "neutral"})
-    assert limited(study, "leg_ratio at neutral", None).constraints["leg_ratio"] == (None, 3.0)
-    assert limited(study, "leg_ratio", None).constraints["leg_ratio"] == {"max": 2.5, "at": "neutral"}
-    assert limited(MOVING, "leg_ratio at neutral", 2.0) == high
+    assert with_limit(study, "leg_ratio at neutral", None).constraints["leg_ratio"] == (None, 3.0)
+    assert with_limit(study, "leg_ratio", None).constraints["leg_ratio"] == {"max": 2.5, "at": "neutral"}
+    assert with_limit(MOVING, "leg_ratio at neutral", 2.0) == high
     found = pareto(replace(study, starts=4), "leg_ratio at neutral", values=[1.9, 2.1])
     assert is_monotone(found)
     assert found.table()[0]["active"].count("leg_ratio at neutral") == 1
@@ -155,7 +155,7 @@ def test_two_indices():
         study, limit = resolve(given, against)
         assert limit == "condition_limit"
         assert study.objective.index == "speed"
-        assert limited(study, limit, 4.0).objective.condition_limit == 4.0
+        assert with_limit(study, limit, 4.0).objective.condition_limit == 4.0
 
 
 # --- Limits that are found --------------------------------------------------------------------------------------------
@@ -170,7 +170,7 @@ def test_a_found_front_is_monotone_and_spans_the_range(name):
     assert len(objectives(found)) == points
     assert is_monotone(found)
     assert list(found.limits) == sorted(found.limits)
-    without = nd.optimize(limited(study, against, None))
+    without = nd.optimize(with_limit(study, against, None))
     assert found.objectives[-1] == pytest.approx(without.objective, rel=1e-6)
     assert max(objectives(found)) <= 3.0 * without.objective * (1.0 + 1e-9)
     assert not any(found.dominated[:-1])

@@ -7,7 +7,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.pareto import solving
-from ninedof.pareto.limited import unit_of, with_degrees, without_degrees
+from ninedof.pareto.limits import unit_of, with_degrees, without_degrees
 from ninedof.records.record import write_run
 
 STUDY = nd.Study(
@@ -78,7 +78,7 @@ def test_the_unit_of_a_limit(against, unit):
 
 
 def test_reasons_say_degrees():
-    sweep = solving.Sweep(STUDY, "base_cone", None, None)
-    assert sweep._words(math.radians(38.05)) == "38.05 deg"
-    assert solving.Sweep(replace(STUDY, unit="mm"), "height", None, None)._words(300.0) == "300 mm"
-    assert solving.Sweep(STUDY, "height", None, None)._words(300.0) == "300"
+    solver = solving.FrontSolver(STUDY, "base_cone", None, None)
+    assert solver._words(math.radians(38.05)) == "38.05 deg"
+    assert solving.FrontSolver(replace(STUDY, unit="mm"), "height", None, None)._words(300.0) == "300 mm"
+    assert solving.FrontSolver(STUDY, "height", None, None)._words(300.0) == "300"

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.design.region_poses import Placing
-from ninedof.proof.placed import rule_of
+from ninedof.proof.point_rule import rule_of
 
 VARIABLES = {"a1": 1.0, "a2": 0.8, "b1": 0.5, "b2": 0.6, "zp": 2.0, "zs": 1.0, "theta_z": 0.6}
 GEOMETRY = nd.Geometry.hexagonal(1.0, 0.8, 0.5, 0.6)

@@ -20,7 +20,7 @@ from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.app import main
 from ninedof.cli.screen import Screen
 from ninedof.pareto import Front
-from ninedof.pareto.limited import without_degrees
+from ninedof.pareto.limits import without_degrees
 from ninedof.records.record import Record
 from ninedof.report import origin
 from ninedof.report.question import FAMILIES

@@ -20,7 +20,7 @@ from ninedof.optimize.result import Result
 from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
 from ninedof.pareto.front import front_table
-from ninedof.pareto.limited import with_degrees
+from ninedof.pareto.limits import with_degrees
 from ninedof.records.folder import run_folder
 from ninedof.records.load import split
 from ninedof.records.record import write_run

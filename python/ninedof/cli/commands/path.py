@@ -102,7 +102,7 @@ def path(options: PathOptions) -> None:
     trajectory = _trajectory(chosen, options)
     limits: Any = chosen.leg_limits() if options.legs is None else options.legs
     how: dict[str, Any] = {"internal_point": _rule(options.internal_point, study), "limits": limits}
-    weight = Weight.checked(options.mass, options.centre, options.gravity)
+    weight = Weight.of(options.mass, options.centre, options.gravity)
     question = {
         "geometry": triples(g),
         "home": arrays_of(home),

@@ -52,8 +52,8 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
     one is minimized under limits on the condition number: "speed" for a study of the condition number becomes a study
     of speed with a varying condition limit. The front is the same, with its axes exchanged.
     """
-    known = names_with_max()
-    labels = [label(name, at) for at in AT for name in known]
+    names = names_with_max()
+    labels = [label(name, at) for at in AT for name in names]
     if isinstance(against, str) and against in labels:
         return study, against
     index = study.objective.index
@@ -69,13 +69,13 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
         )
     hint = did_you_mean(against, [*labels, CONDITION_LIMIT, *indices]) if isinstance(against, str) else ""
     raise ValueError(
-        f"against: got {shown(against)}, expected a constraint with a max ({', '.join(known)}; one at the neutral "
-        f'pose alone as "{label(known[0], AT[1])}", an angle in degrees as "base_cone_deg"), '
+        f"against: got {shown(against)}, expected a constraint with a max ({', '.join(names)}; one at the neutral "
+        f'pose alone as "{label(names[0], AT[1])}", an angle in degrees as "base_cone_deg"), '
         f"{CONDITION_LIMIT} or another index{hint}"
     )
 
 
-def limited(study: Study, against: str, value: float | None) -> Study:
+def with_limit(study: Study, against: str, value: float | None) -> Study:
     """Return the study with another `max` of a limit, None for no max; its other options are kept."""
     if against == CONDITION_LIMIT:
         return replace(study, objective=replace(study.objective, condition_limit=value))
