@@ -12,10 +12,9 @@ from ninedof.design.pose import rule_words
 from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.optimize.agreement import agreement_words
-from ninedof.optimize.prices import price_words, reached_words
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.tables import candidates_table
+from ninedof.optimize.words import agreement_sentence, price_words, reached_words
 from ninedof.proof.machine import certify, machine_digest
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.optimum import OptimumProof
@@ -162,7 +161,7 @@ class Result:
     def agreement(self) -> str:
         """Sentence on starts that arrived, were followed and given up, and on optima that they may have missed."""
         arrived = min(self.best.reached, self._completed) if self.best else 0
-        return agreement_words(self._completed, arrived, self.runs_abandoned, self.status == Status.OPTIMAL)
+        return agreement_sentence(self._completed, arrived, self.runs_abandoned, self.status == Status.OPTIMAL)
 
     @property
     def _completed(self) -> int:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ninedof.design.study import LENGTH
-from ninedof.optimize.prices import price_words
+from ninedof.optimize.words import price_words
 from ninedof.tables import RIGHT, SHORT, Column, Line, Table
 
 SHOWN = 4  # candidates, side by side

@@ -25,7 +25,7 @@ from ninedof.support.progress import Progress, phase
 from ninedof.support.structs import from_core, options_of
 
 
-class CertifyOptions(TypedDict, total=False):
+class CertifyArguments(TypedDict, total=False):
     """Options of `certify`, which says what they mean."""
 
     condition_number: float | None
@@ -44,7 +44,7 @@ def certify(
     geometry: Geometry,
     configurations: Configuration,
     characteristic_length: float,
-    **options: Unpack[CertifyOptions],
+    **options: Unpack[CertifyArguments],
 ) -> MachineCertificate:
     """Prove the limits of a study for one design, and enclose its worst condition number.
 
@@ -88,7 +88,7 @@ def certify(
         For a bad argument.
 
     """
-    values = options_of("certify", CertifyOptions, options, gap=0.05, time_limit=300.0, tolerance=1e-6, threads=0)
+    values = options_of("certify", CertifyArguments, options, gap=0.05, time_limit=300.0, tolerance=1e-6, threads=0)
     region = study.objective.region
     gap, seconds = finite("gap", values["gap"], 1e-9), finite("time_limit", values["time_limit"], 0.0)
     tolerance, threads = (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple, TypedDict
 
 import numpy as np
@@ -15,14 +16,14 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.idle import IDLE
 from ninedof.support.arguments import Vector, choice, finite, shown, vector
-from ninedof.support.arrays import Floats, as_floats, one_or_each
+from ninedof.support.arrays import Floats, as_floats
 
 FASTEST = 1e100  # speeds: their squares must be numbers
 INTERNAL = ("least", "held", "shifted", "carried")
 STANDARD = (0.0, 0.0, -9.81)
 
 
-class SheetOptions(TypedDict, total=False):
+class SheetArguments(TypedDict, total=False):
     """Options of `sheet`, which says what they mean."""
 
     linear_speed: float
@@ -111,48 +112,29 @@ class Weight(NamedTuple):
         return np.concatenate([np.cross(arm, force), force], axis=-1)
 
 
-class SheetRequest(NamedTuple):
-    """The numbers of a sheet besides lengths, cones, clearance, condition number and determinants."""
-
-    motion: Motion
-    loads: Floats
-    weight: Weight | None = None
-    errors: tuple[ArrayLike, ArrayLike] | None = None
-    """Of the legs and of the joints."""
-    leg_stiffness: ArrayLike | None = None
-    characteristic_length: float = 1.0
-    """NaN or infinite where it has no value."""
-
-    def question(self, g: Geometry, neutral: Configuration, study: Study | None) -> _core.SheetQuestion:
-        """Return the request as the core takes it."""
-        motion, length = self.motion, self.characteristic_length
-        moving = _core.PlatformMotion(
-            internal=motion.internal, linear_speed=motion.linear_speed, angular_speed=motion.angular_speed
-        )
-        if motion.twist is not None:
-            moving.given = _core.TwistMotion(twist=motion.twist, rate=motion.twist_rate)
-        out = _core.SheetQuestion(
-            g,
-            neutral,
-            limits=_limits(study),
-            exempt=exempt_pairs(g, study),
-            motion=moving,
-            loads=list(self.loads),
-            characteristic_length=length if np.isfinite(length) else None,
-        )
-        if self.weight is not None:
-            out.weight = _core.Weight(**self.weight._asdict())
-        if self.errors is not None:
-            legs, joints = self.errors
-            out.errors = _core.Tolerances(
-                legs=one_or_each("leg_errors", legs, 9), joints=one_or_each("joint_errors", joints, 12)
-            )
-        if self.leg_stiffness is not None:
-            out.leg_stiffness = one_or_each("leg_stiffness", self.leg_stiffness, 9)
-        return out
+def question_of(
+    g: Geometry,
+    neutral: Configuration,
+    study: Study | None,
+    motion: Motion,
+    loads: Sequence[Floats] = (),
+    weight: Weight | None = None,
+) -> _core.SheetQuestion:
+    """Return the question about legs and loads as the core takes it, without tolerances, stiffness and l_c."""
+    moving = _core.PlatformMotion(
+        internal=motion.internal, linear_speed=motion.linear_speed, angular_speed=motion.angular_speed
+    )
+    if motion.twist is not None:
+        moving.given = _core.TwistMotion(twist=motion.twist, rate=motion.twist_rate)
+    out = _core.SheetQuestion(
+        g, neutral, limits=_limits(study), exempt=exempt_pairs(g, study), motion=moving, loads=loads
+    )
+    if weight is not None:
+        out.weight = _core.Weight(**weight._asdict())
+    return out
 
 
-def shown_internal(c: Configuration) -> str:
+def internal_over(c: Configuration) -> str:
     """Return the rule that O follows over a stack of poses: "held", "carried", "shifted", or "least" where none."""
     if len(c) < 2:
         return "least"

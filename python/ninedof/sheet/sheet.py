@@ -23,12 +23,12 @@ from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
 from ninedof.sheet.pose_words import turn_deg
 from ninedof.sheet.region_look import SAMPLES, RegionSearch, look_over
-from ninedof.sheet.request import Motion, SheetOptions, SheetRequest, Weight, shown_internal
+from ninedof.sheet.request import Motion, SheetArguments, Weight, internal_over, question_of
 from ninedof.sheet.tables import lengths_table, limits_table, summary_parts, worst_table
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.support.arguments import shown, whole
-from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.arrays import Floats, as_floats, one_or_each
 from ninedof.support.structs import options_of
 from ninedof.support.units import per, unit_argument, with_unit
 from ninedof.tables.html import notebook
@@ -208,7 +208,7 @@ class Sheet:
         return text.getvalue()
 
 
-def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[SheetOptions]) -> Sheet:
+def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[SheetArguments]) -> Sheet:
     """Return the engineering sheet of a design over its poses.
 
     Extremes are those over the listed poses, the neutral one included; between the poses nothing is looked at. Of the
@@ -279,13 +279,22 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     ('r1', 'r2', 'r3')
 
     """
-    values = options_of("sheet", SheetOptions, options, linear_speed=1.0, angular_speed=0.0, samples=SAMPLES)
+    values = options_of("sheet", SheetArguments, options, linear_speed=1.0, angular_speed=0.0, samples=SAMPLES)
     g, c, own_length = _robot(design, poses)
-    request = _request(g, c, own_length, values)
+    length = length_argument(own_length if values["characteristic_length"] is None else values["characteristic_length"])
+    weight = Weight.of(values["mass"], values["centre"], values["gravity"])
+    internal = internal_over(c) if values["internal"] is None else values["internal"]
+    motion = Motion.of(values["linear_speed"], values["angular_speed"], internal, values["twist"], values["twist_rate"])
+    loads = _loads(np.zeros((1, 6)) if values["loads"] is None and weight is not None else values["loads"])
+    length = float(length_of(g, c[0], length)) if isinstance(length, str) else length
     count = whole("samples", values["samples"], 1, MOST_SAMPLES)
     study: Study | None = getattr(design, "solved", None)
     variables, look = getattr(design, "variables", None), None
-    question = request.question(g, c[0], study)
+    question = question_of(g, c[0], study, motion, list(loads), weight)
+    question.errors = _tolerances(values["leg_errors"], values["joint_errors"])
+    if values["leg_stiffness"] is not None:
+        question.leg_stiffness = one_or_each("leg_stiffness", values["leg_stiffness"], 9)
+    question.characteristic_length = length if np.isfinite(length) else None
     region = design.study.objective.region if poses is None and study is not None else None
     report = getattr(design, "region", None)
     ranges = None if region is None or places_o(region) or report is None else report.leg_ranges
@@ -301,17 +310,17 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     return Sheet(
         geometry=g,
         configurations=c,
-        characteristic_length=request.characteristic_length,
-        motion=request.motion,
-        loads=request.loads,
-        weight=request.weight,
+        characteristic_length=length,
+        motion=motion,
+        loads=loads,
+        weight=weight,
         legs=tuple(replace(leg, permitted=band) for leg, band in legs),
         condition_number=_extreme(kappa, np.argmax),
         mean_condition_number=float(kappa.mean()) if look is None else look.mean,
         clearance=_clearance(numbers[CLEARANCE]),
         determinants=determinants,
         nearest_singularity=min(determinants, key=lambda name: determinants[name].value),
-        singularities=near_singularities(g, c, request.motion.internal),
+        singularities=near_singularities(g, c, motion.internal),
         accuracy=Accuracy(*(_extreme(x, np.argmax) for x in numbers["error"].T)) if "error" in numbers else None,
         stiffness=Stiffness(*(_extreme(x, np.argmin) for x in numbers["stiffness"].T))
         if "stiffness" in numbers
@@ -323,23 +332,12 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     )
 
 
-def _request(g: Geometry, c: Configuration, own_length: float | str, values: Mapping[str, Any]) -> SheetRequest:
-    length = length_argument(own_length if values["characteristic_length"] is None else values["characteristic_length"])
-    weight = Weight.of(values["mass"], values["centre"], values["gravity"])
-    loads = np.zeros((1, 6)) if values["loads"] is None and weight is not None else values["loads"]
-    internal = shown_internal(c) if values["internal"] is None else values["internal"]
-    errors = [values["leg_errors"], values["joint_errors"]]
-    exact = all(error is None for error in errors)
-    legs, joints = (0.0 if error is None else error for error in errors)
-    return SheetRequest(
-        motion=Motion.of(
-            values["linear_speed"], values["angular_speed"], internal, values["twist"], values["twist_rate"]
-        ),
-        loads=_loads(loads),
-        weight=weight,
-        errors=None if exact else (legs, joints),
-        leg_stiffness=values["leg_stiffness"],
-        characteristic_length=float(length_of(g, c[0], length)) if isinstance(length, str) else length,
+def _tolerances(legs: ArrayLike | None, joints: ArrayLike | None) -> _core.Tolerances | None:
+    if legs is None and joints is None:
+        return None
+    return _core.Tolerances(
+        legs=one_or_each("leg_errors", 0.0 if legs is None else legs, 9),
+        joints=one_or_each("joint_errors", 0.0 if joints is None else joints, 12),
     )
 
 

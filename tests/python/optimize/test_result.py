@@ -11,8 +11,7 @@ import pytest
 import ninedof as nd
 from ninedof import poses
 from ninedof.design.pose import rule_words
-from ninedof.optimize.agreement import least_share
-from ninedof.optimize.prices import price_words
+from ninedof.optimize.words import least_share, price_words
 from ninedof.redundancy.rules import WORDS
 from ninedof.support.json import encode
 

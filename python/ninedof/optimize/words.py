@@ -1,4 +1,4 @@
-"""Active limits and their shadow prices in words: what relaxing one gains."""
+"""Sentences on a result: active limits, their shadow prices, and the agreement of the starts."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from ninedof.support.angles import degrees_of
 from ninedof.support.units import amount
 
 LEAST_PRICE = 0.0005  # per cent of the objective for one per cent of the limit; smaller prices are left out
+SURE = 0.95  # probability with which a better optimum would have been met
 
 
 def price_words(study: Study, variables: Mapping[str, float], prices: Mapping[str, float]) -> list[str]:
@@ -61,3 +62,42 @@ def _direction(study: Study, variables: Mapping[str, float], name: str) -> str:
         return "less" if abs(value - low) < abs(high - value) else "more"
     sides = next((limit.sides for limit in study.limits if limit.label == name), {})
     return "wider" if len(sides) > 1 else "less" if "min" in sides else "more"
+
+
+def least_share(completed: int) -> float:
+    """Return the share of starts that a better optimum must attract to be met by `completed` starts with 95 %.
+
+    Of an optimum that each start reaches with probability p, all n starts miss it with probability (1 - p)^n.
+    """
+    return float(1.0 - (1.0 - SURE) ** (1.0 / completed))
+
+
+def agreement_sentence(completed: int, arrived: int, abandoned: int, optimal: bool) -> str:
+    """Return how many starts were followed to their end, how many arrived, and what may have been missed.
+
+    Parameters
+    ----------
+    completed, arrived, abandoned : int
+        Starts followed to their end, those of them that ended at the best objective, and starts given up.
+    optimal : bool
+        Whether the best design is an optimum.
+
+    """
+    if completed < 1:
+        return "no start was followed to its end"
+    share = f"{'all' if arrived == completed else arrived or 'none'} of them to this optimum"
+    if completed == 1:
+        share = "to this optimum" if arrived else "not to this optimum"
+    out = f"{completed} start{' was' if completed == 1 else 's were'} followed to the end"
+    if optimal:
+        out += f", {share}"
+    if abandoned:
+        others = f"{abandoned} other{' was' if abandoned == 1 else 's were'}"
+        out += f"; {others} given up after a short run, having fallen behind, which proves nothing"
+    if not optimal:
+        return out
+    which = "starts that are not given up" if abandoned else "starts"
+    return (
+        f"{out}. A better optimum to which {100.0 * least_share(completed):.0f} % of {which} lead would have been met "
+        f"with a probability of {100.0 * SURE:.0f} %; a rarer one may have been missed"
+    )
