@@ -21,7 +21,7 @@ FIGURES = (".png", ".svg", ".pdf")
 
 
 class Answer(NamedTuple):
-    """What a command has to say."""
+    """Answer of a command."""
 
     parts: Iterable[Any]
     """Sentences and tables."""
@@ -72,7 +72,7 @@ def write_job(
     """
     parts = iter(answer.parts)  # empty once they are printed
 
-    def drawn(folder: Path) -> list[Path]:
+    def draw_all(folder: Path) -> list[Path]:
         (folder / FILE).unlink(missing_ok=True)  # that of an interrupted run would not agree with the record
         screen.print(*parts)
         try:
@@ -83,7 +83,7 @@ def write_job(
             raise
 
     try:
-        record = write(drawn)
+        record = write(draw_all)
     except OSError:
         screen.print(*parts)
         screen.data(answer.data)

@@ -13,7 +13,7 @@ import typer
 
 from ninedof.cli import commands
 from ninedof.cli.answer import command
-from ninedof.cli.ending import ended, interruptible
+from ninedof.cli.ending import finish, interruptible
 from ninedof.support.command import running
 
 PROGRAM = "ninedof"
@@ -68,4 +68,4 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if not words or words[0].endswith(".toml") or (words[0].startswith("-") and not own_option):
         words.insert(0, "optimize")
     with interruptible(), running(PROGRAM, words):
-        raise SystemExit(ended(lambda: app(words, prog_name=PROGRAM, standalone_mode=False), words))
+        raise SystemExit(finish(lambda: app(words, prog_name=PROGRAM, standalone_mode=False), words))

@@ -22,7 +22,7 @@ from ninedof.support.arrays import Floats
 
 
 class Chosen(NamedTuple):
-    """A design at its neutral pose, and the result of the study that found it, if one did."""
+    """A design at its neutral pose, and the result of its study, if there is one."""
 
     geometry: Geometry
     configuration: Configuration
@@ -37,7 +37,7 @@ class Chosen(NamedTuple):
 
     @property
     def study(self) -> Study | None:
-        """The study that found it."""
+        """The study that it is from."""
         return None if self.result is None else self.result.study
 
     @property
@@ -61,17 +61,17 @@ def named_design(name: str | None) -> Chosen:
     """Return the design that an argument DESIGN names; the published design at its best zs without one."""
     if name is None:
         return Chosen(*hexagonal_design(published_variables()))
-    found = load(name)
-    if isinstance(found, Design):
-        return Chosen(*found)
-    if isinstance(found, Front):
-        raise ValueError(f"{name}: got a front, expected one of its points: {name}#1 to {name}#{len(found)}")
-    if not isinstance(found, Result):
+    run = load(name)
+    if isinstance(run, Design):
+        return Chosen(*run)
+    if isinstance(run, Front):
+        raise ValueError(f"{name}: got a front, expected one of its points: {name}#1 to {name}#{len(run)}")
+    if not isinstance(run, Result):
         raise ValueError(f"{name}: got a run without a design, expected one of `ninedof optimize` or `ninedof pareto`")
-    best = found.best
+    best = run.best
     if best is None:
-        raise ValueError(f"{name}: the record holds no design: {found.reason}")
-    return Chosen(best.geometry, best.configuration, best.characteristic_length, found.study.unit, found)
+        raise ValueError(f"{name}: the record holds no design: {run.reason}")
+    return Chosen(best.geometry, best.configuration, best.characteristic_length, run.study.unit, run)
 
 
 def chosen_design(name: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Chosen:

@@ -57,7 +57,7 @@ def interruptible() -> Iterator[None]:
             signal.signal(number, before[number])
 
 
-def ended(work: Callable[[], object], arguments: Sequence[str]) -> int:
+def finish(work: Callable[[], object], arguments: Sequence[str]) -> int:
     """Do some work; return the exit status, after one line on standard error where an error ended it.
 
     Where Ctrl-C or the time ended the work, the line to type to go on follows.
@@ -74,13 +74,13 @@ def ended(work: Callable[[], object], arguments: Sequence[str]) -> int:
     except Exception as error:  # whatever it is: the table of statuses has a row for it
         if sys.flags.dev_mode:
             raise
-        status = _failed(_words(error, arguments), _status(error))
+        status = _fail(_words(error, arguments), _status(error))
     if words := how_to_go_on(interrupted=status == INTERRUPTED):
         print(escaped(f"ninedof: {words}"), file=sys.stderr)
-    return _flushed(status)
+    return _flush(status)
 
 
-def _flushed(status: int) -> int:
+def _flush(status: int) -> int:
     """Flush standard output; a reader that went away is no error. Python would fail to write it again as it ends."""
     try:
         if sys.stdout is not None:
@@ -88,11 +88,11 @@ def _flushed(status: int) -> int:
     except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if not isinstance(error, BrokenPipeError):
-            return _failed(f"standard output: cannot be written ({error.strerror})", REFUSED)
+            return _fail(f"standard output: cannot be written ({error.strerror})", REFUSED)
     return status
 
 
-def _failed(words: str, status: int) -> int:
+def _fail(words: str, status: int) -> int:
     print(f"ninedof: {one_line(words)}", file=sys.stderr)
     return status
 

@@ -81,17 +81,17 @@ class PosesOptions(PoseOptions):
 
 
 @dataclass(frozen=True)
-class Looked:
+class DesignAtPoses:
     """A design at poses."""
 
     chosen: Chosen
     c: Configuration
 
     @staticmethod
-    def at(options: PoseOptions) -> Looked:
+    def at(options: PoseOptions) -> DesignAtPoses:
         """Return the design and the poses of the options."""
         chosen = named_design(options.design)
-        return Looked(chosen, options.poses(chosen))
+        return DesignAtPoses(chosen, options.poses(chosen))
 
     def where(self, k: int) -> str:
         """Return " at pose 3", nothing where there is one pose."""

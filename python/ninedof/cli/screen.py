@@ -129,7 +129,7 @@ def best_words(best: float | None) -> str:
 
 
 class _Boxes(ProgressColumn):
-    """How many boxes of poses were looked at; nothing before the first."""
+    """The number of boxes of poses so far; nothing before the first."""
 
     def render(self, task: Task) -> Text:
         return Text(f"{task.completed:,.0f} boxes of poses" if task.completed else "")

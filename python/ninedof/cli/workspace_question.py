@@ -117,7 +117,7 @@ class WorkspaceOptions(JobOptions):
 class Question:
     """A question for `nd.workspace`."""
 
-    asked: dict[str, Any]
+    keywords: dict[str, Any]
     """Keywords of `nd.workspace`."""
     own: set[str]
     """Names of the criteria that come from the study."""
@@ -130,11 +130,11 @@ class Question:
 
 
 def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
-    """Return what is asked by options of a design."""
+    """Return the question that options ask of a design."""
     study, home = chosen.study, chosen.configuration
     region = None if study is None else study.objective.region
-    given = _present(options, CRITERIA)
-    values = {CRITERIA[name]: _radians(name, x) if name.endswith("_deg") else x for name, x in given.items()}
+    numbers = _present(options, CRITERIA)
+    values = {CRITERIA[name]: _radians(name, x) if name.endswith("_deg") else x for name, x in numbers.items()}
     criteria, own, left = criteria_of(study if options.study_limits else None, chosen.geometry, home, values)
     if options.study_limits and compare_poses(left, values):
         built = built_ranges(chosen.geometry, home, region, chosen.leg_ranges)
@@ -150,7 +150,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     at = None if not of_angles else home.position if options.position is None else options.position
     turns = options.archetype not in ("constant_orientation", "orientation")
     bounds = _present(options, ("angle_deg", "tilt_deg", "torsion_deg"))
-    asked: dict[str, Any] = {
+    keywords: dict[str, Any] = {
         "archetype": options.archetype,
         "criteria": criteria,
         "characteristic_length": float(length_at_home(chosen)),
@@ -160,13 +160,13 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
         **_present(options, ("orientations", "resolution", "points", "seed")),
     }
     if bounds:
-        asked["region"] = {name.removesuffix("_deg"): _radians(name, value) for name, value in bounds.items()}
+        keywords["region"] = {name.removesuffix("_deg"): _radians(name, value) for name, value in bounds.items()}
     if options.index:
-        asked["index"] = options.index
+        keywords["index"] = options.index
     if chosen.unit:
-        asked["unit"] = chosen.unit
-    proof = _proof(options, asked["internal_point"])
-    return Question(asked | _place(options, chosen, region), own, left, region, proof)
+        keywords["unit"] = chosen.unit
+    proof = _proof(options, keywords["internal_point"])
+    return Question(keywords | _place(options, chosen, region), own, left, region, proof)
 
 
 def criteria_of(
@@ -229,15 +229,15 @@ def _place(options: WorkspaceOptions, chosen: Chosen, region: Region | None) -> 
 
 def _proof(options: WorkspaceOptions, rule: Any) -> dict[str, Any] | None:
     """Return gap and time of the proof; None where none is wanted."""
-    given = _present(options, ("gap", "time"))
+    settings = _present(options, ("gap", "time"))
     if not options.certify:
-        for name, value in given.items():
+        for name, value in settings.items():
             raise ValueError(f"--{name}: got {value:g} without --certify, expected both")
         return None
     require_certifiable(options.archetype, rule)
-    finite("--gap", given.get("gap", 0.5), *GAPS)
-    finite("--time", given.get("time", 0.0), 0.0)
-    return {"time_limit" if name == "time" else name: value for name, value in given.items()}
+    finite("--gap", settings.get("gap", 0.5), *GAPS)
+    finite("--time", settings.get("time", 0.0), 0.0)
+    return {"time_limit" if name == "time" else name: value for name, value in settings.items()}
 
 
 def _present(options: WorkspaceOptions, names: Any) -> dict[str, Any]:

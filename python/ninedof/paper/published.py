@@ -63,9 +63,9 @@ def published_variables(zs: float | None = None) -> dict[str, float]:
 @cache
 def published_zs() -> tuple[float, float, float]:
     """Return the heights of O at which the published design has k = 3.9110, below and above the best, and the best."""
-    found = solved("published plates and height").best
-    assert found is not None, "one free variable, no constraint: always solvable"
-    best = found.variables["zs"]
+    point = solved("published plates and height").best
+    assert point is not None, "one free variable, no constraint: always solvable"
+    best = point.variables["zs"]
     return _crossing(best, best - 0.5), _crossing(best, best + 0.5), best
 
 

@@ -1,4 +1,4 @@
-"""Where run folders are made."""
+"""The folders of runs."""
 
 from __future__ import annotations
 

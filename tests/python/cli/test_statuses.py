@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ninedof.cli import screen
-from ninedof.cli.ending import ended
+from ninedof.cli.ending import finish
 from ninedof.records.design_file import HEXAGON, hexagonal_design
 from ninedof.support.arguments import whole
 from ninedof.support.extras import MissingExtra
@@ -35,7 +35,7 @@ CASES = {
 
 @pytest.mark.parametrize(("work", "status", "words"), CASES.values(), ids=CASES)
 def test_an_error_ends_with_one_line_and_its_status(capsys, work, status, words):
-    assert ended(work, []) == status
+    assert finish(work, []) == status
     said = capsys.readouterr()
     assert said.out == ""
     assert words in said.err
@@ -46,14 +46,14 @@ def test_an_error_ends_with_one_line_and_its_status(capsys, work, status, words)
 def test_what_was_kept_is_named(capsys):
     error = RuntimeError("gone")
     error.add_note("Finished chunks are kept in run.")
-    assert ended(lambda: raising(error), []) == 4
+    assert finish(lambda: raising(error), []) == 4
     assert capsys.readouterr().err == "ninedof: gone. Finished chunks are kept in run.\n"
 
 
 @pytest.mark.parametrize(("code", "status"), [(None, 0), (0, 0), (3, 3), (130, 130), ("words", 4)])
 def test_a_status_of_its_own_stays(code, status):
-    assert ended(lambda: code, []) == status
-    assert ended(lambda: raising(SystemExit(code)), []) == status
+    assert finish(lambda: code, []) == status
+    assert finish(lambda: raising(SystemExit(code)), []) == status
 
 
 def test_the_table_is_that_of_the_documentation():

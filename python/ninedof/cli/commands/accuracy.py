@@ -11,7 +11,7 @@ import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import JOINT_ERROR, LEG_ERROR
-from ninedof.cli.posed import Looked, PosesOptions, at_worst
+from ninedof.cli.posed import DesignAtPoses, PosesOptions, at_worst
 from ninedof.statics.accuracy import MOST_SAMPLES, ErrorBounds, error_bounds, error_samples
 from ninedof.support.arguments import finite, whole
 from ninedof.support.units import amount
@@ -51,7 +51,7 @@ def accuracy(options: AccuracyOptions) -> Answer:
         whole("--samples", options.samples, 1, MOST_SAMPLES)
         if options.all_poses:
             raise ValueError("--samples: got it with --all-poses, expected one pose")
-    at = Looked.at(options)
+    at = DesignAtPoses.at(options)
     g, unit = at.chosen.geometry, at.chosen.unit
     tolerances = (options.leg_error, options.joint_error)
     bounds = error_bounds(g, at.c, *tolerances)

@@ -14,7 +14,7 @@ import typer
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import with_length
 from ninedof.cli.options import Lc, LegLimits
-from ninedof.cli.posed import Looked, PosesOptions, length_at_home
+from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.redundancy.redundancy import CRITERIA, InternalPoint, best_internal_point
@@ -48,7 +48,7 @@ class BestOptions(PosesOptions):
 
 def best(options: BestOptions) -> Answer:
     """Print the best place of O at a pose, reached from where it is without passing a singularity."""
-    at = Looked.at(options)
+    at = DesignAtPoses.at(options)
     at = replace(at, chosen=with_length(at.chosen, options.lc))
     chosen, c = at.chosen, at.c
     limits: Any = chosen.leg_limits() if options.legs is None else options.legs
@@ -73,7 +73,7 @@ def best(options: BestOptions) -> Answer:
     return at.answer(parts, data, status=DONE if np.isfinite(result.value).any() else NO_RESULT)
 
 
-def _now(at: Looked, criterion: str, length: float) -> Floats | None:
+def _now(at: DesignAtPoses, criterion: str, length: float) -> Floats | None:
     """Return the criterion where O is; None for one that depends on limits."""
     if criterion == "condition_number":
         return np.asarray(condition_number(at.chosen.geometry, at.c, length))
@@ -94,7 +94,7 @@ def _over_poses(result: InternalPoint, now: Floats | None, words: str, small: bo
     yield "; ".join([*ended, ", ".join(f"{count} {status}" for status, count in statuses.items())])
 
 
-def _words(at: Looked, result: InternalPoint, now: Floats | None, words: str) -> Iterator[str]:
+def _words(at: DesignAtPoses, result: InternalPoint, now: Floats | None, words: str) -> Iterator[str]:
     """Yield O and the criterion at one pose, as they are and at the best."""
     if now is not None:
         yield f"O now {_point(at.c.internal_point[0], at.chosen.unit)}: {words} {now[0]:.6g}"
@@ -104,7 +104,7 @@ def _words(at: Looked, result: InternalPoint, now: Floats | None, words: str) ->
     yield f"{result.status[0]}; limits reached: {', '.join(result.active[0]) or 'nothing'}"
 
 
-def _table(at: Looked, result: InternalPoint, now: Floats | None, words: str, small: bool) -> Table:
+def _table(at: DesignAtPoses, result: InternalPoint, now: Floats | None, words: str, small: bool) -> Table:
     """Return O and the criterion, as it is and at the best, for the poses that are worst now."""
     c, points = at.c, result.configuration.internal_point
     order = np.arange(len(c)) if now is None else np.argsort(-now if small else now, kind="stable")

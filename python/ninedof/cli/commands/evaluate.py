@@ -69,10 +69,10 @@ def evaluate(options: EvaluateOptions) -> Answer:
     if not 0.0 < o < p:
         parts.append("O is not between base and platform: studies require 0 < zs < zp.")
     if chosen.result is not None:
-        found = sheet(chosen.result, characteristic_length=chosen.characteristic_length)
-        parts += [poses_table(found)] if len(found.configurations) > 1 else []
-        parts += [limits_table(found)] if found.limits else []
-        values |= {"sheet": found.to_dict()}
+        of_run = sheet(chosen.result, characteristic_length=chosen.characteristic_length)
+        parts += [poses_table(of_run)] if len(of_run.configurations) > 1 else []
+        parts += [limits_table(of_run)] if of_run.limits else []
+        values |= {"sheet": of_run.to_dict()}
     return Answer(parts, values)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import LOAD
-from ninedof.cli.posed import Looked, PosesOptions, load_option
+from ninedof.cli.posed import DesignAtPoses, PosesOptions, load_option
 from ninedof.cli.screen import bold
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.tables import load_words
@@ -39,7 +39,7 @@ class ForcesOptions(PosesOptions):
 def forces(options: ForcesOptions) -> Answer:
     """Print the forces in the legs that balance loads on the platform, positive where a leg pushes."""
     loads = np.array([load_option(text) for text in options.load])
-    at = Looked.at(options)
+    at = DesignAtPoses.at(options)
     balances = [leg_forces(at.chosen.geometry, at.c, moment=row[:3], force=row[3:]) for row in loads]
     result, unbalanced = (np.stack([getattr(each, name) for each in balances]) for name in ("forces", "unbalanced"))
     columns = [Column("leg"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(loads) + 1))]

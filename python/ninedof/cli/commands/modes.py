@@ -9,7 +9,7 @@ import numpy as np
 import typer
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.posed import Looked, PoseOptions, length_at_home, poses_data, several
+from ninedof.cli.posed import DesignAtPoses, PoseOptions, length_at_home, poses_data, several
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.kinematics.kinematics import leg_lengths
@@ -45,7 +45,7 @@ def modes(options: ModesOptions) -> Answer:
     """Print every configuration with the leg lengths of a pose: the assembly modes."""
     if options.lengths is not None and options.named():
         raise ValueError("--lengths: got a pose beside it, expected one of the two")
-    at = Looked.at(options)
+    at = DesignAtPoses.at(options)
     g, unit = at.chosen.geometry, at.chosen.unit
     lengths = leg_lengths(g, at.c)[0]
     if options.lengths is not None:

@@ -88,10 +88,10 @@ def optimize(options: OptimizeOptions) -> None:
     else:
         result, answer = run, Answer(_result_parts(run), {"optimization": run.to_dict()})
     data = {**unit_entry(study.unit), **answer.data}
-    drawn = options.figures and not result.interrupted
-    draw = figures_of(run, screen.say, options.convergence) if drawn else None
+    with_figures = options.figures and not result.interrupted
+    draw = figures_of(run, screen.say, options.convergence) if with_figures else None
     write = partial(write_run, run, directory)
-    record = write_job(screen, Answer(answer.parts, data), write, draw, drawn and options.report)
+    record = write_job(screen, Answer(answer.parts, data), write, draw, with_figures and options.report)
     if options.check and result.best is not None and not result.interrupted:
         verdict = examine(result)
         screen.print(verdict.report())

@@ -91,8 +91,8 @@ def pareto(options: ParetoOptions) -> None:
         count = "1 limit is" if len(front) == 1 else f"{len(front)} limits are"
         parts.append(bold("interrupted", f": {count} solved so far and kept in {directory}"))
     data = {"front": front.to_dict()}
-    drawn = options.figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
-    draw = partial(_draw, front, screen) if drawn else None
+    with_figures = options.figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
+    draw = partial(_draw, front, screen) if with_figures else None
     report = options.figures and options.report and not front.interrupted
     record = write_job(screen, Answer(parts, data), partial(write_run, front, directory), draw, report)
     screen.print(folder_words(directory))

@@ -10,7 +10,7 @@ import numpy as np
 import typer
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.posed import Looked, PosesOptions, several
+from ninedof.cli.posed import DesignAtPoses, PosesOptions, several
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import arrays_of
 from ninedof.sheet.pose_words import pose_words
@@ -64,7 +64,7 @@ def singularity(options: SingularityOptions) -> Answer:
     motion = None if options.direction is None else np.array(several("--direction", options.direction, words))
     if motion is not None and not motion.any():
         raise ValueError(f"--direction: got {options.direction!r}, expected a motion that is not zero")
-    at = Looked.at(options)
+    at = DesignAtPoses.at(options)
     here = singularity_of(at.chosen.geometry, at.c)
     parts: list[Any] = []
     for name, values in here.margins._asdict().items():
@@ -74,7 +74,7 @@ def singularity(options: SingularityOptions) -> Answer:
     return at.answer([*parts, *more], {"margins": here.margins._asdict(), "mechanism": here.mechanism} | data)
 
 
-def _along(at: Looked, motion: Floats, most: float) -> tuple[list[Any], dict[str, Any]]:
+def _along(at: DesignAtPoses, motion: Floats, most: float) -> tuple[list[Any], dict[str, Any]]:
     """Return the first singularity on one motion, in words and as data."""
     result = distance_to_singularity(at.chosen.geometry, at.c, motion, most)
     k = int(np.argmin(result.distance))
@@ -88,7 +88,7 @@ def _along(at: Looked, motion: Floats, most: float) -> tuple[list[Any], dict[str
     return words, data
 
 
-def _coordinates(at: Looked) -> tuple[list[Any], dict[str, Any]]:
+def _coordinates(at: DesignAtPoses) -> tuple[list[Any], dict[str, Any]]:
     """Return the distances along the coordinates, and the nearest singularities in any direction."""
     g, c, length_unit = at.chosen.geometry, at.c, at.chosen.unit
     reach = 2.0 * float(leg_lengths(g, c).max())
@@ -131,7 +131,7 @@ def _coordinates(at: Looked) -> tuple[list[Any], dict[str, Any]]:
     return [Table("Distance to the first singularity", columns, rows), *kinds_words, *nearest], {"distance": out}
 
 
-def _nearest(name: str, distance: str, one: NearestSingularity, at: Looked) -> str:
+def _nearest(name: str, distance: str, one: NearestSingularity, at: DesignAtPoses) -> str:
     """Return the nearest singularity of a part in words."""
     if not math.isfinite(one.distance):
         return f"{name} any axis: no singularity found"

@@ -9,7 +9,7 @@ import numpy as np
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import LEG_STIFFNESS
-from ninedof.cli.posed import Looked, PosesOptions
+from ninedof.cli.posed import DesignAtPoses, PosesOptions
 from ninedof.sheet.sheet import sheet
 from ninedof.statics.statics import stiffness as stiffness_of
 from ninedof.support.arguments import finite
@@ -40,7 +40,7 @@ class StiffnessOptions(PosesOptions):
 def stiffness(options: StiffnessOptions) -> Answer:
     """Print the stiffness matrix of the platform, legs locked and O free to settle, and the least stiffness."""
     finite("--leg-stiffness", options.leg_stiffness, 0.0)
-    at = Looked.at(options)
+    at = DesignAtPoses.at(options)
     unit = at.chosen.unit
     result = stiffness_of(at.chosen.geometry, at.c, options.leg_stiffness)
     least = sheet(at.chosen.geometry, at.c, leg_stiffness=options.leg_stiffness).stiffness

@@ -57,14 +57,14 @@ def workspace(options: WorkspaceOptions) -> None:
     chosen = with_length(named_design(options.design), options.lc)
     question = question_of(options, chosen)
     home, region = chosen.configuration, question.region
-    record = {"geometry": triples(chosen.geometry), "home": arrays_of(home), **question.asked}
+    record = {"geometry": triples(chosen.geometry), "home": arrays_of(home), **question.keywords}
     how: dict[str, Any] = {"home": home, "threads": options.threads}
     whole = {"kind": "workspace", **record, "proof": question.proof}
     with run_folder(options.out) as directory, Store(directory, whole) as store:
 
         def search() -> WorkspaceMap:
             with screen.bar("poses", options.archetype.replace("_", " ")) as bar:
-                return find_workspace(chosen.geometry, **question.asked, **how, progress=bar.show)
+                return find_workspace(chosen.geometry, **question.keywords, **how, progress=bar.show)
 
         result = _piece(store, 0, WorkspaceMap, search)
 
@@ -76,9 +76,9 @@ def workspace(options: WorkspaceOptions) -> None:
     if (proof := question.proof) is not None and not result.interrupted:
 
         def prove() -> CertifiedWorkspace:
-            asked = {name: value for name, value in question.asked.items() if name not in OF_THE_MAP}
+            keywords = {name: value for name, value in question.keywords.items() if name not in OF_THE_MAP}
             with screen.bar("boxes", "proving") as bar:
-                return certified_workspace(chosen.geometry, **asked, **proof, **how, progress=bar)
+                return certified_workspace(chosen.geometry, **keywords, **proof, **how, progress=bar)
 
         proved = _piece(store, 1, CertifiedWorkspace, prove)
         if result.method != "sample":
@@ -87,13 +87,13 @@ def workspace(options: WorkspaceOptions) -> None:
         write_job(screen, Answer(proved.sentences(), {"workspace": result.to_dict()}), lambda _: write(None))
     data: dict[str, Any] = {"workspace": result.to_dict()}
     if region is not None and places_o(region) and not result.interrupted:
-        asked = question.asked
-        share = region_share(region, chosen.geometry, home, asked["criteria"], asked["characteristic_length"])
+        keywords = question.keywords
+        share = region_share(region, chosen.geometry, home, keywords["criteria"], keywords["characteristic_length"])
         screen.print(share_words(region, share, chosen.unit))
         data["region"] = share._asdict()
     stopped = result.interrupted or (result.certified is not None and result.certified.interrupted)
-    drawn = options.figures and result.volume > 0.0 and not stopped and result.method != "sample"
-    drawing = partial(draw, result, screen, home, None if result.of_angles else region) if drawn else None
+    with_figures = options.figures and result.volume > 0.0 and not stopped and result.method != "sample"
+    drawing = partial(draw, result, screen, home, None if result.of_angles else region) if with_figures else None
     path = write_job(screen, Answer([], data), write, drawing, options.figures and options.report and not stopped)
     screen.print(folder_words(directory))
     screen.data(data | {"record": str(path)})
@@ -111,6 +111,6 @@ def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -
 
 
 def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
-    yield from asked_lines(question.asked, chosen.configuration, question.own, question.left, chosen.unit)
+    yield from asked_lines(question.keywords, chosen.configuration, question.own, question.left, chosen.unit)
     yield workspace_table(result)
     yield from (bold(*words) for words in workspace_words(result))
