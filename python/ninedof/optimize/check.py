@@ -215,12 +215,12 @@ def _region(result: Result, problem: _core.Problem, x: list[float], seed: int) -
     worst = _core.check_region(problem, region.for_core(), x, legs, seed)
     where = "poses, O being placed at each," if region.internal_point == "best" else "poses"
     sentence = f"at {worst.poses} {where} the index is at most {worst.index:.9g}, the least margin {worst.margin:.1e}"
-    passed = worst.excess <= BETWEEN
+    holds = worst.excess <= BETWEEN
     if report.mean is not None:
         error = math.hypot(worst.standard_error, report.mean.standard_error)
-        passed &= abs(worst.mean - report.mean.value) <= ERRORS * error
+        holds &= abs(worst.mean - report.mean.value) <= ERRORS * error
         sentence += f", the harmonic mean over 8192 others {worst.mean:.6g}"
-    return Finding("region", passed, worst.excess, sentence)
+    return Finding("region", holds, worst.excess, sentence)
 
 
 def _proofs(result: Result) -> Iterator[Finding]:

@@ -62,7 +62,7 @@ def _loosest(solver: FrontSolver, without: Result) -> float:
     own = own_value(solver.study, solver.against)
     if own is None:
         raise ValueError(
-            f"values: got None, expected limits to solver: without a limit on {solver.against} the study is "
+            f"values: got None, expected limits to sweep: without a limit on {solver.against} the study is "
             f"{without.status}, so none can be derived ({without.reason})"
         )
     return 4.0 * own
