@@ -7,12 +7,13 @@ from collections.abc import Iterable, Mapping
 
 from ninedof.cli.chosen_design import length_option, named_design, with_length
 from ninedof.design.family_variables import variables_of
+from ninedof.design.study import FAMILIES as FAMILY_NAMES
 from ninedof.design.study import Study
 from ninedof.paper.published import published_variables
 from ninedof.support.angles import plain_name
 from ninedof.sweep.run import DesignOptions
 
-FAMILIES = {name: tuple(Study(name).variables) for name in ("hexagonal", "symmetric", "symmetric_nonplanar", "general")}
+FAMILIES = {name: tuple(Study(name).variables) for name in FAMILY_NAMES}
 VARIABLES = frozenset(name for names in FAMILIES.values() for name in names)
 
 Held = tuple[dict[str, float], DesignOptions]

@@ -50,6 +50,8 @@ TABLES = {
 }
 """The tables of a study file, and the arguments that are keys of one; the others are arguments as a whole."""
 MOST_STARTS = 1_000_000  # each may be searched four times, and all ends are kept
+FAMILIES = tuple(_core.design_family_names())
+"""From few variables to many."""
 
 
 def variable_kinds(family: str) -> dict[str, str]:
@@ -65,7 +67,7 @@ def _in_radians(where: str, values: Any, kinds: Mapping[str, str], check: Check)
 
 
 def _family(name: str, value: Any) -> str:
-    return choice(name, value, _core.design_family_names())
+    return choice(name, value, FAMILIES)
 
 
 def _constraints(name: str, value: Any) -> Mapping[str, Any]:

@@ -29,8 +29,8 @@ def question(study: Study) -> Html:
 
 def sentences(study: Study) -> Iterator[str]:
     """Yield what is asked, in sentences."""
-    family = FAMILIES[study.family]
-    yield f"Which design has the least {study.words}? The family of designs is “{study.family}”: {family}."
+    family = f": {FAMILIES[study.family]}" if study.family in FAMILIES else ""
+    yield f"Which design has the least {study.words}? The family of designs is “{study.family}”{family}."
     objective = study.objective
     if objective.region is not None:
         yield f"Every limit is to hold in all of this region. {_where_o(objective.region.internal_point)}"

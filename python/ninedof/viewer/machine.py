@@ -15,7 +15,7 @@ from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.family_variables import variables_of
 from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.region import Region
-from ninedof.design.study import Study, variable_kinds
+from ninedof.design.study import FAMILIES, Study, variable_kinds
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables
@@ -28,8 +28,6 @@ from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
 
 LENGTH = "characteristic_length"
-FAMILIES = ("hexagonal", "symmetric", "symmetric_nonplanar", "general")
-"""From few variables to many."""
 
 
 class Variable(NamedTuple):
