@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from . import commands, contents, gallery, headers, links, project, public_names
+from . import commands, contents, gallery, headers, links, public_names
 
 MADE = ("reference/python", "reference/commands", "reference/cpp", "gallery/examples", "project")
 
@@ -19,7 +19,7 @@ def generate(docs: Path) -> None:
         **{f"reference/python/{name}": text for name, text in public_names.pages().items()},
         **{f"reference/commands/{name}": text for name, text in commands.pages().items()},
         **{f"reference/cpp/{name}": text for name, text in headers.pages(root / "cpp/include/ninedof").items()},
-        **{f"project/{name}": text for name, text in project.pages(root).items()},
+        **{f"project/{name}": text for name, text in links.project_pages(root).items()},
     }
     for name, text in pages.items():
         path = docs / f"{name}.md"

@@ -4,65 +4,27 @@ from __future__ import annotations
 
 from pathlib import Path
 
+
+def _listed(names: str, folder: str = "") -> list[str]:
+    return [folder + name for name in names.split()]
+
+
+THEORY = "velocity conditioning closed-form position singularity statics redundancy kernels design minimax limits proof"
 # Page: groups of (heading, pages). A pattern stands for all pages it matches, in the order of their names.
 TREE = {
     "index": [
-        ("Start", ["first-design", "requirement", "tour", "gallery/index"]),
-        (
-            "Guides",
-            [
-                f"guides/{name}"
-                for name in ["characteristic-length", "regions", "reading-a-map", "assembly-modes", "confidence"]
-            ],
-        ),
+        ("Start", _listed("first-design requirement tour gallery/index")),
+        ("Guides", _listed("characteristic-length regions reading-a-map assembly-modes confidence", "guides/")),
         (
             "Subjects",
-            [
-                "conventions",
-                "kinematics",
-                "workspace",
-                "optimization",
-                "certificate",
-                "certify",
-                "sweeps",
-                "study-file",
-                "figures",
-                "viewer",
-                "report",
-                "exports",
-            ],
+            _listed("conventions kinematics workspace optimization certificate certify sweeps")
+            + _listed("study-file figures viewer report exports"),
         ),
-        ("The paper", ["paper", "values", "equations"]),
-        (
-            "Theory and code",
-            ["theory/index", "reference/index", "architecture", "extend", "testing", "wheels", "comparison"],
-        ),
+        ("The paper", _listed("paper values equations")),
+        ("Theory and code", _listed("theory/index reference/index architecture extend testing wheels comparison")),
         ("Project", ["project/*"]),
     ],
-    "theory/index": [
-        (
-            "",
-            [
-                f"theory/{name}"
-                for name in [
-                    "velocity",
-                    "conditioning",
-                    "closed-form",
-                    "position",
-                    "singularity",
-                    "statics",
-                    "redundancy",
-                    "kernels",
-                    "design",
-                    "minimax",
-                    "limits",
-                    "proof",
-                    "proof-machine",
-                    "workspace",
-                ]
-            ],
-        )
-    ],
+    "theory/index": [("", _listed(f"{THEORY} proof-machine workspace", "theory/"))],
     "gallery/index": [("", ["gallery/examples/*"])],
     "reference/index": [
         ("Python", ["reference/python/*"]),

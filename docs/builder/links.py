@@ -50,3 +50,12 @@ def within_site(text: str, written: Path, shown: Path, docs: Path) -> str:
         return f"[{words}]({os.path.relpath(path, shown)}{'#' * bool(part)}{part})"
 
     return LINK.sub(link, text)
+
+
+def project_pages(root: Path) -> dict[str, str]:
+    """Return the text of each page about the project, with links for the site."""
+    docs = root / "docs"
+    return {
+        name: within_site((root / file).read_text(encoding="utf-8"), (root / file).parent, docs / "project", docs)
+        for name, file in OUTSIDE.items()
+    }
