@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 
 if TYPE_CHECKING:
     from ninedof.plot import Section
+    from ninedof.workspace import WorkspaceSlice
 
 NEAR = 10.0  # home is marked in a section within this part of the size of the workspace
 
@@ -63,8 +64,7 @@ def _draw_certified(
         place = float(np.clip(at, proved.low[fixed], proved.high[fixed]))
         section = _section(workspace, home, region, middle, fixed, place)
         plane = proved.section(workspace.coordinates[fixed], place)
-        estimate: Any = section.plane  # of the map: _section draws no other
-        panels.append(plot.Section(plane, region=section.region, home=section.home, estimate=estimate))
+        panels.append(plot.Section(plane, region=section.region, home=section.home, estimate=section.plane))
     return plot.save(plot.certified_workspace(panels, workspace.unit), directory, "certified_workspace")
 
 
@@ -82,7 +82,7 @@ def _planes(workspace: WorkspaceMap, home: Configuration, middle: Floats) -> lis
 
 def _section(
     workspace: WorkspaceMap, home: Configuration, region: Region | None, middle: Floats, fixed: int, at: float
-) -> Section:
+) -> Section[WorkspaceSlice]:
     """Return one section with what is marked in it: home, and the region or else the largest ball and box."""
     from ninedof.plot import Section
 

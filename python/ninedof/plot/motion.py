@@ -15,7 +15,6 @@ from ninedof.support.arrays import Floats, as_floats
 if TYPE_CHECKING:
     from ninedof.motion import Followed
 
-KINDS = {"l": "external legs", "q": "upper internal legs", "r": "lower internal legs"}
 MOST_DRAWN = 800  # stretches of a curve
 MOST_MARGIN = 1.0  # drawn: beyond it a limit is far
 LIMIT: dict[str, Any] = {"color": style.INK, "lw": 1.0, "ls": (0, (6, 3)), "zorder": 1}
@@ -56,7 +55,7 @@ def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, f
         grid = figure.add_gridspec(len(rows), 3, height_ratios=rows, hspace=0.5, wspace=0.36, **place)
         panels = [figure.add_subplot(grid[0, k]) for k in range(3)]
         panels += [figure.add_subplot(grid[k, :]) for k in range(1, len(rows))]
-        for k, (kind, title) in enumerate(KINDS.items()):
+        for k, (kind, title) in enumerate(style.LEG_WORDS.items()):
             legs = slice(3 * k, 3 * k + 3)
             _legs(panels[k], t[chosen], lengths[chosen, legs], kind)
             _limits(panels[k], followed.limits[0][legs], followed.limits[1][legs], lengths[:, legs])

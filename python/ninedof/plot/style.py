@@ -24,6 +24,7 @@ EXTERNAL = "#0072B2"
 UPPER = "#D55E00"
 LOWER = "#009E73"
 LEG_COLOURS = {"l": EXTERNAL, "q": UPPER, "r": LOWER}
+LEG_WORDS = {"l": "external legs", "q": "upper internal legs", "r": "lower internal legs"}
 
 BASE = "#46525E"
 PLATFORM = "#A9B6C3"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 from contourpy import contour_generator
@@ -33,9 +33,9 @@ BOUNDARY = 2.2  # points
 DASHED = (0, (3, 1.5))
 
 KINDS: dict[str, tuple[str, str, Any]] = {  # limits: beginning of the name, words, colour, dashes
-    "l": ("external legs", style.EXTERNAL, "-"),
-    "q": ("upper internal legs", style.UPPER, (0, (2.4, 0.8))),
-    "r": ("lower internal legs", style.LOWER, (0, (0.9, 0.7))),
+    "l": (style.LEG_WORDS["l"], style.EXTERNAL, "-"),
+    "q": (style.LEG_WORDS["q"], style.UPPER, (0, (2.4, 0.8))),
+    "r": (style.LEG_WORDS["r"], style.LOWER, (0, (0.9, 0.7))),
     "base_cone": ("joint cones of the base", "#AA3377", (0, (3.5, 0.7, 0.8, 0.7))),
     "platform_cone": ("joint cones of the platform", "#CC79A7", (0, (3.5, 0.7, 0.8, 0.7, 0.8, 0.7))),
     "leg_clearance": ("leg clearance", "#7B4B00", (0, (5.0, 1.0))),
@@ -47,12 +47,14 @@ KINDS: dict[str, tuple[str, str, Any]] = {  # limits: beginning of the name, wor
 }
 ALLOWED, OPEN, EDGE = "#A9CCE3", "#E8871E", "#7FB0D1"  # proved, not decided, edges of proved boxes
 
+Plane = TypeVar("Plane", bound="WorkspaceSlice | CertifiedSection")
+
 
 @dataclass(frozen=True, eq=False)
-class Section:
+class Section(Generic[Plane]):
     """A plane section of a workspace and what is marked in it, in the two coordinates drawn."""
 
-    plane: WorkspaceSlice | CertifiedSection
+    plane: Plane
     """As `WorkspaceMap.slice` returns it (smooth for contours), or `CertifiedWorkspace.section`."""
     ball: tuple[ArrayLike, float] | None = None
     """Centre and radius of the section of the ball."""
@@ -66,7 +68,7 @@ class Section:
     """The same plane of a map, to draw its boundary over what is certified."""
 
 
-def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure | None = None) -> Figure:
+def workspace(found: WorkspaceMap, sections: Sequence[Section[WorkspaceSlice]], figure: Figure | None = None) -> Figure:
     """Return a figure of a workspace: sections above, the limits, the condition number and the volume below.
 
     Colours are bands between contours at round values, the same in all sections. Where the condition number goes on
@@ -122,7 +124,9 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure |
     return figure
 
 
-def certified_workspace(sections: Sequence[Section], unit: str = "", figure: Figure | None = None) -> Figure:
+def certified_workspace(
+    sections: Sequence[Section[CertifiedSection]], unit: str = "", figure: Figure | None = None
+) -> Figure:
     """Return a figure of a certified workspace: where poses are proved to be allowed, and where nothing is proved.
 
     The rest is proved to be outside. Each pixel is judged at its middle: what is thinner may be missed. Edges
@@ -174,10 +178,9 @@ def _layout() -> ConstrainedLayoutEngine:
     return ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06)
 
 
-def _bands(percentiles: Floats, sections: Sequence[Section]) -> tuple[Floats, float | None]:
+def _bands(percentiles: Floats, sections: Sequence[Section[WorkspaceSlice]]) -> tuple[Floats, float | None]:
     """Return the round values between the bands of colour, and the largest value if it is beyond them."""
-    planes: list[Any] = [section.plane for section in sections]  # of a map
-    drawn = np.concatenate([plane.condition_number.ravel() for plane in planes])
+    drawn = np.concatenate([section.plane.condition_number.ravel() for section in sections])
     of_volume = percentiles[np.isfinite(percentiles)]
     known = of_volume if of_volume.size else drawn[np.isfinite(drawn)]  # the raster goes on beyond the boundary
     if not known.size:
@@ -190,7 +193,7 @@ def _bands(percentiles: Floats, sections: Sequence[Section]) -> tuple[Floats, fl
     return bands, most if most > bands[-1] else None
 
 
-def _fill(axes: Any, s: Any, turn: Any, levels: Floats, cut: bool) -> Any:
+def _fill(axes: Any, s: WorkspaceSlice, turn: Any, levels: Floats, cut: bool) -> Any:
     """Fill between contours, within the workspace alone; return the bands, None without a finite condition number."""
     if not np.isfinite(s.condition_number).any():
         return None
@@ -211,12 +214,12 @@ def _fill(axes: Any, s: Any, turn: Any, levels: Floats, cut: bool) -> Any:
     return bands
 
 
-def _outline(s: Any, turn: Any) -> list[Floats]:
+def _outline(s: WorkspaceSlice, turn: Any) -> list[Floats]:
     """Return the boundary of a section, closed lines of points (n, 2)."""
     return [np.asarray(line) for line in contour_generator(turn(s.horizontal), turn(s.vertical), s.fraction).lines(0.5)]
 
 
-def _boundary(axes: Any, s: Any, turn: Any, kinds: Sequence[str]) -> None:
+def _boundary(axes: Any, s: WorkspaceSlice, turn: Any, kinds: Sequence[str]) -> None:
     """Draw the boundary in stretches of one kind of limit, and show the part of the plane about it."""
     names = list(KINDS)
     numbers = np.array([names.index(kind) for kind in kinds] + [-1])
@@ -240,7 +243,7 @@ def _boundary(axes: Any, s: Any, turn: Any, kinds: Sequence[str]) -> None:
         axes.set(xlim=(low[0] - room, high[0] + room), ylim=(low[1] - room, high[1] + room))
 
 
-def _certified(axes: Any, s: Any) -> None:
+def _certified(axes: Any, s: CertifiedSection) -> None:
     """Draw what is proved, and show the part of the plane about it."""
     dx, dy = (0.5 * float(a[1] - a[0]) for a in (s.horizontal, s.vertical))
     x0, x1, y0, y1 = s.horizontal[0] - dx, s.horizontal[-1] + dx, s.vertical[0] - dy, s.vertical[-1] + dy
@@ -258,7 +261,7 @@ def _certified(axes: Any, s: Any) -> None:
         axes.set(xlim=(max(x[0] - room, x0), min(x[1] + room, x1)), ylim=(max(y[0] - room, y0), min(y[1] + room, y1)))
 
 
-def _marks(axes: Any, section: Section, turn: Any, unit: str, region: str) -> None:
+def _marks(axes: Any, section: Section[Plane], turn: Any, unit: str, region: str) -> None:
     """Draw ball, box, region and home over a section, and name its axes and its plane."""
     for ink, width in (("white", 2.0), (style.INK, 0.9)):
         line: dict[str, Any] = {"fill": False, "lw": width, "ec": ink}
@@ -278,14 +281,14 @@ def _marks(axes: Any, section: Section, turn: Any, unit: str, region: str) -> No
     axes.set_title(f"{s.plane[0]} = {amount(style.signed(float(turn(s.plane[1]))), unit)}")
 
 
-def _keys_of_limits(sections: Sequence[Section], kinds: Sequence[str]) -> list[Any]:
-    planes: list[Any] = [section.plane for section in sections]  # of a map
+def _keys_of_limits(sections: Sequence[Section[WorkspaceSlice]], kinds: Sequence[str]) -> list[Any]:
+    planes = [section.plane for section in sections]
     there = {kinds[n] for s in planes for n in np.unique(s.limit[s.state == 1]).tolist() if n >= 0}
     shown = [(words, colour, dashes) for kind, (words, colour, dashes) in KINDS.items() if kind in there]
     return [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in shown]
 
 
-def _legend(figure: Any, keys: list[Any], sections: Sequence[Section], region: str, columns: int) -> None:
+def _legend(figure: Any, keys: list[Any], sections: Sequence[Section[Plane]], region: str, columns: int) -> None:
     """Write the legend: the keys, and those of the marks that the sections have."""
     ring: dict[str, Any] = {"lw": 0.9, "marker": "o", "ms": 7, "mfc": "none", "ls": ""}
     marks = {
