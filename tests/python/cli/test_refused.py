@@ -96,7 +96,7 @@ LINES = {
     "best design.toml#1": "design.toml#1: got a point of a design file",
     "sheet .": "record.json",
     "path none.csv": "none.csv: cannot be read",
-    "path poses.csv": "poses.csv, line 1: got yaw_deg as rotation",
+    "path poses.csv": "poses.csv: line 1: got yaw_deg as rotation",
     "path none.toml --circle 1": "none.toml",
     "export design.toml --out a.stl": "--out: got a.stl, expected --to with a format, or a file that ends in .h, .csv",
     "export design.toml --out none/a.xml": "--out: got none/a.xml, expected a file in a folder that exists",
