@@ -76,15 +76,15 @@ def named_design(name: str | None) -> Chosen:
 
 def chosen_design(name: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Chosen:
     """Return the design that an argument DESIGN names, or that of the sides and heights of the hexagonal family."""
-    named = {side: value for side, value in sides.items() if value is not None}
+    values = {side: value for side, value in sides.items() if value is not None}
     if name is not None:
-        if named or theta_z_deg is not None:
-            raise ValueError(f"design: got {name} and {', '.join(named) or '--theta-z-deg'}, expected one of the two")
+        if values or theta_z_deg is not None:
+            raise ValueError(f"design: got {name} and {', '.join(values) or '--theta-z-deg'}, expected one of the two")
         return named_design(name)
     missing = [f"--{side}" for side, value in sides.items() if value is None]
     if missing:
         raise ValueError(f"design: got no {', '.join(missing)}, expected a design file or all of a1 a2 b1 b2 zp zs")
-    return Chosen(*hexagonal_design(named | {"theta_z": math.radians(theta_z_deg or 0.0)}))
+    return Chosen(*hexagonal_design(values | {"theta_z": math.radians(theta_z_deg or 0.0)}))
 
 
 def with_length(chosen: Chosen, lc: str | None) -> Chosen:

@@ -107,20 +107,20 @@ class Screen:
         # What the work is at may take several lines; the rest is short.
         first = TextColumn("{task.description}", markup=False, table_column=Column(overflow="fold"))
         parts = (first, *(TextColumn(one, markup=False) if isinstance(one, str) else one() for one in columns))
-        shown = Progress(*parts, console=self.progress_console)
+        progress = Progress(*parts, console=self.progress_console)
         if at_once:
-            shown.start()
-        bar = Bar(shown, title, words)
+            progress.start()
+        bar = Bar(progress, title, words)
         try:
             yield bar
         except ValueError:
             if not bar.reported:  # bad input: nothing was done that the bar could show
-                shown.live.transient = True
-                shown.live.stop()
+                progress.live.transient = True
+                progress.live.stop()
             raise
         finally:
-            if shown.live.is_started:
-                shown.stop()
+            if progress.live.is_started:
+                progress.stop()
 
 
 def best_words(best: float | None) -> str:
@@ -161,11 +161,11 @@ BARS: dict[str, tuple[Sequence[Callable[[], ProgressColumn] | str], Callable[[fl
 class Bar:
     """A progress bar, updated by `show` or a call."""
 
-    def __init__(self, shown: Progress, title: str, words: Callable[[float | None], str]) -> None:
+    def __init__(self, progress: Progress, title: str, words: Callable[[float | None], str]) -> None:
         """Add a bar without a length; `words` formats the value of a report."""
         title = one_line(title)
-        self._shown, self._title, self._words = shown, title, words
-        self._task = shown.add_task(title, total=None, value="")
+        self._shown, self._title, self._words = progress, title, words
+        self._task = progress.add_task(title, total=None, value="")
         self.reported = False
 
     def show(self, done: int, total: int, value: float | None) -> None:

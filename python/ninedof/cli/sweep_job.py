@@ -92,13 +92,13 @@ def describe(result: SweepResult, name: str) -> dict[str, Any]:
         missing, infinite = np.isnan(piece), np.isinf(piece)
         out["infinite"] += int(infinite.sum())
         out["missing"] += int(missing.sum())
-        known = np.flatnonzero(~(missing | infinite))
-        if known.size:
-            size = size_of(name, piece[known])
+        finite = np.flatnonzero(~(missing | infinite))
+        if finite.size:
+            size = size_of(name, piece[finite])
             for word, sign, pick in (("least", 1.0, np.argmin), ("greatest", -1.0, np.argmax)):
                 at = int(pick(size))
                 if word not in ends or sign * size[at] < sign * ends[word][0]:
-                    ends[word] = float(size[at]), first + int(known[at])
+                    ends[word] = float(size[at]), first + int(finite[at])
     for word, (_, number) in ends.items():
         place = np.unravel_index(number, values.shape)
         out[word] = {"value": float(values[place]), "at": result.at(name, place)}

@@ -50,9 +50,9 @@ def _of_named(
         if set(over) <= set(FAMILIES[family]):
             return _held(family, chosen.result.best.variables, over, length, chosen.unit)
     fits = []
-    for family, known in FAMILIES.items():
+    for family, names in FAMILIES.items():
         values = variables_of(family, chosen.geometry, chosen.configuration)
-        if values is not None and set(over) <= set(known):
+        if values is not None and set(over) <= set(names):
             return _held(family, values, over, length, chosen.unit)
         fits += [family] * (values is not None)
     expected = f"variables of one family: {', '.join(fits)}" if fits else "coordinates: O or p is not on the z axis"
@@ -60,5 +60,5 @@ def _of_named(
 
 
 def _held(family: str, values: Mapping[str, float], over: list[str], length: float | str, unit: str = "") -> Held:
-    held = {name: values[name] for name in FAMILIES[family] if name in values and name not in over}
-    return held, {"family": family, "characteristic_length": length, "unit": unit}
+    values_held = {name: values[name] for name in FAMILIES[family] if name in values and name not in over}
+    return values_held, {"family": family, "characteristic_length": length, "unit": unit}

@@ -86,16 +86,16 @@ def _section(
     """Return one section with what is marked in it: home, and the region or else the largest ball and box."""
     from ninedof.plot import Section
 
-    drawn = [k for k in range(3) if k != fixed]
+    axes = [k for k in range(3) if k != fixed]
     plane = workspace.slice(workspace.coordinates[fixed], at, smooth=True)
     near = abs(float(home.position[fixed]) - at) <= float(np.ptp(workspace.field.axes[fixed])) / NEAR
-    marked = home.position[drawn] if near and not workspace.of_angles else None
+    marked = home.position[axes] if near and not workspace.of_angles else None
     if region is not None:
         return Section(plane, region=section_outline(region, home, fixed, at), home=marked)
     radius = np.sqrt(max(workspace.ball_radius**2 - (at - float(middle[fixed])) ** 2, 0.0))
-    ball = (middle[drawn], radius) if radius > 0.0 else None
-    known = np.isfinite(workspace.box_low).all() and workspace.box_low[fixed] <= at <= workspace.box_high[fixed]
-    inner = (workspace.box_low[drawn], workspace.box_high[drawn]) if known else None
+    ball = (middle[axes], radius) if radius > 0.0 else None
+    has_box = np.isfinite(workspace.box_low).all() and workspace.box_low[fixed] <= at <= workspace.box_high[fixed]
+    inner = (workspace.box_low[axes], workspace.box_high[axes]) if has_box else None
     return Section(plane, ball, inner, home=marked)
 
 

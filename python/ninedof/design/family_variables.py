@@ -25,16 +25,16 @@ def variables_of(family: str, geometry: Geometry, neutral: Configuration) -> dic
         A single one; of a family's designs p and O are on the z axis, and the platform turns about it alone.
 
     """
-    found = _heights(neutral) | _hexagon(geometry) | _polar(geometry) | _coordinates(geometry)
-    values = {name: found[name] for name in variable_kinds(family)}
+    candidates = _heights(neutral) | _hexagon(geometry) | _polar(geometry) | _coordinates(geometry)
+    values = {name: candidates[name] for name in variable_kinds(family)}
     try:
         point = Study(family, variables=values).evaluate(values)
     except ValueError:  # a side below 0, zs above zp
         return None
-    made = triples(point.geometry) | arrays_of(point.configuration)
-    given = triples(geometry) | arrays_of(neutral)
-    unit = max(float(np.abs(array).max()) for array in given.values())
-    same = all(np.abs(made[name] - array).max() <= SAME * unit for name, array in given.items())
+    rebuilt = triples(point.geometry) | arrays_of(point.configuration)
+    arrays = triples(geometry) | arrays_of(neutral)
+    unit = max(float(np.abs(array).max()) for array in arrays.values())
+    same = all(np.abs(rebuilt[name] - array).max() <= SAME * unit for name, array in arrays.items())
     return values if same else None
 
 
@@ -47,24 +47,24 @@ def _heights(neutral: Configuration) -> dict[str, float]:
 def _hexagon(geometry: Geometry) -> dict[str, float]:
     """Return the sides: the joints of eqs. (37)-(38) are linear in them."""
     units = [triples(Geometry.hexagonal(x, y, x, y)) for x, y in ((1.0, 0.0), (0.0, 1.0))]
-    found: dict[str, float] = {}
+    variables: dict[str, float] = {}
     for body, sides in (("base", ("a1", "a2")), ("platform", ("b1", "b2"))):
         names = [name for name in TRIPLES if name.startswith(body)]
         columns = [np.concatenate([unit[name].ravel() for name in names]) for unit in units]
         joints = np.concatenate([getattr(geometry, name).ravel() for name in names])
-        solved = np.linalg.lstsq(np.stack(columns, axis=1), joints, rcond=None)[0]
-        rounding = SAME * float(np.abs(solved).max())
-        found |= {side: 0.0 if abs(x) <= rounding else float(x) for side, x in zip(sides, solved, strict=True)}
-    return found
+        solution = np.linalg.lstsq(np.stack(columns, axis=1), joints, rcond=None)[0]
+        rounding = SAME * float(np.abs(solution).max())
+        variables |= {side: 0.0 if abs(x) <= rounding else float(x) for side, x in zip(sides, solution, strict=True)}
+    return variables
 
 
 def _polar(geometry: Geometry) -> dict[str, float]:
     """Return radius, angle and height of the first joint of each triple."""
-    found: dict[str, float] = {}
+    variables: dict[str, float] = {}
     for name, points in triples(geometry).items():
         x, y, z = points[0].tolist()
-        found |= {f"{name}_radius": math.hypot(x, y), f"{name}_angle": math.atan2(y, x), f"{name}_height": z}
-    return found
+        variables |= {f"{name}_radius": math.hypot(x, y), f"{name}_angle": math.atan2(y, x), f"{name}_height": z}
+    return variables
 
 
 def _coordinates(geometry: Geometry) -> dict[str, float]:

@@ -167,13 +167,13 @@ def indices_of(index: Any, of_designs: bool = False) -> tuple[Index, ...]:
     Of designs at their neutral pose there are more: those that the core alone has, as objectives.
     """
     single = isinstance(index, str) or callable(index) or not isinstance(index, Iterable)
-    listed = [index] if single else list(index)
-    if not listed or not all(isinstance(one, str) or callable(one) for one in listed):
+    entries = [index] if single else list(index)
+    if not entries or not all(isinstance(one, str) or callable(one) for one in entries):
         raise ValueError(f"index: got {shown(index)}, expected a name, a callable, or a sequence of them")
-    known = INDICES if of_designs else computed()
-    if "six_legged" in listed and not of_designs:
+    table = INDICES if of_designs else computed()
+    if "six_legged" in entries and not of_designs:
         raise ValueError("index: got 'six_legged', which is for the neutral pose: sweep over variables of the design")
-    indices = tuple(_own(one) if callable(one) else known[choice("index", one, known)] for one in listed)
+    indices = tuple(_own(one) if callable(one) else table[choice("index", one, table)] for one in entries)
     names = [one.name for one in indices]
     if len(set(names)) < len(names):
         raise ValueError(f"index: got {', '.join(names)}, expected different names")

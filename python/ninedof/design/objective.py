@@ -32,8 +32,8 @@ SHARED = ("internal_point", "unit")
 
 def _index(name: str, value: Any) -> str:
     """Return the core's word for an index of the table."""
-    known = objectives()
-    return str(known[choice(name, value, known)].objective)
+    names = objectives()
+    return str(names[choice(name, value, names)].objective)
 
 
 def _condition_limit(name: str, value: Any) -> float | None:
@@ -42,11 +42,11 @@ def _condition_limit(name: str, value: Any) -> float | None:
 
 def _poses(name: str, value: Any, **defaults: Any) -> tuple[Pose, ...]:
     """Return poses, each made from a table if one is given."""
-    listed = items(name, value, "a list of poses")
-    if len(listed) > poses.MOST_POSES:
-        raise ValueError(f"{name}: got {len(listed)}, expected at most {poses.MOST_POSES}")
+    entries = items(name, value, "a list of poses")
+    if len(entries) > poses.MOST_POSES:
+        raise ValueError(f"{name}: got {len(entries)}, expected at most {poses.MOST_POSES}")
     return tuple(
-        one if isinstance(one, Pose) else read(Pose, one, f"{name}[{k}]", **defaults) for k, one in enumerate(listed)
+        one if isinstance(one, Pose) else read(Pose, one, f"{name}[{k}]", **defaults) for k, one in enumerate(entries)
     )
 
 
@@ -160,12 +160,12 @@ class Objective(Table):
             shared = {name: table.pop(name) for name in SHARED if name in table}
             Pose(**shared)  # checked even where no pose uses them
             sets = [_set(name, table.pop(name), shared) for name in SETS if name in table]
-            listed = _poses("poses", table.pop("poses", ()), **shared)
+            poses = _poses("poses", table.pop("poses", ()), **shared)
             if table.get("region") is not None:
                 # A region has no shift of s of its own: only a word for where O is, is a default for it too.
                 words = {name: word for name, word in shared.items() if isinstance(word, str)}
                 table["region"] = _region("region", table["region"], **words)
-            return cls(**table, poses=tuple(chain(listed, *sets)))
+            return cls(**table, poses=tuple(chain(poses, *sets)))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the table of a study file: the index, and what differs from the defaults."""

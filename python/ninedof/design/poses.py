@@ -168,8 +168,8 @@ def _with_tilts(places: list[Vector], tilt: Any, tilt_deg: Any, internal_point: 
 
 def _radians(name: str, radians: Any, degrees: Any, check: Check) -> Any:
     """Return an argument that has a second name for degrees; None without one."""
-    named = {key: value for key, value in ((name, radians), (name + DEG, degrees)) if value is not None}
-    return check(name, in_radians(named, {name: check})[name]) if named else None
+    values = {key: value for key, value in ((name, radians), (name + DEG, degrees)) if value is not None}
+    return check(name, in_radians(values, {name: check})[name]) if values else None
 
 
 def _few_enough(count: int) -> None:

@@ -45,15 +45,15 @@ def section_outline(region: Region, home: Configuration, fixed: int, at: float) 
 
     Points (n, 2) in the two other coordinates, in their order.
     """
-    drawn = [k for k in range(3) if k != fixed]
+    axes = [k for k in range(3) if k != fixed]
     unit = float(home.position[2]) if region.unit == "zp" else 1.0
     if region.path is not None:
-        return np.asarray((home.position + unit * np.array(region.path))[:, drawn])
+        return np.asarray((home.position + unit * np.array(region.path))[:, axes])
     low, high = extent(region, home)
     away = abs(at - float(home.position[fixed]))
     if away > 0.5 * float(high[fixed] - low[fixed]):
         return None
-    half, middle = 0.5 * (high - low)[drawn], home.position[drawn]
+    half, middle = 0.5 * (high - low)[axes], home.position[axes]
     turn = np.linspace(0.0, 2.0 * np.pi, ROUND)
     circle = np.column_stack([np.cos(turn), np.sin(turn)])
     if region.ball is not None:

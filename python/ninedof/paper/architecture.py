@@ -77,17 +77,17 @@ def _joints(axes: Any, points: Floats, away: float) -> None:
     """Name the joints outward of their plates; of two that coincide, both names."""
     words = [f"{LETTERS[k // 3]}_{k % 3 + 1}" for k in range(12)]
     size = float(np.ptp(points[:12], axis=0).max())
-    done: set[int] = set()
+    labelled: set[int] = set()
     for k in range(12):
         same = [j for j in range(k, 12) if np.linalg.norm(points[j] - points[k]) < 1e-9 * size]
-        if k not in done:
+        if k not in labelled:
             plate = points[:6] if k < 6 else points[6:12]
             out = points[k] - plate.mean(axis=0)
             flat = float(np.linalg.norm(scene.VIEW.seen(out)))
             out = out / max(flat, 0.35 * float(np.linalg.norm(out)))
             text = "$" + ",".join(words[j] for j in same) + "$"
             _word(axes, points[k] + away * (1.0 + 0.5 * (len(same) > 1)) * out, text, style.INK)
-        done.update(same)
+        labelled.update(same)
 
 
 def _flat(axes: Any, point: Floats) -> tuple[float, float]:
@@ -96,8 +96,8 @@ def _flat(axes: Any, point: Floats) -> tuple[float, float]:
 
 
 def _arrow(axes: Any, start: Floats, end: Floats, colour: str, width: float) -> None:
-    drawn = axes.annotate("", _flat(axes, end), _flat(axes, start), arrowprops=style.arrow(colour, width), zorder=25)
-    drawn.arrow_patch.set_path_effects([style.rim(width + 1.0)])  # seen on the dark plate too
+    arrow = axes.annotate("", _flat(axes, end), _flat(axes, start), arrowprops=style.arrow(colour, width), zorder=25)
+    arrow.arrow_patch.set_path_effects([style.rim(width + 1.0)])  # seen on the dark plate too
 
 
 def _word(axes: Any, at: Floats, text: str, colour: str, size: float = style.SMALL_SIZE) -> None:

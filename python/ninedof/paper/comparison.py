@@ -150,31 +150,31 @@ def _why(best_zs: float, same: Result) -> str:
 
 def comparison_table(designs: Iterable[Mapping[str, Any]]) -> Table:
     """Return the published optimum beside ours, one design per column."""
-    shown = [row for row in designs if row["title"] in TITLES]
-    heads = ["published\nas printed", *(TITLES[row["title"]] for row in shown)]
+    columns = [row for row in designs if row["title"] in TITLES]
+    heads = ["published\nas printed", *(TITLES[row["title"]] for row in columns)]
 
     def line(label: str, printed: str, texts: Iterable[str]) -> Line:
         return Line(label, [printed, *texts])
 
     def pair(names: Sequence[str]) -> Iterable[str]:
-        return (", ".join(_short(row["variables"][name]) for name in names) for row in shown)
+        return (", ".join(_short(row["variables"][name]) for name in names) for row in columns)
 
     rows: list[Any] = [
         line("base a1, a2", "0, -", pair(["a1", "a2"])),
         line("platform b1, b2", "5.8124, -", pair(["b1", "b2"])),
-        line("base / platform", "-", (f"{row['radius_ratio']:.4f}" for row in shown)),
-        line("height zp", f"{published.ZP:.4f}", (f"{row['variables']['zp']:.4f}" for row in shown)),
-        line("height of O, zs", "-", (f"{row['variables']['zs']:.4f}" for row in shown)),
+        line("base / platform", "-", (f"{row['radius_ratio']:.4f}" for row in columns)),
+        line("height zp", f"{published.ZP:.4f}", (f"{row['variables']['zp']:.4f}" for row in columns)),
+        line("height of O, zs", "-", (f"{row['variables']['zs']:.4f}" for row in columns)),
         (),
     ]
     for label, leg in (("external legs l", "l"), ("upper internal q", "q"), ("lower internal r", "r")):
-        rows.append(line(label, "-", (f"{row['leg_lengths'][leg]:.4f}" for row in shown)))
-    gains = [row["gain_percent"] for row in shown]
+        rows.append(line(label, "-", (f"{row['leg_lengths'][leg]:.4f}" for row in columns)))
+    gains = [row["gain_percent"] for row in columns]
     rows += [
         (),
-        line("condition number", f"{KAPPA:.4f}", (f"{row['condition_number']:.6f}" for row in shown)),
+        line("condition number", f"{KAPPA:.4f}", (f"{row['condition_number']:.6f}" for row in columns)),
         line("below 3.9110 by", "-", ("-" if abs(gain) < 0.005 else f"{gain:.2f} %" for gain in gains)),
-        line("limits reached", "-", ("\n".join(_active(row)) or "nothing" for row in shown)),
+        line("limits reached", "-", ("\n".join(_active(row)) or "nothing" for row in columns)),
     ]
     title = "The published optimum beside ours, lengths in units of l_c"
     return Table(title, [Column(), *(Column(head, "", RIGHT) for head in heads)], rows)

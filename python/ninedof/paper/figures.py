@@ -36,7 +36,7 @@ def draw(directory: Path, say: Callable[[str], object]) -> list[Path]:
     """Draw Figs. 1 to 7 of the published design into a folder as figure_1 to figure_7; return the files."""
     unit, g, home = "l_c", published_geometry(), Configuration.neutral(ZP, published_zs()[2])
     apart = Geometry.hexagonal(**APART)
-    made: Sequence[Callable[[], Figure]] = (
+    figures: Sequence[Callable[[], Figure]] = (
         lambda: figure_1(g, home.moved(np.array(AWAY))),
         lambda: figure_2(g, home, unit),
         lambda: figure_3(apart, home, unit),
@@ -46,7 +46,7 @@ def draw(directory: Path, say: Callable[[str], object]) -> list[Path]:
         lambda: figure_7(sweep_figure("7")),
     )
     files: list[Path] = []
-    for (stem, title), make in zip(FIGURES.items(), made, strict=True):
+    for (stem, title), make in zip(FIGURES.items(), figures, strict=True):
         say(f"drawing {title}")
         files += plot.save(make(), directory, stem)
     return files

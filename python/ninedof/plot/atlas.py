@@ -49,8 +49,8 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None, figur
         shown = np.ma.masked_equal(inner[first:last], 0)
         if shown.count():
             norm = LogNorm(max(1, int(shown.min())), max(2, int(shown.max())))
-            drawn = left.pcolormesh(x, y, shown.T, norm=norm, cmap=MAP, rasterized=True)
-            bar = figure.colorbar(drawn, cax=figure.add_axes((0.58, 0.14, 0.012, 0.77)), format=style.power_of_ten)
+            mesh = left.pcolormesh(x, y, shown.T, norm=norm, cmap=MAP, rasterized=True)
+            bar = figure.colorbar(mesh, cax=figure.add_axes((0.58, 0.14, 0.012, 0.77)), format=style.power_of_ten)
             bar.set_label("designs in a bin")
             bar.outline.set_linewidth(0.5)
         best = result["best"][1:-1][first:last]

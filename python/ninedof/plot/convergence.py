@@ -65,15 +65,15 @@ def convergence(
         share = figure.add_axes((0.095, 0.09, 0.885, 0.235))
         for x, (name, colour, dashes, runs) in zip((0.095, 0.5525), methods, strict=True):
             gaps = [np.maximum(run - best, FLOOR) for run in runs]
-            held = np.array([np.append(gap, np.full(longest - gap.size, gap[-1])) for gap in gaps])
+            extended = np.array([np.append(gap, np.full(longest - gap.size, gap[-1])) for gap in gaps])
             axes = figure.add_axes((x, 0.465, 0.4275, 0.475))
             axes.set_title(f"{name}: {sum(gap[-1] <= tolerance for gap in gaps)} of {len(gaps)} starts arrive")
-            _runs(axes, gaps, held, colour, tolerance)
+            _runs(axes, gaps, extended, colour, tolerance)
             _evaluations(axes, longest)
             if x < 0.5:
                 axes.set_ylabel("condition number\nabove the best")
             axes.tick_params(labelleft=x < 0.5)
-            _share(share, name, (held <= tolerance).mean(axis=0), colour, dashes)
+            _share(share, name, (extended <= tolerance).mean(axis=0), colour, dashes)
         _evaluations(share, longest)
         share.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.0, ncols=2, handlelength=3.0)
         share.set(ylim=(0, 1.05), ylabel=f"starts within {near}")
@@ -89,11 +89,13 @@ def _evaluations(axes: Any, longest: int) -> None:
     axes.xaxis.set_major_formatter("{x:.0f}")
 
 
-def _runs(axes: Any, gaps: list[Floats], held: Floats, colour: str, tolerance: float) -> None:
+def _runs(axes: Any, gaps: list[Floats], extended: Floats, colour: str, tolerance: float) -> None:
     """Draw one line per start, the median of all (`held` continues each run with its last value), the tolerance."""
     there = [_steps(gap) for gap in gaps if gap[-1] <= tolerance]
     stuck = [_steps(gap) for gap in gaps if gap[-1] > tolerance]
-    median = np.quantile(held, 0.5, axis=0, method="lower")  # an average would fail while half the runs are infinite
+    median = np.quantile(
+        extended, 0.5, axis=0, method="lower"
+    )  # an average would fail while half the runs are infinite
     axes.add_collection(LineCollection(there, colors=colour, linewidths=0.5, alpha=0.35, zorder=2))
     axes.add_collection(LineCollection(stuck, colors=style.ALARM, linewidths=0.8, alpha=0.85, zorder=3))
     axes.add_collection(LineCollection([_steps(median)], colors=style.INK, linewidths=1.6, zorder=4))

@@ -115,10 +115,10 @@ def _crop(axes: Any, factor: float, own: Sequence[float]) -> None:
         return
     low, high = float(finite.min()), float(finite.max())
     top = min(max(factor * low, 1.05 * max(own)), high) + 1e-6 * low
-    seen = x[y <= top]
+    inside = x[y <= top]
     axes.set_ylim(low - 0.23 * (top - low), top + 0.02 * (top - low))
-    if np.ptp(seen) > 0:
-        axes.set_xlim(seen.min() - 0.04 * np.ptp(seen), seen.max() + 0.04 * np.ptp(seen))
+    if np.ptp(inside) > 0:
+        axes.set_xlim(inside.min() - 0.04 * np.ptp(inside), inside.max() + 0.04 * np.ptp(inside))
 
 
 def _tangent(axes: Any, design: DesignCurves, slope: float) -> None:

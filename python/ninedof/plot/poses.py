@@ -69,13 +69,13 @@ def poses(
         raise ValueError(f"names: got {len(names)}, expected {count}, one a pose")
     names = [escaped(name) for name in names]  # those of ticks are written while they are drawn
     longest = max(map(len, names), default=0)
-    listed = _listed(values, names) if longest > LONGEST or count > MOST_NAMED else []
-    if listed:
+    entries = _listed(values, names) if longest > LONGEST or count > MOST_NAMED else []
+    if entries:
         names, longest = [], 0
-    single = count <= 12 and not listed
+    single = count <= 12 and not entries
     slanted = count <= MOST_NAMED and (longest > 6 or (longest > 0 and count > 12))
     width = style.ONE_COLUMN if single else style.TWO_COLUMNS
-    columns = [] if not listed else _columns(listed, width)
+    columns = [] if not entries else _columns(entries, width)
     under = max(0.4, 0.12 + 0.052 * longest)  # inches, for slanted names
     below = under + (LINE * (len(columns[0]) + bool(note)) + 0.1 if columns else 0.0)
     height = TALL + below + 0.1 + 0.155 * (len(values) if single else -(-len(values) // 2))  # with the key
@@ -87,8 +87,8 @@ def poses(
         keys = []
         for k, (name, v) in enumerate(zip(designs, values, strict=True)):
             _one(axes, v, k, len(values))
-            shown = {"marker": style.MARKS[k], "ms": 5, "lw": 0.8, "ls": WORST, "mec": "white"}
-            keys.append(style.key(style.SERIES[k], **shown, label=_label(name, v)))
+            look = {"marker": style.MARKS[k], "ms": 5, "lw": 0.8, "ls": WORST, "mec": "white"}
+            keys.append(style.key(style.SERIES[k], **look, label=_label(name, v)))
         _names(axes, names, count, slanted)
         _write(axes, columns, note, under)
         options: dict[str, Any] = {"ncols": 1 if single else 2, "handlelength": 3.0, "borderpad": 0.2}
@@ -98,10 +98,10 @@ def poses(
 
 def _listed(values: Sequence[Floats], names: Sequence[str]) -> list[str]:
     """Return the lines of the list: all poses, or the worst of many in the order of their numbers."""
-    chosen = list(range(len(names)))
+    numbers = list(range(len(names)))
     if len(names) > MOST_NAMED:
-        chosen = sorted(np.argsort(-np.max(values, axis=0), kind="stable")[:WORST_NAMED].tolist())
-    return [f"{k + 1}: {names[k]}" for k in chosen]
+        numbers = sorted(np.argsort(-np.max(values, axis=0), kind="stable")[:WORST_NAMED].tolist())
+    return [f"{k + 1}: {names[k]}" for k in numbers]
 
 
 def _columns(lines: Sequence[str], width: float) -> list[Sequence[str]]:

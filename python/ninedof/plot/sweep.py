@@ -131,15 +131,15 @@ def _maps(
     x, y = (_values(result, d)[0][::step] for d, step in zip(dims, coarser, strict=True))
     with style.page(figure, *size, layout="constrained") as figure:
         grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-        drawn = None
+        image = None
         for axes, title, part in zip(grid.flat, titles, slices, strict=False):
             values = np.ma.masked_invalid(part.T)
             if min(part.shape) >= SMOOTH and np.isfinite(part).all():
-                seen = np.clip(values, levels[0], None if beyond else levels[-1])
+                clipped = np.clip(values, levels[0], None if beyond else levels[-1])
                 extend = "max" if beyond else "neither"
-                drawn = axes.contourf(x, y, seen, levels, norm=norm, cmap=colours, extend=extend)
+                image = axes.contourf(x, y, clipped, levels, norm=norm, cmap=colours, extend=extend)
             else:
-                drawn = axes.pcolormesh(x, y, values, norm=norm, cmap=colours, shading="nearest", rasterized=True)
+                image = axes.pcolormesh(x, y, values, norm=norm, cmap=colours, shading="nearest", rasterized=True)
             axes.set_facecolor(style.GRID)
             axes.grid(False)
             axes.set_title(title, size=style.TEXT_SIZE if columns > 1 else None)
@@ -151,8 +151,8 @@ def _maps(
             axes.set_xlabel(_axis(result, dims[0]))
         for axes in grid[:, 0]:
             axes.set_ylabel(_axis(result, dims[1]))
-        if drawn is not None:
-            bar = figure.colorbar(drawn, ax=list(grid.flat), pad=0.02, aspect=30, ticks=levels)
+        if image is not None:
+            bar = figure.colorbar(image, ax=list(grid.flat), pad=0.02, aspect=30, ticks=levels)
             bar.ax.yaxis.set_major_formatter("{x:g}")
             bar.ax.yaxis.set_minor_locator(NullLocator())
             bar.outline.set_linewidth(0.5)

@@ -180,16 +180,18 @@ def _layout() -> ConstrainedLayoutEngine:
 
 def _bands(percentiles: Floats, sections: Sequence[Section[WorkspaceSlice]]) -> tuple[Floats, float | None]:
     """Return the round values between the bands of colour, and the largest value if it is beyond them."""
-    drawn = np.concatenate([section.plane.condition_number.ravel() for section in sections])
+    in_sections = np.concatenate([section.plane.condition_number.ravel() for section in sections])
     of_volume = percentiles[np.isfinite(percentiles)]
-    known = of_volume if of_volume.size else drawn[np.isfinite(drawn)]  # the raster goes on beyond the boundary
-    if not known.size:
+    finite = (
+        of_volume if of_volume.size else in_sections[np.isfinite(in_sections)]
+    )  # the raster goes on beyond the boundary
+    if not finite.size:
         return np.array([1.0, 2.0]), None
-    low, high = float(known.min()), float(known.max())
+    low, high = float(finite.min()), float(finite.max())
     usual = float(of_volume[: USUAL + 1].max()) if of_volume.size > USUAL else high
     top = high if high <= usual + MORE * (usual - low) else min(usual, style.RANGE * low)
     bands = style.round_levels(low, top)
-    most = np.inf if np.isposinf(percentiles if of_volume.size else drawn).any() else high
+    most = np.inf if np.isposinf(percentiles if of_volume.size else in_sections).any() else high
     return bands, most if most > bands[-1] else None
 
 
@@ -209,8 +211,8 @@ def _fill(axes: Any, s: WorkspaceSlice, turn: Any, levels: Floats, cut: bool) ->
     outer: Any = contour_generator(x, y, s.fraction, fill_type="OuterCode").filled(0.5, np.inf)
     points, codes = outer
     path = Path(np.concatenate(points), np.concatenate(codes)) if points else Path(np.zeros((1, 2)))
-    for drawn in (bands, lines):
-        drawn.set_clip_path(path, axes.transData)
+    for contours in (bands, lines):
+        contours.set_clip_path(path, axes.transData)
     return bands
 
 
@@ -284,8 +286,8 @@ def _marks(axes: Any, section: Section[Plane], turn: Any, unit: str, region: str
 def _keys_of_limits(sections: Sequence[Section[WorkspaceSlice]], kinds: Sequence[str]) -> list[Any]:
     planes = [section.plane for section in sections]
     there = {kinds[n] for s in planes for n in np.unique(s.limit[s.state == 1]).tolist() if n >= 0}
-    shown = [(words, colour, dashes) for kind, (words, colour, dashes) in KINDS.items() if kind in there]
-    return [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in shown]
+    keys = [(words, colour, dashes) for kind, (words, colour, dashes) in KINDS.items() if kind in there]
+    return [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in keys]
 
 
 def _legend(figure: Any, keys: list[Any], sections: Sequence[Section[Plane]], region: str, columns: int) -> None:
@@ -331,12 +333,12 @@ def _distribution(axes: Any, percentiles: Floats) -> None:
 
 def _levels(axes: Any, levels: Floats) -> None:
     axes.set_title("error of the volume")
-    known = levels[levels[:, 3] > 0.0]
-    if len(known) == 0:
+    opaque = levels[levels[:, 3] > 0.0]
+    if len(opaque) == 0:
         axes.set_axis_off()
         return
-    axes.loglog(known[:, 1], known[:, 3] / levels[-1, 2], "o-", color=style.SERIES[0], ms=3.5)
-    axes.set_xlim(10.0 ** np.floor(np.log10(known[0, 1])), 1.3 * 10.0 ** np.ceil(np.log10(known[-1, 1])))
+    axes.loglog(opaque[:, 1], opaque[:, 3] / levels[-1, 2], "o-", color=style.SERIES[0], ms=3.5)
+    axes.set_xlim(10.0 ** np.floor(np.log10(opaque[0, 1])), 1.3 * 10.0 ** np.ceil(np.log10(opaque[-1, 1])))
     axes.xaxis.set_major_formatter(style.power_of_ten)
     axes.yaxis.set_major_formatter(style.power_of_ten)
     axes.minorticks_off()

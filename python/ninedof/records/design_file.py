@@ -145,13 +145,13 @@ def indices(design: Design) -> dict[str, Any]:
     """
     g, c, length = design.geometry, design.configuration, design.characteristic_length
     lc = characteristic_length(g, c, length) if isinstance(length, str) else float(length)
-    known = math.isfinite(lc) or not isinstance(length, str)
+    has_length = math.isfinite(lc) or not isinstance(length, str)
     out = {
         name: np.asarray(index.values(g, c, lc, None)).tolist()
         for name, index in computed().items()
-        if known or not index.needs_length
+        if has_length or not index.needs_length
     }
-    if not known:
+    if not has_length:
         out |= {"condition_number": math.inf, "reciprocal_condition_number": 0.0, "singular_values": [math.inf] * 6}
     legs = out["leg_lengths"]
     kinds = {}

@@ -40,15 +40,17 @@ def figures_of(run: Result | Comparison, say: Say, convergence: bool = False) ->
     designs: list[Named]
     if isinstance(run, Result):
         # Without a least value there is no design to draw.
-        shown = run.candidates[:1] if run.status != "unbounded" else ()
+        candidates = run.candidates[:1] if run.status != "unbounded" else ()
         objective = run.study.objective
         title = "optimum at the neutral pose" if objective.poses or objective.region is not None else "optimum"
-        designs = [(title, c.geometry, c.configuration, c.condition_number, c.characteristic_length) for c in shown]
+        designs = [
+            (title, c.geometry, c.configuration, c.condition_number, c.characteristic_length) for c in candidates
+        ]
         result, compared = run, {}
     else:
         rows = [("published, best zs", run.best_zs), ("optimum", run.same_class)] if run.same_class is not None else []
-        named = [(name, row) for name, row in rows if row is not None]
-        designs = [(name, row.geometry, row.configuration, row.condition_number, 1.0) for name, row in named]
+        rows_with_design = [(name, row) for name, row in rows if row is not None]
+        designs = [(name, row.geometry, row.configuration, row.condition_number, 1.0) for name, row in rows_with_design]
         result, compared = run.result, {"level": published.KAPPA, "crossings": run.crossings}
     if result.interrupted or not designs:
         return None

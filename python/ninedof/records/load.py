@@ -66,8 +66,8 @@ def load(path: str | os.PathLike[str]) -> Loaded:
             raise ValueError(f"{os.fspath(path)}: got a point of a design file, expected one of a run")
         return load_design(place) if place.suffix == ".toml" else Design(*read_design(place))
     if place.suffix and place.suffix != ".json" and place.is_file():
-        known = ", ".join([".toml", *readable()])
-        raise ValueError(f"{place}: got a file that ends in {place.suffix}, expected {known}, or a run folder")
+        endings = ", ".join([".toml", *readable()])
+        raise ValueError(f"{place}: got a file that ends in {place.suffix}, expected {endings}, or a run folder")
     run = load_run(place)
     return _point(run, point, os.fspath(path)) if point else run
 

@@ -29,24 +29,24 @@ class _TooLong(Exception):
     pass
 
 
-def body_of(found: WorkspaceMap) -> dict[str, Any] | None:
+def body_of(workspace: WorkspaceMap) -> dict[str, Any] | None:
     """Return vertices and faces of the surface; None for orientations, samples and empty workspaces."""
-    if found.of_angles or found.method == "sample" or not found.volume > 0.0:
+    if workspace.of_angles or workspace.method == "sample" or not workspace.volume > 0.0:
         return None
-    surface = found.surface(MOST)
+    surface = workspace.surface(MOST)
     if not len(surface.faces):
         return None
     return {"vertices": numbers(surface.points), "faces": surface.faces.tolist()}
 
 
-def _box_of(found: WorkspaceMap) -> tuple[Floats, Floats] | None:
+def _box_of(workspace: WorkspaceMap) -> tuple[Floats, Floats] | None:
     """Return a box close about a workspace that is small in its own: its cells show it too coarsely; else None."""
-    held = found.cells.fraction > 0.0
-    centre, half = found.cells.centre[held], 0.5 * found.cells.size[held]
+    inside = workspace.cells.fraction > 0.0
+    centre, half = workspace.cells.centre[inside], 0.5 * workspace.cells.size[inside]
     low, high = (centre - half).min(axis=0), (centre + half).max(axis=0)
     low, high = low - ROOM * (high - low), high + ROOM * (high - low)
-    low, high = np.maximum(low, found.low), np.minimum(high, found.high)
-    return (low, high) if (high - low < SMALL * (found.high - found.low)).all() else None
+    low, high = np.maximum(low, workspace.low), np.minimum(high, workspace.high)
+    return (low, high) if (high - low < SMALL * (workspace.high - workspace.low)).all() else None
 
 
 def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None, str]:
@@ -65,10 +65,10 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
     assert best is not None
     try:
         question = study_question(result)
-        asked = question.asked
-        if asked["internal_point"] == "best":
+        keywords = question.asked
+        if keywords["internal_point"] == "best":
             return None, f"The workspace with O placed anew at every position takes minutes: {how}."
-        if not asked["criteria"]:
+        if not keywords["criteria"]:
             return None, f"No limit of the study ends a workspace: ninedof workspace {run} --legs LOW HIGH sets one."
         search = partial(
             workspace,
@@ -78,10 +78,10 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
             most_evaluations=EVALUATIONS,
             progress=stop,
         )
-        found = whole = search(**asked)
+        found = whole = search(**keywords)
         if found.volume > 0.0 and (tight := _box_of(found)) is not None:
             with suppress(_TooLong):  # the first one serves
-                found = search(**asked | {"box": tight})
+                found = search(**keywords | {"box": tight})
     except _TooLong:
         return None, f"The workspace takes longer than a report may: {how}."
     except ValueError as error:  # such as limits that leave a leg no length
@@ -89,15 +89,17 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
     body = body_of(found)
     if body is None:
         return None, f"No position was found that keeps all limits, at a coarse look: {how}."
-    rule = asked["internal_point"]
+    rule = keywords["internal_point"]
     o = WORDS["shifted"] if isinstance(rule, Mapping) else where_o(rule, unit)  # the platform does not turn
-    limits = [words for name, value in asked["criteria"].items() for words in criterion_words(name, value, unit, True)]
-    said = (
+    limits = [
+        words for name, value in keywords["criteria"].items() for words in criterion_words(name, value, unit, True)
+    ]
+    note = (
         f"Workspace: positions of the platform in the orientation of the neutral pose, within {'; '.join(limits)}. "
         f"O is {o}. "
     )
     if question.left:
-        said += f"Not among them: {', '.join(question.left).replace('_', ' ')}. "
+        note += f"Not among them: {', '.join(question.left).replace('_', ' ')}. "
     if whole.box_limits:
-        said += "It ends at the box looked at and is larger. "
-    return body, f"{said}A coarse search: {how} with its volume and its error."
+        note += "It ends at the box looked at and is larger. "
+    return body, f"{note}A coarse search: {how} with its volume and its error."

@@ -18,9 +18,9 @@ from ninedof.tables.html import html_of, joined, paragraphs
 def of_front(front: Front, record: Any) -> Page:
     """Return the page of a trade-off."""
     limit = front.limit_name.replace("_", " ")
-    said = f"What does each value of {limit} cost? The study below is solved once for each."
+    sentence = f"What does each value of {limit} cost? The study below is solved once for each."
     sections = {
-        "question": joined(paragraphs([said]), question(front.study)),
+        "question": joined(paragraphs([sentence]), question(front.study)),
         "answer": html_of(front_table(front)),
         "proof": proof.of_front(front),
         "again": origin.of_front(front, record),
@@ -31,17 +31,17 @@ def of_front(front: Front, record: Any) -> Page:
         sheet = best.sheet()
         body, words = quick_body(best, f"RUN#{first.number}")
         hint = f"Point {first.number}. {words}"
-        said = f"Of point {first.number}, {first.words}. Each point has its own: ninedof sheet RUN#1 for the first."
-        sections["sheet"] = joined(paragraphs([said]), sheet_html(sheet))
+        sentence = f"Of point {first.number}, {first.words}. Each point has its own: ninedof sheet RUN#1 for the first."
+        sections["sheet"] = joined(paragraphs([sentence]), sheet_html(sheet))
     machines: list[dict[str, Any]] = []
     start = 0
     for k, (x, result, value) in enumerate(zip(front.limits, front.results, front.objectives, strict=True), start=1):
         if result.best is None or math.isnan(value):
             continue
         title = f"point {k}: {limit} {limit_text(front, x)}"
-        shown = first is not None and k == first.number
-        start = len(machines) if shown else start
-        machines.append(design_machine(title, result.best, result.study, *((sheet, body) if shown else ())))
+        is_first = first is not None and k == first.number
+        start = len(machines) if is_first else start
+        machines.append(design_machine(title, result.best, result.study, *((sheet, body) if is_first else ())))
     if machines:
         sections["machine"] = paragraphs([hint])
     values = [x for x in front.objectives if not math.isnan(x)]

@@ -36,7 +36,7 @@ def of_result(
     """
     best, study = result.best, result.study
     sections = {"question": question(study), "answer": _answer(result)}
-    shown, sheet = None, None
+    view, sheet = None, None
     if best is not None and result.status != Status.UNBOUNDED:  # without a least value there is no design to build
         sheet = result.sheet()
         body, hint = quick_body(result, run)
@@ -44,12 +44,12 @@ def of_result(
         machines = [design_machine("best design", best, study, sheet, body)]
         others = enumerate(result.candidates[1:SHOWN], start=2)
         machines += [design_machine(f"optimum no. {k}", other, study) for k, other in others]
-        shown = scene.scene(machines, study.unit)
+        view = scene.scene(machines, study.unit)
     sections["proof"] = proof.of_result(result, certificate)
     sections["again"] = again or origin.of_study(study, "ninedof optimize study.toml", record)
     words = f"{study.words}: no design" if sheet is None else result.words
     headline = words[:1].upper() + words[1:]
-    return Page("optimization", headline, _key_figures(result, sheet), sections, shown, result.status == Status.OPTIMAL)
+    return Page("optimization", headline, _key_figures(result, sheet), sections, view, result.status == Status.OPTIMAL)
 
 
 def sheet_html(sheet: Sheet) -> Html:
@@ -80,8 +80,8 @@ def _answer(result: Result) -> Html:
         return joined(paragraphs([_sentence(result.reason)]), facts([("status", result.status), ("causes", causes)]))
     claim = [_sentence(result.reason)] if result.status != Status.OPTIMAL else []
     claim += [NO_CLAIM] if result.status == Status.STOPPED else []
-    shown = paragraphs(map(_sentence, agreement_words(result)))
-    side = joined(_prices(result, result.best), tag("h3", "What the search shows"), shown)
+    agreement = paragraphs(map(_sentence, agreement_words(result)))
+    side = joined(_prices(result, result.best), tag("h3", "What the search shows"), agreement)
     return joined(paragraphs(claim), beside(html_of(candidates_table(result)), side))
 
 
@@ -89,8 +89,8 @@ def _prices(result: Result, best: Candidate) -> Html:
     if not best.active:
         return joined(tag("h3", "Limits reached"), paragraphs(["No limit and no bound is reached."]))
     free = (f"{name} is on its bound or limit; it has no price" for name in best.active if name not in best.prices)
-    said = [_sentence(words.replace("_", " ")) for words in (*best_prices(result), *free)]
-    return joined(tag("h3", "Limits reached, and what relaxing them buys"), bullets(said))
+    sentences = [_sentence(words.replace("_", " ")) for words in (*best_prices(result), *free)]
+    return joined(tag("h3", "Limits reached, and what relaxing them buys"), bullets(sentences))
 
 
 def _key_figures(result: Result, sheet: Sheet | None) -> list[tuple[object, object]]:

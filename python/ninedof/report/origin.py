@@ -31,8 +31,10 @@ def of_front(front: Front, record: Any, point: str = "") -> Html:
         if math.isfinite(limit):
             command += ["--value", repr(degrees_of(limit) if front.unit == "rad" else limit)]
     again = of_study(front.study, shlex.join(command), record, SAME_LIMITS)
-    said = f"Point {point} of a front was solved with its neighbours' designs as starts: this solves the whole front."
-    return joined(paragraphs([said]), again) if point else again
+    sentence = (
+        f"Point {point} of a front was solved with its neighbours' designs as starts: this solves the whole front."
+    )
+    return joined(paragraphs([sentence]), again) if point else again
 
 
 def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
@@ -58,22 +60,22 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
     )
 
 
-def of_question(asked: Mapping[str, Any], record: Any) -> Html:
+def of_question(question: Mapping[str, Any], record: Any) -> Html:
     """Return what was asked of a run without a study."""
-    if not asked:
+    if not question:
         missing = "" if record.command else "The record does not hold what was asked."
         return joined(_made_by(record), paragraphs([missing]), _versions(record, []))
     return joined(
         _made_by(record),
         paragraphs(["Everything that was asked, as the record of the run has it:"]),
-        listing(_flat(encode(asked))),
+        listing(_flat(encode(question))),
         _versions(record, []),
     )
 
 
 def _flat(text: str) -> str:
     """Return TOML or JSON with each list of numbers in one line."""
-    return LIST.sub(lambda found: f"[{', '.join(found[1].replace(',', ' ').split())}]", text)
+    return LIST.sub(lambda match: f"[{', '.join(match[1].replace(',', ' ').split())}]", text)
 
 
 def _made_by(record: Any) -> Html:

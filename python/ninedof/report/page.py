@@ -77,9 +77,9 @@ def _hash(text: str) -> str:
     return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
 
 
-def _script_data(shown: object) -> str:
+def _script_data(view: object) -> str:
     """Return JSON that cannot end its script element."""
-    return json.dumps(shown, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c").replace("&", "\\u0026")
+    return json.dumps(view, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c").replace("&", "\\u0026")
 
 
 def _file(name: str) -> str:

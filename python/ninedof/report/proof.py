@@ -25,32 +25,32 @@ STATUS = {
 
 def of_result(result: Result, certificate: MachineCertificate | None = None) -> Html:
     """Return what is established of an optimization and what is not; `certificate`: what `ninedof certify` proved."""
-    checked = [*(certificate.sentences() if certificate else ()), *_checked(result)]
+    proofs = [*(certificate.sentences() if certificate else ()), *_checked(result)]
     between = certificate is None or not certificate.proved
-    return _two(checked, list(_searched(result, between)), STATUS[result.status], result.status)
+    return _two(proofs, list(_searched(result, between)), STATUS[result.status], result.status)
 
 
 def of_front(front: Front) -> Html:
     """Return the same of a front: each of its points is an optimization."""
     counts = {status: sum(r.status == status for r in front.results) for status in Status}
-    checked = [f"{count} of {len(front)} limits: {s}, {STATUS[s]}." for s, count in counts.items() if count]
+    proofs = [f"{count} of {len(front)} limits: {s}, {STATUS[s]}." for s, count in counts.items() if count]
     searched = [
         "Each point is a local optimum, the best that its starts and those from neighbouring limits found. That none "
         "is better is not proved.",
         "Between the limits nothing was solved.",
     ]
-    return _two(checked, searched, "each limit is solved as a study of its own", "front")
+    return _two(proofs, searched, "each limit is solved as a study of its own", "front")
 
 
-def of_workspace(workspace: WorkspaceMap, asked: Mapping[str, Any]) -> Html:
+def of_workspace(workspace: WorkspaceMap, question: Mapping[str, Any]) -> Html:
     """Return the same of a workspace and what was asked."""
-    checked = []
-    legs = any(name == "leg_limits" or name.endswith("_length") for name in asked.get("criteria", ()))
-    of_positions = workspace.archetype not in ("orientation", "reachable") and asked.get("internal_point") != "best"
+    proofs = []
+    legs = any(name == "leg_limits" or name.endswith("_length") for name in question.get("criteria", ()))
+    of_positions = workspace.archetype not in ("orientation", "reachable") and question.get("internal_point") != "best"
     if workspace.ball_radius > 0.0 and legs and of_positions:
-        checked.append("Proved: in the largest ball and the largest box every leg keeps to its limits.")
+        proofs.append("Proved: in the largest ball and the largest box every leg keeps to its limits.")
     if workspace.certified is not None:
-        checked.extend(workspace.certified.sentences())
+        proofs.extend(workspace.certified.sentences())
     searched = [
         "Limits not named as proved were sampled: a hole thinner than the samples may remain.",
         "The error of the volume is an estimate, not a bound.",
@@ -61,13 +61,13 @@ def of_workspace(workspace: WorkspaceMap, asked: Mapping[str, Any]) -> Html:
             f"Parts that no sample has shown have a volume of at most {workspace.unseen:.2g}, with a confidence of "
             "95 %."
         )
-    return _two(checked, searched, "how the search ended", str(workspace.status))
+    return _two(proofs, searched, "how the search ended", str(workspace.status))
 
 
-def _two(checked: list[str], searched: list[str], meaning: str, status: str) -> Html:
+def _two(proofs: list[str], searched: list[str], meaning: str, status: str) -> Html:
     lists = [
         tag("div", tag("h3", title), bullets(items))
-        for title, items in (("Proved or checked", checked), ("Searched, not proved", searched))
+        for title, items in (("Proved or checked", proofs), ("Searched, not proved", searched))
         if items
     ]
     return joined(paragraphs([f"Status “{status}”: {meaning}."]), tag("div", *lists, class_="pair"))

@@ -46,13 +46,13 @@ def sentences(study: Study) -> Iterator[str]:
             yield f"The condition number at {name} is at most {limit:g}."
     length = study.characteristic_length
     if isinstance(length, str):
-        said = f"chosen for each design: {length.replace('_', ' ')}"
+        words = f"chosen for each design: {length.replace('_', ' ')}"
     elif isinstance(length, tuple):
-        said = amount(f"free from {_end(length[0])} to {_end(length[1])}", study.unit)
+        words = amount(f"free from {_end(length[0])} to {_end(length[1])}", study.unit)
     else:
-        said = amount(f"{length:g}", study.unit)
-    named = f"in {study.unit}" if study.unit else "in one unit, which the study does not name"
-    yield f"Lengths are {named}, angles in degrees. The characteristic length is {said}."
+        words = amount(f"{length:g}", study.unit)
+    unit = f"in {study.unit}" if study.unit else "in one unit, which the study does not name"
+    yield f"Lengths are {unit}, angles in degrees. The characteristic length is {words}."
 
 
 def variables_table(study: Study) -> Table:

@@ -22,25 +22,25 @@ def of_recorded(record: Any, name: str) -> Page:
     """Return the page of a run by the kind of its record; of an unknown kind, its figures and its question."""
     results = record.results or {}
     headline, good = f"{record.kind.capitalize()} {name}", True
-    said, answer = f"A run of kind “{record.kind}”; its figures are below.", Html()
+    sentence, answer = f"A run of kind “{record.kind}”; its figures are below.", Html()
     top: list[Any] = []
     if (motion := results.get("motion")) is not None:
-        said, answer, top = _motion(motion, record.question.get("unit", ""))
+        sentence, answer, top = _motion(motion, record.question.get("unit", ""))
         good = top[0][1] == 0 and motion["tracked"]
     elif (sweep := results.get("sweep")) is not None:
         ends = {name: row for name, row in sweep["indices"].items() if row.get("least")}
         axes = dict.fromkeys(axis for row in ends.values() for axis in row["least"]["at"])
-        said, top = f"How does {_listed(ends)} vary over {_listed(axes)}?", [("indices", len(ends))]
+        sentence, top = f"How does {_listed(ends)} vary over {_listed(axes)}?", [("indices", len(ends))]
         answer = html_of(summary_table(sweep["indices"], "Least and greatest", sweep["units"]))
     elif (atlas := results.get("atlas")) is not None:
-        said = f"Which condition numbers have {atlas['designs']} designs drawn at random?"
+        sentence = f"Which condition numbers have {atlas['designs']} designs drawn at random?"
         answer, top = html_of(atlas_table(atlas["best"])), [("designs", atlas["designs"])]
     elif record.kind == PAPER:
         rows = results["verdicts"]
         headline = "The paper's numbers beside ours"
-        said = "Which numbers of the paper hold? Each is computed anew; the seven figures are drawn anew."
+        sentence = "Which numbers of the paper hold? Each is computed anew; the seven figures are drawn anew."
         answer, top = html_of(verdicts_table(rows)), [("numbers and claims", len(rows))]
-    sections = {"question": paragraphs([said]), "again": origin.of_question(record.question, record)}
+    sections = {"question": paragraphs([sentence]), "again": origin.of_question(record.question, record)}
     if answer:
         sections["answer"] = answer
     return Page(record.kind, headline, top, sections, None, good)
@@ -61,12 +61,12 @@ def _motion(motion: dict[str, Any], unit: str) -> tuple[str, Html, list[Any]]:
         ("tracked back from the leg lengths", f"{until}, largest difference {motion['tracking_error']:.1e}"),
     ]
     tables = [legs_table(motion), *([limits_table(motion)] if motion.get("limits") else [])]
-    said = (
+    sentence = (
         f"What do the nine legs do along {motion['poses']} poses from t = {motion['begin']:g} to {motion['end']:g}, "
         f"and which limits break? O is {where_o(motion['internal_point'])}."
     )
     top = [("limits broken", broken), ("worst condition number", f"{kappa['worst']:.4f}")]
-    return said, joined(facts(rows), *map(html_of, tables)), top
+    return sentence, joined(facts(rows), *map(html_of, tables)), top
 
 
 def _listed(names: Any) -> str:

@@ -44,8 +44,8 @@ def page_of_path(place: Path, point: str, run: str | os.PathLike[str]) -> str:
     contents = None if record.kind in FROM_RECORD and not point else load(run)
     whole = load(place) if point else None
     certificate = _certificate_of(contents, run) if isinstance(contents, Result) else None
-    made = _page_of(contents, record, name, point, whole, certificate)
-    return _text(made, record, None if point else folder, name)
+    contents_page = _page_of(contents, record, name, point, whole, certificate)
+    return _text(contents_page, record, None if point else folder, name)
 
 
 def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCertificate | None:
@@ -78,20 +78,20 @@ def _page_of(
     if not isinstance(contents, Result):
         return of_recorded(record, name)
     again = origin.of_front(whole, record, point) if isinstance(whole, Front) else None
-    made = of_result(contents, record, f"RUN#{point}" if point else "RUN", again, certificate)
+    page_ = of_result(contents, record, f"RUN#{point}" if point else "RUN", again, certificate)
     if record.kind != "comparison" or point:
-        return made
+        return page_
     published = html_of(comparison_table(record.results["designs"]))
-    return replace(made, sections={**made.sections, "answer": joined(published, made.sections["answer"])})
+    return replace(page_, sections={**page_.sections, "answer": joined(published, page_.sections["answer"])})
 
 
-def _text(made: Page, record: Record, folder: Path | None, name: str) -> str:
+def _text(contents: Page, record: Record, folder: Path | None, name: str) -> str:
     with TemporaryDirectory() as spare:
         still = Html()
-        if made.shown is not None:
+        if contents.shown is not None:
             has_still = folder is not None and STILL in stems(folder)
-            still = image(folder if folder and has_still else _drawn(made.shown, Path(spare)), STILL)
-        return page(made, name, record.created, Html() if folder is None else figures(folder), still)
+            still = image(folder if folder and has_still else _drawn(contents.shown, Path(spare)), STILL)
+        return page(contents, name, record.created, Html() if folder is None else figures(folder), still)
 
 
 def _drawn(scene: Any, folder: Path) -> Path:

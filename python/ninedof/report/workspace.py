@@ -22,18 +22,18 @@ from ninedof.workspace.tables import workspace_table
 
 def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     """Return the page of a workspace; without machine and question where the record does not hold them."""
-    asked, shown = record.question, None
+    question, view = record.question, None
     sections = {
         "answer": html_of(workspace_table(workspace, most=100)),
-        "proof": proof.of_workspace(workspace, asked),
-        "again": origin.of_question(asked, record),
+        "proof": proof.of_workspace(workspace, question),
+        "again": origin.of_question(question, record),
     }
-    if "criteria" in asked:
-        sections["question"] = _question(workspace, asked)
-    if {"geometry", "home"} <= set(asked):
-        shown = _scene(workspace, asked)
+    if "criteria" in question:
+        sections["question"] = _question(workspace, question)
+    if {"geometry", "home"} <= set(question):
+        view = _scene(workspace, question)
         hint = "The body is the set of positions of the platform's origin; lines: the box looked at."
-        sections["machine"] = paragraphs([hint if shown["machines"][0]["body"] else ""])
+        sections["machine"] = paragraphs([hint if view["machines"][0]["body"] else ""])
     cubed = "rad³" if workspace.of_angles else workspace.unit + "³" * bool(workspace.unit)
     figures = [
         ("status", workspace.status),
@@ -41,27 +41,27 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
         ("worst condition number", f"{workspace.worst_condition_number:.4f}"),
     ]
     headline = f"Workspace: {workspace.archetype.replace('_', ' ')}"
-    return Page("workspace", headline, figures, sections, shown, workspace.status in ("converged", "limited"))
+    return Page("workspace", headline, figures, sections, view, workspace.status in ("converged", "limited"))
 
 
-def _scene(workspace: WorkspaceMap, asked: Any) -> dict[str, Any]:
-    g = Geometry(**{key: np.array(value) for key, value in asked["geometry"].items()})
-    home = Configuration(**{key: np.array(value) for key, value in asked["home"].items()})
+def _scene(workspace: WorkspaceMap, question: Any) -> dict[str, Any]:
+    g = Geometry(**{key: np.array(value) for key, value in question["geometry"].items()})
+    home = Configuration(**{key: np.array(value) for key, value in question["home"].items()})
     box = [] if workspace.of_angles else box_lines(workspace.low, workspace.high)
-    length = float(asked.get("characteristic_length", 1.0))
+    length = float(question.get("characteristic_length", 1.0))
     return scene.scene(
         [scene.machine("robot", g, home, length, (("home", 0),), box, body_of(workspace))], workspace.unit
     )
 
 
-def _question(workspace: WorkspaceMap, asked: Any) -> Html:
+def _question(workspace: WorkspaceMap, question: Any) -> Html:
     turn, unit = (math.degrees, "deg") if workspace.of_angles else (float, workspace.unit)
     low, high = (", ".join(f"{turn(x):.6g}" for x in ends) for ends in (workspace.low, workspace.high))
     where = f"{'the box' if not workspace.of_angles else 'coordinates'} from ({low}) to {amount(f'({high})', unit)}"
-    said = f"Which poses keep all limits below? Looked at: {where}."
-    if "internal_point" in asked:
-        said += f" O is {rule_words(asked, workspace.unit)}."
+    sentence = f"Which poses keep all limits below? Looked at: {where}."
+    if "internal_point" in question:
+        sentence += f" O is {rule_words(question, workspace.unit)}."
     limits = (
-        words for name, value in asked["criteria"].items() for words in criterion_words(name, value, workspace.unit)
+        words for name, value in question["criteria"].items() for words in criterion_words(name, value, workspace.unit)
     )
-    return joined(paragraphs([said]), bullets(limits))
+    return joined(paragraphs([sentence]), bullets(limits))

@@ -99,8 +99,8 @@ def checked_out(out: Any, shape: tuple[int, ...]) -> Floats | None:
 
 def filled(out: Any, shape: tuple[int, ...], compute: Callable[[Floats | None], Floats]) -> Any:
     """Return `out`, filled by `compute`, or without `out` a new result of the given shape; a number for shape ()."""
-    found = compute(checked_out(out, shape))
-    return found.reshape(shape)[()] if out is None else out
+    values = compute(checked_out(out, shape))
+    return values.reshape(shape)[()] if out is None else out
 
 
 def _shape_text(trailing: tuple[int, ...]) -> str:

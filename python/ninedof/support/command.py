@@ -38,8 +38,8 @@ def command_line() -> str:
 def goes_on(out: Path | None = None) -> None:
     """Note that the command goes on with its run when it is typed again, with `--out` if it has such a folder."""
     if (command := _RUNNING.get()) is not None:
-        named = out is None or any(word == "--out" or word.startswith("--out=") for word in command.words)
-        command.again = command.words if named else [*command.words, "--out", str(out)]
+        has_out = out is None or any(word == "--out" or word.startswith("--out=") for word in command.words)
+        command.again = command.words if has_out else [*command.words, "--out", str(out)]
 
 
 def ended_by_time(without: str = "") -> None:

@@ -36,8 +36,8 @@ def short(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.6g}"
     if isinstance(value, Mapping):
-        listed = [f"{key}: {short(one)}" for key, one in list(value.items())[:FEW]]
-        return "{" + ", ".join([*listed, *_more(len(value), FEW)]) + "}"
+        entries = [f"{key}: {short(one)}" for key, one in list(value.items())[:FEW]]
+        return "{" + ", ".join([*entries, *_more(len(value), FEW)]) + "}"
     if isinstance(value, list | tuple) and not hasattr(value, "_fields"):
         return _sequence(value)
     text = repr(value)
@@ -67,11 +67,11 @@ def _array(values: NDArray[Any]) -> str:
     what = f"array {'x'.join(map(str, values.shape))}"
     if values.dtype.kind not in "iuf":
         return f"<{what}>"
-    known = values[~np.isnan(values)] if values.dtype.kind == "f" else values
-    missing = f", {values.size - known.size} NaN" if known.size < values.size else ""
-    if not known.size:
+    numbers = values[~np.isnan(values)] if values.dtype.kind == "f" else values
+    missing = f", {values.size - numbers.size} NaN" if numbers.size < values.size else ""
+    if not numbers.size:
         return f"<{what}, all NaN>"
-    return f"<{what}, {short(known.min())} to {short(known.max())}{missing}>"
+    return f"<{what}, {short(numbers.min())} to {short(numbers.max())}{missing}>"
 
 
 def _sequence(values: list[Any] | tuple[Any, ...]) -> str:
@@ -80,9 +80,9 @@ def _sequence(values: list[Any] | tuple[Any, ...]) -> str:
     most = FEW if numbers else FEW_ITEMS
     if not numbers and len(values) > most and len({type(one) for one in values}) == 1:
         return f"<{len(values)} x {type(values[0]).__name__}>"
-    listed = [*(short(one) for one in values[:most]), *_more(len(values), most)]
+    entries = [*(short(one) for one in values[:most]), *_more(len(values), most)]
     comma = "," if isinstance(values, tuple) and len(values) == 1 else ""
-    return left + ", ".join(listed) + comma + right
+    return left + ", ".join(entries) + comma + right
 
 
 def _more(count: int, most: int) -> list[str]:
@@ -102,7 +102,7 @@ _UNPRINTABLE = re.compile(
 
 def escaped(text: str) -> str:
     """Return a text whose characters that are not to be seen are escapes as in Python, tabs and line feeds left."""
-    return _UNPRINTABLE.sub(lambda found: ascii(found[0])[1:-1], text)
+    return _UNPRINTABLE.sub(lambda match: ascii(match[0])[1:-1], text)
 
 
 def one_line(text: str) -> str:

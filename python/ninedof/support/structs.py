@@ -74,17 +74,17 @@ def entries_of(kind: type, data: Any, where: str = "", skipped: Collection[str] 
         Naming an entry that is missing or of another kind.
 
     """
-    given = table(where or kind.__name__, data)
-    found: dict[str, Any] = {}
+    entries = table(where or kind.__name__, data)
+    out: dict[str, Any] = {}
     for field in fields(kind):
         if not field.init or field.name in skipped:
             continue
         name = f"{where}.{field.name}" if where else field.name
-        if field.name in given:
-            found[field.name] = value_of(name, given[field.name], _hints(kind)[field.name])
+        if field.name in entries:
+            out[field.name] = value_of(name, entries[field.name], _hints(kind)[field.name])
         elif field.default is MISSING and field.default_factory is MISSING:
             raise ValueError(f"{name}: got nothing, expected it in a whole file")
-    return found
+    return out
 
 
 def made(kind: type[T], data: Any, where: str = "") -> T:
@@ -113,12 +113,14 @@ def value_of(name: str, value: Any, kind: Any) -> Any:
 
 
 def _tuple(name: str, value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
-    given = items(name, value, "a list")
+    entries = items(name, value, "a list")
     if inner[-1] is Ellipsis:
-        return tuple(value_of(f"{name}[{k}]", entry, inner[0]) for k, entry in enumerate(given))
-    if len(given) != len(inner):
+        return tuple(value_of(f"{name}[{k}]", entry, inner[0]) for k, entry in enumerate(entries))
+    if len(entries) != len(inner):
         raise ValueError(f"{name}: got {shown(value)}, expected a list of {len(inner)}")
-    return tuple(value_of(f"{name}[{k}]", entry, one) for k, (entry, one) in enumerate(zip(given, inner, strict=True)))
+    return tuple(
+        value_of(f"{name}[{k}]", entry, one) for k, (entry, one) in enumerate(zip(entries, inner, strict=True))
+    )
 
 
 def _whole(name: str, value: Any) -> int:

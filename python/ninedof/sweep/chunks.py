@@ -125,8 +125,8 @@ def _by(executor: Executor, work: Work, chunks: list[Chunk]) -> Computed:
                 waiting[executor.submit(_perform, work.part(*chunk), chunk, token)] = chunk
             if not waiting:
                 return
-            done = wait(waiting, return_when=FIRST_COMPLETED).done
-            for future in sorted(done, key=_failed):  # what is finished is kept before an error ends the run
+            finished = wait(waiting, return_when=FIRST_COMPLETED).done
+            for future in sorted(finished, key=_failed):  # what is finished is kept before an error ends the run
                 yield waiting.pop(future), future.result()
     finally:
         for future in waiting:

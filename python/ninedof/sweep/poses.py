@@ -82,8 +82,8 @@ class Poses:
             part = slice(first, first + size)
             sides = (-1, *self.block[1:])
             poses = p[part].reshape(*sides, 3), q[part].reshape(*sides, 3, 3)
-            found = best_internal_map(self.geometry, *poses, characteristic_length=self.length, threads=threads)
-            s[part] = found.configuration.internal_point.reshape(-1, 3)
+            best = best_internal_map(self.geometry, *poses, characteristic_length=self.length, threads=threads)
+            s[part] = best.configuration.internal_point.reshape(-1, 3)
         return s
 
     def _carried(self, c: Configuration) -> Floats:

@@ -57,8 +57,8 @@ class SweepResult(Saved):
 
     def __repr__(self) -> str:
         """Show names and shapes."""
-        shown = (f"{n}({', '.join(f'{d}: {len(self.coords[d])}' for d in self.dims[n])})" for n in self.arrays)
-        return f"<SweepResult {', '.join(shown)}>"
+        arrays = (f"{n}({', '.join(f'{d}: {len(self.coords[d])}' for d in self.dims[n])})" for n in self.arrays)
+        return f"<SweepResult {', '.join(arrays)}>"
 
     def _repr_html_(self) -> str:
         columns = [*(Column(name) for name in ("index", "unit", "over")), Column("least", "", ".6g"), Column("at")]
@@ -82,10 +82,10 @@ class SweepResult(Saved):
 
         """
         shape = self.arrays[choice("name", name, self.arrays)].shape
-        given = items("position", position, f"{len(shape)} whole numbers")
-        if len(given) != len(shape):
+        numbers = items("position", position, f"{len(shape)} whole numbers")
+        if len(numbers) != len(shape):
             raise ValueError(f"position: got {shown(position)}, expected {len(shape)} whole numbers")
-        each = zip(self.dims[name], given, shape, strict=True)
+        each = zip(self.dims[name], numbers, shape, strict=True)
         return {d: self.coords[d][whole("position", k, -size, size - 1)].item() for d, k, size in each}
 
     def least(self, name: str) -> tuple[float, dict[str, Any]]:

@@ -211,23 +211,23 @@ def sweep_designs(
     known_keys("sweep_designs", options, DesignOptions.__annotations__)
     family = choice("family", options.get("family", "hexagonal"), _core.design_family_names())
     variables = _core.family_variables(family)
-    known = [name for name, *_ in variables]
+    names = [name for name, *_ in variables]
     angles = [name for name, kind, *_ in variables if kind == "angle"]
-    grid = axes_of(over, known, angles)
-    known_keys("design", design, [*known, *(name + DEG for name in angles)])
-    turned = in_radians(design, dict.fromkeys(angles, finite))
-    held = {name: finite(f"design[{name!r}]", value) for name, value in turned.items()}
+    grid = axes_of(over, names, angles)
+    known_keys("design", design, [*names, *(name + DEG for name in angles)])
+    in_rad = in_radians(design, dict.fromkeys(angles, finite))
+    fixed = {name: finite(f"design[{name!r}]", value) for name, value in in_rad.items()}
     swept = [plain_name(axis.name) for axis in grid.axes]
-    if both := [name for name in swept if name in held]:
+    if both := [name for name in swept if name in fixed]:
         raise ValueError(f"design: got {both[0]}, which is swept, expected it in one place")
-    variants = Variants(family, held, length_argument(options.get("characteristic_length", 1.0)))
+    variants = Variants(family, fixed, length_argument(options.get("characteristic_length", 1.0)))
     at_first = {name: float(values[0]) for name, values in grid.in_radians(0, 1).items()}
     variants.study().vector(at_first)  # raises for missing variables
     indices = indices_of(index, of_designs=True)
     variants.check(indices)
     fast = all(variants.has_closed_form(i, swept) for i in indices)
     work = GridWork(variants, grid, indices, chunk_argument(options.get("chunk"), POSES if fast else DESIGNS), 1)
-    return _result(work, {name: "rad" if name in angles else "length" for name in known}, options)
+    return _result(work, {name: "rad" if name in angles else "length" for name in names}, options)
 
 
 def _result(work: GridWork, units: Mapping[str, str], options: GridOptions) -> SweepResult:

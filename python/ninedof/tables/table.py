@@ -54,8 +54,8 @@ class Table:
         among = self._numbers()
         for row in self.rows:
             if isinstance(row, Line):
-                known = [float(x) for x in row.values if _is_number(x)]
-                values = (cell(x, row.format, known, digits) for x in row.values)
+                numbers = [float(x) for x in row.values if _is_number(x)]
+                values = (cell(x, row.format, numbers, digits) for x in row.values)
                 groups[-1].append([with_unit(row.name, row.unit), *values])
             elif row:
                 pairs = zip(row, self.columns, strict=True)
@@ -66,12 +66,12 @@ class Table:
 
     def _numbers(self) -> dict[str, list[float]]:
         """Return the SHORT numbers of all columns of each unit: they have the same decimals."""
-        found: dict[str, list[float]] = {}
+        numbers: dict[str, list[float]] = {}
         for row in self.rows:
             for x, column in zip(row, self.columns, strict=False) if not isinstance(row, Line) else ():
                 if column.format == SHORT and _is_number(x):
-                    found.setdefault(column.unit, []).append(float(x))
-        return found
+                    numbers.setdefault(column.unit, []).append(float(x))
+        return numbers
 
 
 Part: TypeAlias = "str | Table | tuple[Table, ...]"

@@ -43,13 +43,13 @@ def _rich(one: Table, width: int) -> table.Table:
     )
     styles = (style for style in STYLES if least + style[3] * len(heads) + 2 * style[2] <= width)
     frame, padding, edge, _ = next(styles, STYLES[-1])
-    shown = table.Table(box=frame, padding=padding, pad_edge=edge, show_header=one.has_head)
+    out = table.Table(box=frame, padding=padding, pad_edge=edge, show_header=one.has_head)
     for head, folds in zip(heads, words, strict=True):
-        shown.add_column(head, justify="left" if folds else "right", overflow="fold")
+        out.add_column(head, justify="left" if folds else "right", overflow="fold")
     for group in groups:
         for k, row in enumerate(group, start=1):
-            shown.add_row(*row, end_section=k == len(group))
-    return shown
+            out.add_row(*row, end_section=k == len(group))
+    return out
 
 
 def _least(text: str, folds: bool) -> int:

@@ -69,11 +69,11 @@ def refusal(headers: Any, host: str) -> str:
 
     Its Host is a number, which nobody can point elsewhere, or a name of this machine; its Origin, if any, the same.
     """
-    named, origins = headers.get_all("Host"), headers.get_all("Origin")
-    address = HOST.fullmatch(named[0]) if len(named) == 1 else None
+    hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
+    address = HOST.fullmatch(hosts[0]) if len(hosts) == 1 else None
     if address is None or not _own(address[1].lower(), host.lower()):
         return "Host: expected the address of the viewer"
-    if any(origin.lower() not in (f"http://{named[0].lower()}", f"https://{named[0].lower()}") for origin in origins):
+    if any(origin.lower() not in (f"http://{hosts[0].lower()}", f"https://{hosts[0].lower()}") for origin in origins):
         return "Origin: expected the page of the viewer, not that of another site"
     return ""
 

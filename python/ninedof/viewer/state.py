@@ -140,10 +140,10 @@ class State:
         q = c.rotation if rotation is None else rotation
         if turn_deg is not None:
             q = from_vectors(np.radians([turn_deg]))[0] @ self.variant.home.rotation
-        placed, self.note = self._placed, ""
-        arm = placed.internal_point - placed.position
-        carried: Floats = p + q @ placed.rotation.T @ arm
-        s = {"shifted": p + arm, "held": placed.internal_point}.get(self.rule, carried)
+        pose, self.note = self._placed, ""
+        arm = pose.internal_point - pose.position
+        carried: Floats = p + q @ pose.rotation.T @ arm
+        s = {"shifted": p + arm, "held": pose.internal_point}.get(self.rule, carried)
         self.configuration = Configuration(p, q, self._best(p, q, s) if self.rule == "best" else s)
 
     def set_internal_point(self, point: Any) -> None:
@@ -243,12 +243,12 @@ class State:
         modes = forward_position(g, leg_lengths(g, c))
         kappa = np.asarray(condition_number(g, modes, self.variant.length)) if modes.count else np.zeros(0)
         order = np.argsort(kappa, kind="stable")
-        listed, nearest = modes[order], 0
+        ordered, nearest = modes[order], 0
         if modes.count:
-            away = np.abs(listed.position - c.position).max(axis=1) / self.machine.size
-            away += np.abs(listed.internal_point - c.internal_point).max(axis=1) / self.machine.size
-            nearest = int(np.argmin(away + np.abs(listed.rotation - c.rotation).max(axis=(1, 2))))
-        self.modes = Modes(listed, kappa[order], modes.status, nearest)
+            away = np.abs(ordered.position - c.position).max(axis=1) / self.machine.size
+            away += np.abs(ordered.internal_point - c.internal_point).max(axis=1) / self.machine.size
+            nearest = int(np.argmin(away + np.abs(ordered.rotation - c.rotation).max(axis=(1, 2))))
+        self.modes = Modes(ordered, kappa[order], modes.status, nearest)
         return self.modes
 
     def show_mode(self, k: int) -> None:

@@ -161,17 +161,17 @@ class CertifiedWorkspace(Saved):
         """
         fixed = AXES.index(choice("axis", axis, AXES))
         place = finite("at", at, float(self.low[fixed]), float(self.high[fixed]))
-        h, v = drawn = [k for k in range(3) if k != fixed]
-        side = (self.high - self.low)[drawn]
+        h, v = axes = [k for k in range(3) if k != fixed]
+        side = (self.high - self.low)[axes]
         count = np.maximum(np.round(whole("pixels", pixels, 2, 4000) * side / side.max()), 2).astype(int)
         x, y = (
             self.low[k] + (np.arange(n) + 0.5) / n * (self.high[k] - self.low[k])
-            for k, n in zip(drawn, count.tolist(), strict=True)
+            for k, n in zip(axes, count.tolist(), strict=True)
         )
         points = np.empty((len(y), len(x), 3))
         points[..., fixed], points[..., h], points[..., v] = place, x, y[:, None]
         cut = (self.inner_low[:, fixed] <= place) & (place < self.inner_high[:, fixed])
-        inner = np.concatenate([self.inner_low[cut][:, drawn], self.inner_high[cut][:, drawn]], axis=1)
+        inner = np.concatenate([self.inner_low[cut][:, axes], self.inner_high[cut][:, axes]], axis=1)
         state = self.state(points.reshape(-1, 3)).reshape(points.shape[:2])
         return CertifiedSection((AXES[h], AXES[v]), (axis, place), x, y, state, inner)
 

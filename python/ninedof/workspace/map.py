@@ -147,12 +147,12 @@ class WorkspaceMap(Saved):
         """
         grouped = flag("grouped", grouped)
         total = float(self.limit_area.sum())
-        found: dict[str, float] = {}
+        limits: dict[str, float] = {}
         for name, area in zip(LIMITS, self.limit_area.tolist(), strict=True):
             if area > 0.0:
                 key = group_of(name) if grouped else name
-                found[key] = found.get(key, 0.0) + area / total
-        return dict(sorted(found.items(), key=lambda entry: -entry[1]))
+                limits[key] = limits.get(key, 0.0) + area / total
+        return dict(sorted(limits.items(), key=lambda entry: -entry[1]))
 
     def slice(self, axis: str, at: float, pixels: int = 240, smooth: bool = False) -> WorkspaceSlice:
         """Return a plane section of the map: its cells, or smooth fields for drawing.
@@ -189,8 +189,8 @@ class WorkspaceMap(Saved):
         section = (
             _core.field_section(self, self.field, fixed, at) if smooth else _core.cell_section(self, fixed, at, pixels)
         )
-        drawn = tuple(name for name in self.coordinates if name != axis)
-        return from_core(WorkspaceSlice, section, axes=drawn, plane=(axis, float(at)))
+        axes = tuple(name for name in self.coordinates if name != axis)
+        return from_core(WorkspaceSlice, section, axes=axes, plane=(axis, float(at)))
 
     @cached_property
     def field(self) -> _core.WorkspaceField:
@@ -240,7 +240,7 @@ class WorkspaceMap(Saved):
             out[one.name] = value.tolist() if isinstance(value, np.ndarray) else value
         out["status"] = str(self.status)
         out["internal_point_audit"] = asdict(self.internal_point_audit)
-        out["indices"] = {name: asdict(found) for name, found in self.indices.items()}
+        out["indices"] = {name: asdict(statistics) for name, statistics in self.indices.items()}
         out["coordinates"] = list(self.coordinates)
         out["limits"] = self.limits()
         out["share"] = self.share
@@ -258,7 +258,7 @@ class WorkspaceMap(Saved):
             elif one.name == "internal_point_audit":
                 words[one.name] = asdict(value)
             elif one.name == "indices":
-                words[one.name] = {name: asdict(found) for name, found in value.items()}
+                words[one.name] = {name: asdict(statistics) for name, statistics in value.items()}
             elif one.name not in ("cells", "certified"):
                 words[one.name] = value
         return {"words": json_array(words), **arrays}

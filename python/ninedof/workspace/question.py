@@ -103,14 +103,14 @@ def _domain(box: Any, arguments: Mapping[str, Any]) -> _core.WorkspaceDomain:
     archetype = choice("archetype", arguments["archetype"], ARCHETYPES)
     turns, is_set = archetype == "orientation", archetype in SETS
     position, region = arguments.get("position"), arguments["region"]
-    taken = {
+    bounds = {
         "box": (box, not turns, not turns),
         "position": (position, turns, turns),
         "rotation": (arguments["rotation"], not is_set, False),
         "region": (region, archetype not in ("constant_orientation", "dexterous"), turns),
         "orientations": (arguments["orientations"], is_set, False),
     }
-    for name, (value, takes, needs) in taken.items():
+    for name, (value, takes, needs) in bounds.items():
         if value is not None and not takes:
             raise ValueError(f"{name}: got {shown(value)}, expected nothing for the {archetype} workspace")
         if value is None and needs:
@@ -194,12 +194,12 @@ def rule_of(rule: Any) -> _core.InternalPointRule:
 
 def criteria_of(criteria: Mapping[str, Any] | None, characteristic_length: float) -> _core.WorkspaceCriteria:
     """Return criteria by name as the core takes them, in the order of its table; None stands for no limit."""
-    given = {} if criteria is None else criteria
-    known_keys("criteria", given, CRITERIA)
+    entries = {} if criteria is None else criteria
+    known_keys("criteria", entries, CRITERIA)
     out = _core.WorkspaceCriteria(characteristic_length=as_number("characteristic_length", characteristic_length))
     limits = []
     for name, row in ROWS.items():
-        if (value := given.get(name)) is None:
+        if (value := entries.get(name)) is None:
             continue
         if name in PARTS:
             limits += _limit(row, value)

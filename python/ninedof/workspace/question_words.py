@@ -19,31 +19,33 @@ KINDS = {"external": slice(0, 3), "upper internal": slice(3, 6), "lower internal
 
 
 def asked_lines(
-    asked: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str], unit: str = ""
+    keywords: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str], unit: str = ""
 ) -> Iterator[str]:
     """Yield what is asked, a line for each part."""
     p, o = (amount(_point(point), unit) for point in (home.position, home.internal_point))
     yield f"home: p = {p}, O = {o}"
-    yield f"O: {rule_words(asked, unit)}"
-    for name, value in asked["criteria"].items():
+    yield f"O: {rule_words(keywords, unit)}"
+    for name, value in keywords["criteria"].items():
         whose = ", of the study" if name in own else ""
         for words in criterion_words(name, value, unit):
             yield f"limit: {words}{whose}"
     if left:
         yield f"of the study, no limit of a single pose: {', '.join(left)}"
-    if "box" in asked:
-        low, high = asked["box"]
+    if "box" in keywords:
+        low, high = keywords["box"]
         yield f"box: p from {_point(low)} to {amount(_point(high), unit)}"
-    if "position" in asked:
-        yield f"position: p = {amount(_point(asked['position']), unit)}"
-    if "region" in asked:
-        yield "region: " + ", ".join(f"{name} to {math.degrees(a):.6g} degrees" for name, a in asked["region"].items())
+    if "position" in keywords:
+        yield f"position: p = {amount(_point(keywords['position']), unit)}"
+    if "region" in keywords:
+        yield "region: " + ", ".join(
+            f"{name} to {math.degrees(a):.6g} degrees" for name, a in keywords["region"].items()
+        )
 
 
-def rule_words(asked: Mapping[str, Any], unit: str) -> str:
+def rule_words(keywords: Mapping[str, Any], unit: str) -> str:
     """Return where O is, in words; where the platform does not turn, carried is the same as shifted."""
-    rule = asked["internal_point"]
-    turns = "position" in asked or "rotation" not in asked
+    rule = keywords["internal_point"]
+    turns = "position" in keywords or "rotation" not in keywords
     return where_o(rule, unit) + ("; without turns as shifted" if isinstance(rule, Mapping) and not turns else "")
 
 

@@ -35,8 +35,8 @@ def region_share(
     region: Region, g: Geometry, home: Configuration, criteria: Mapping[str, Any], characteristic_length: float
 ) -> RegionShare:
     """Return how much of a region keeps the criteria of a workspace, with its tilts, O as the region has it."""
-    asked = _core.WorkspaceQuestion(g, home=home, criteria=criteria_of(criteria, characteristic_length))
-    return from_core(RegionShare, _core.region_share(asked, region.for_core(), COUNT))
+    question = _core.WorkspaceQuestion(g, home=home, criteria=criteria_of(criteria, characteristic_length))
+    return from_core(RegionShare, _core.region_share(question, region.for_core(), COUNT))
 
 
 def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[Floats, Floats]:

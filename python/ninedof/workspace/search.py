@@ -166,7 +166,7 @@ def workspace(
     (<WorkspaceStatus.CONVERGED: 'converged'>, 8.7, True)
 
     """
-    asked = {
+    arguments = {
         "archetype": archetype,
         "criteria": criteria,
         "internal_point": internal_point,
@@ -177,7 +177,7 @@ def workspace(
         "home": home,
         "characteristic_length": characteristic_length,
     }
-    question = question_of(geometry, box, asked)
+    question = question_of(geometry, box, arguments)
     progress_argument(progress)
     choice("method", method, METHODS)
     unit = unit_argument(unit)
@@ -199,23 +199,23 @@ def workspace(
         threads=thread_argument(threads),
     )
     begin = perf_counter()
-    found = _core.workspace(question, settings, progress)
-    made = from_core(
+    search = _core.workspace(question, settings, progress)
+    result = from_core(
         WorkspaceMap,
-        found,
-        status=WorkspaceStatus(found.status),
-        cells=from_core(WorkspaceCells, found.cells, size=found.sides),
+        search,
+        status=WorkspaceStatus(search.status),
+        cells=from_core(WorkspaceCells, search.cells, size=search.sides),
         coordinates=COORDINATES[question.domain.region.chart if archetype == "orientation" else ""],
         archetype=archetype,
         method=method,
         seconds=perf_counter() - begin,
-        internal_point_audit=from_core(MapAudit, found.internal_point_audit),
+        internal_point_audit=from_core(MapAudit, search.internal_point_audit),
         unit=unit,
     )
-    if not indices or made.interrupted:
-        return made
+    if not indices or result.interrupted:
+        return result
     try:
-        over = statistics_of(question, made, indices, threads)
+        over = statistics_of(question, result, indices, threads)
     except KeyboardInterrupt:
-        return replace(made, status=WorkspaceStatus.STOPPED)
-    return replace(made, indices=over, seconds=perf_counter() - begin)
+        return replace(result, status=WorkspaceStatus.STOPPED)
+    return replace(result, indices=over, seconds=perf_counter() - begin)

@@ -33,10 +33,10 @@ class IndexStatistics:
 
 
 def statistics_of(
-    question: _core.WorkspaceQuestion, found: Any, indices: tuple[Index, ...], threads: int | None
+    question: _core.WorkspaceQuestion, search: Any, indices: tuple[Index, ...], threads: int | None
 ) -> dict[str, IndexStatistics]:
     """Return the statistics of each index over a WorkspaceMap: each pose has one rotation, and O by a formula."""
-    poses = _core.workspace_poses(question, found, connected(question))
+    poses = _core.workspace_poses(question, search, connected(question))
     c = poses.configurations
     length = question.criteria.characteristic_length
 

@@ -148,10 +148,10 @@ def _trajectory(chosen: Chosen, options: PathOptions) -> Trajectory:
             raise ValueError(f"--{name}: got {value}, expected none with a file: it has its own times")
         return Trajectory.load(options.file, home, chosen.unit)
     ((name, value),) = shapes.items()
-    made: Trajectory = getattr(Trajectory, name)(
+    trajectory: Trajectory = getattr(Trajectory, name)(
         home, *(value if name == "spiral" else (value,)), **times, unit=chosen.unit
     )
-    return made
+    return trajectory
 
 
 def _with_weight(

@@ -109,9 +109,9 @@ def sweep(job: Sweep) -> None:
             call = _over_poses(what, job, grid)
         else:
             _expect_none("in a sweep over designs", job, OF_POSES)
-            held, own = swept_design(what, job.sides, job.theta_z_deg, grid, job.lc)
+            design, own = swept_design(what, job.sides, job.theta_z_deg, grid, job.lc)
             own["chunk"] = job.chunk
-            call = partial(sweep_designs, held, grid, job.index or "condition_number", **own)
+            call = partial(sweep_designs, design, grid, job.index or "condition_number", **own)
     result, folder = job.compute(call, title)
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
     table = summary_table(summary, title, result.units)

@@ -62,8 +62,8 @@ def ellipsoids(
     """
     style.counted("panels", panels, MOST_PANELS)
     shapes = {source: (np.eye(3), np.ones(3)), **{title: _checked(axes) for title, axes in panels.items()}}
-    known = np.concatenate([semi_axes for _, semi_axes in shapes.values()])
-    half = ROOM * float(known[np.isfinite(known)].max())
+    lengths = np.concatenate([semi_axes for _, semi_axes in shapes.values()])
+    half = ROOM * float(lengths[np.isfinite(lengths)].max())
     count = len(shapes)
     share = 1.0 / count
     width = style.TWO_COLUMNS if count > 2 else 1.5 * style.ONE_COLUMN

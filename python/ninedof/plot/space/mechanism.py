@@ -45,8 +45,8 @@ class Robot:
         g, c = self.geometry, self.configuration
         require_single("configuration", c)
         platform = np.vstack([g.platform_external, g.platform_internal])
-        placed = c.position + platform @ c.rotation.T
-        return np.vstack([g.base_external, g.base_internal, placed, c.internal_point])
+        in_base = c.position + platform @ c.rotation.T
+        return np.vstack([g.base_external, g.base_internal, in_base, c.internal_point])
 
     def corners(self) -> tuple[Floats, Floats]:
         """Return the corners of the box about it and the lines."""
@@ -139,10 +139,10 @@ def mechanisms(robots: Sequence[Robot], unit: str = "", figure: Figure | None = 
             mechanism(Robot("", robot.geometry, robot.configuration, lines=robot.lines), unit, axes, (low, high), False)
             scene.fit(axes, low, high, (k * share, keys / tall, share, 1.0 - (words + keys) / tall))
             middle, kappa = (k + 0.5) * share, robot.condition_number
-            written = "" if kappa is None else f"condition number {kappa:.4f}"
+            text = "" if kappa is None else f"condition number {kappa:.4f}"
             options: dict[str, Any] = {"ha": "center", "va": "baseline"}
             figure.text(middle, 1.0 - 0.16 / tall, robot.title, size=style.TITLE_SIZE, weight="bold", **options)
-            figure.text(middle, 1.0 - 0.3 / tall, written, size=style.TEXT_SIZE, **options)
+            figure.text(middle, 1.0 - 0.3 / tall, text, size=style.TEXT_SIZE, **options)
             figure.text(middle, 1.0 - 0.43 / tall, robot.note, size=style.SMALL_SIZE, color=style.MUTED, **options)
         names = _keys() + [style.key(style.REGION, lw=0.8, label="region of poses")] * lines
         columns = 3 if single else 4 if lines else 6

@@ -86,8 +86,8 @@ def fit(axes: Any, low: Floats, high: Floats, rectangle: style.Rectangle) -> Non
     axes.set_position((0.0, 0.0, *(1.0 / size)))  # one inch each way
     axes.apply_aspect()
     flat = np.column_stack(proj3d.proj_transform(*_corners(low, high).T, axes.get_proj())[:2])
-    seen = (axes.transData.transform(flat) - axes.figure.bbox.p0) / axes.figure.dpi
-    first, last = seen.min(axis=0), seen.max(axis=0)
+    inches = (axes.transData.transform(flat) - axes.figure.bbox.p0) / axes.figure.dpi
+    first, last = inches.min(axis=0), inches.max(axis=0)
     scale = min(np.array([width, height]) / (last - first))
     start = np.array([left, bottom]) + 0.5 * (np.array([width, height]) - scale * (first + last))
     axes.set_position((*(start / size), *(scale / size)))
