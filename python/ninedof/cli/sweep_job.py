@@ -38,7 +38,7 @@ class Job(JobOptions):
 
     @cached_property
     def screen(self) -> Screen:
-        """Where it prints."""
+        """The screen it prints on."""
         return Screen(self.json)
 
     def compute(self, call: Callable[..., SweepResult], title: str) -> tuple[SweepResult, Path]:

@@ -45,7 +45,7 @@ class DesignPoint:
     margin_gradients: dict[str, dict[str, float]]
     """d(margin)/d(variable) of that margin."""
     values: dict[str, float]
-    """What each constraint limits, where its margin is smallest, in the unit of the limit; angles in radians."""
+    """The quantity of each constraint where its margin is smallest, in the unit of the limit; angles in radians."""
     geometry: Geometry
     configuration: Configuration
     """The neutral one."""

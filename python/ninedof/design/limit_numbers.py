@@ -1,4 +1,4 @@
-"""What limits are about at the poses of a stack, and the limits of a study on leg lengths, for each leg."""
+"""The quantities of limits at the poses of a stack, and the limits of a study on leg lengths, for each leg."""
 
 from __future__ import annotations
 

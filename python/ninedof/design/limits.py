@@ -41,7 +41,7 @@ class Row(NamedTuple):
 ROWS = {row.name: row for row in (Row(*values) for values in _core.constraint_table)}
 STEPS, MOST_STEPS = _core.singularity_free_steps  # parts of the way from the neutral pose that singularity_free tests
 AT = ("poses", "neutral")
-"""Where a limit holds: at every pose of the objective, the default, or at the neutral pose alone."""
+"""The places where a limit holds: every pose of the objective, the default, or the neutral pose alone."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class Limit:
 
     @property
     def options(self) -> dict[str, Any]:
-        """What differs from the defaults beside the two sides."""
+        """The options that differ from the defaults beside the two sides."""
         values = {"of": self.of, "axis": self.axis, "steps": self.steps, "at": self.at}
         return {name: value for name, value in values.items() if value != getattr(Limit, name)}
 

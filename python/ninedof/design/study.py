@@ -257,7 +257,7 @@ class Study:
 
     @property
     def length_note(self) -> str:
-        """What to say first where lengths have a unit and the characteristic length was not given; else ""."""
+        """The sentence to print first where lengths have a unit and the characteristic length was left out; else ""."""
         if not (self.unit and self.length_assumed):
             return ""
         return (

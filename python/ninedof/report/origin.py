@@ -1,4 +1,4 @@
-"""How to reproduce a run: its command, its study file, its versions."""
+"""The origin of a run, to reproduce it: its command, its study file, its versions."""
 
 from __future__ import annotations
 

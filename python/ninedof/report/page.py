@@ -40,7 +40,7 @@ class Page:
     sections: Mapping[str, Html]
     """By the names in TITLES; the section "machine" has the view and a sentence below it."""
     shown: Mapping[str, Any] | None = None
-    """What the view shows; None without a machine."""
+    """The contents of the view; None without a machine."""
     good: bool = True
 
 

@@ -1,4 +1,4 @@
-"""What a run establishes, and what it only searched."""
+"""Two lists: what a run proves, and what it only searched."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ POSES, DESIGNS = 65536, 1024
 
 
 class RunOptions(TypedDict, total=False):
-    """How a long computation runs, as keywords."""
+    """Options of every long computation, as keywords."""
 
     executor: Executor | None
     out: str | os.PathLike[str] | None

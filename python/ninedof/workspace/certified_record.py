@@ -1,4 +1,4 @@
-"""What is proved of a workspace: its volume, the boxes inside it, and what is left open."""
+"""A proof of a workspace: its volume, the boxes inside it, and what is left open."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class CertifiedWorkspace(Saved):
     home: str
     """"allowed" or "forbidden", proved, or "unknown"; "forbidden" also outside the box."""
     beyond: str
-    """What is proved of the positions outside the box: "nothing" or "something" is allowed there; or "unknown"."""
+    """The answer for the positions outside the box: "nothing" or "something" is allowed there; or "unknown"."""
     connected: bool
     """Whether only what is connected with home counts: with `singularity_free`."""
     low: Floats
@@ -99,12 +99,12 @@ class CertifiedWorkspace(Saved):
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """What is compared with the volume of a map: of the part connected with home, if only that counts."""
+        """The bounds to compare with the volume of a map: of the part connected with home, if only that counts."""
         return self.home_volume if self.connected else self.volume
 
     @property
     def gap(self) -> float:
-        """How far the bounds are apart, relative to the upper one."""
+        """The distance of the bounds, relative to the upper one."""
         low, high = self.bounds
         if math.isinf(high):  # larger than any double
             return 1.0

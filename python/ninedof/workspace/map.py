@@ -25,7 +25,7 @@ MOST_VOXELS = 1_300_000
 
 
 class WorkspaceStatus(StrEnum):
-    """How the search for a workspace ended."""
+    """End of the search for a workspace."""
 
     CONVERGED = "converged"
     """The error is below the tolerance; also the status of every grid or sample, whose error is not controlled."""
@@ -104,7 +104,7 @@ class WorkspaceMap(Saved):
     unit: str = ""
     """Name of the length unit; "" without one."""
     certified: CertifiedWorkspace | None = None
-    """What is proved of the same question, of a run folder with `ninedof workspace --certify`. In a file of its own."""
+    """The proof of the same question, of a run folder with `ninedof workspace --certify`. In a file of its own."""
 
     limit_names = LIMITS
 

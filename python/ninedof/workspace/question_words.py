@@ -1,4 +1,4 @@
-"""What is asked of a workspace, in words: its limits, its box, where O is."""
+"""The question of a workspace in words: its limits, its box, where O is."""
 
 from __future__ import annotations
 

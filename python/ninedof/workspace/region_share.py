@@ -1,4 +1,4 @@
-"""How much of the region of a study lies within criteria of a workspace, and a box about the region."""
+"""The share of a study's region within criteria of a workspace, and a box about the region."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ROOM = 2.0  # about the region in the box of a map, in its largest half edge
 
 
 class RegionShare(NamedTuple):
-    """How much of a region keeps the criteria of a workspace."""
+    """The share of a region that keeps the criteria of a workspace."""
 
     share: float
     """Of the even poses of the region that keep all criteria, 0 to 1."""
