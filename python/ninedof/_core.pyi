@@ -310,7 +310,6 @@ margin_tolerance: float
 def limit_numbers(name: str, axis: ArrayLike, geometry: Geometry, home: _Poses, c: _Poses, /) -> _Floats: ...
 def pairs_sharing_a_joint(geometry: Geometry, /) -> list[bool]: ...
 
-# `optimize` returns the fields of `ninedof.Result` that the core knows, `trace` objectives and those of a `Candidate`.
 class Settings:
     def __init__(
         self,

@@ -211,10 +211,11 @@ void bind_optimize(py::module_& m) {
   m.def("search_region_placed", &worst_with_placing);
   request<PlacedDesign>(m, "PlacedDesign", "A design of a problem without poses, with O placed anew at every pose.")
       .def_readwrite("problem", &PlacedDesign::problem, "Without poses.")
-      .def_readwrite("variables", &PlacedDesign::variables, "A full set.")
+      .def_property("variables", copy_of(&PlacedDesign::variables), setter_of(&PlacedDesign::variables), "A full set.")
       .def_readwrite("log_index", &PlacedDesign::log_index, "Logarithm of the index that placing is to reach.")
       .def_readwrite("ranges", &PlacedDesign::ranges, "(limit, low, high, size) of the lengths of the nine legs.")
-      .def_readwrite("known", &PlacedDesign::known, "Places of O to begin at: shifts of s in zp.");
+      .def_property("known", copy_of(&PlacedDesign::known), setter_of(&PlacedDesign::known),
+                    "Places of O to begin at: shifts of s in zp.");
   m.def("place_in_region", &places_in_region);
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {
     return interruptible(

@@ -73,7 +73,7 @@ void bind_requests(py::module_& m) {
   auto region = request<Region>(m, "Region", "Every tilt and yaw at every position of a box, ball, cylinder or path.");
   word_attribute(region, "shape", &Region::shape, std::array{"box", "ball", "cylinder", "path"}, "Of the positions.");
   region.def_readwrite("size", &Region::size, "Half edges; the radius of a ball; radius and half height of a cylinder.")
-      .def_readwrite("corners", &Region::corners, "Of a path.")
+      .def_property("corners", copy_of(&Region::corners), setter_of(&Region::corners), "Of a path, copied.")
       .def_readwrite("tilt", &Region::tilt, "Greatest angle about a horizontal axis, radians.")
       .def_readwrite("yaw", &Region::yaw, "Rotations about z go from minus to plus this.")
       .def_readwrite("shifted", &Region::shifted, "Whether s moves with p, or is held.")

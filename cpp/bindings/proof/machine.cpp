@@ -36,7 +36,7 @@ void bind_structs(py::module_& m) {
   request<PointRule>(m, "PointRule", "Where O is in a region: a polynomial in the coordinates of a pose.")
       .def_readwrite("scale", &PointRule::scale)
       .def_readwrite("powers", &PointRule::powers)
-      .def_readwrite("coefficients", &PointRule::coefficients);
+      .def_property("coefficients", copy_of(&PointRule::coefficients), setter_of(&PointRule::coefficients), "Copied.");
   py::class_<PosedRobot>(m, "PosedRobot", "A robot and all poses at which it is looked at.").def(py::init(&robot_from));
   request<MetAt>(m, "MetAt", "Where a number was met.")
       .def_property(

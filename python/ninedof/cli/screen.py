@@ -164,19 +164,19 @@ class Bar:
     def __init__(self, progress: Progress, title: str, words: Callable[[float | None], str]) -> None:
         """Add a bar without a length; `words` formats the value of a report."""
         title = one_line(title)
-        self._shown, self._title, self._words = progress, title, words
+        self._progress, self._title, self._words = progress, title, words
         self._task = progress.add_task(title, total=None, value="")
         self.reported = False
 
     def show(self, done: int, total: int, value: float | None) -> None:
         """Update the bar: the progress callback of a long call."""
         self.reported = True
-        self._shown.start()
-        self._shown.update(self._task, completed=done, total=total, value=self._words(value))
+        self._progress.start()
+        self._progress.update(self._task, completed=done, total=total, value=self._words(value))
 
     __call__ = show
 
     def phase(self, words: str) -> None:
         """Say behind the title which part of the work is done; the value was that of the part before it."""
-        self._shown.start()
-        self._shown.update(self._task, description=one_line(f"{self._title}: {words}"), value="")
+        self._progress.start()
+        self._progress.update(self._task, description=one_line(f"{self._title}: {words}"), value="")

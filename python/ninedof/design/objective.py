@@ -160,12 +160,12 @@ class Objective(Table):
             shared = {name: table.pop(name) for name in SHARED if name in table}
             Pose(**shared)  # checked even where no pose uses them
             sets = [_set(name, table.pop(name), shared) for name in SETS if name in table]
-            poses = _poses("poses", table.pop("poses", ()), **shared)
+            listed_poses = _poses("poses", table.pop("poses", ()), **shared)
             if table.get("region") is not None:
                 # A region has no shift of s of its own: only a word for where O is, is a default for it too.
                 words = {name: word for name, word in shared.items() if isinstance(word, str)}
                 table["region"] = _region("region", table["region"], **words)
-            return cls(**table, poses=tuple(chain(poses, *sets)))
+            return cls(**table, poses=tuple(chain(listed_poses, *sets)))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the table of a study file: the index, and what differs from the defaults."""

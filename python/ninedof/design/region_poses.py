@@ -63,9 +63,6 @@ class Placing:
         return [tuple(self.variables[f"{name}.s_{axis}"] for axis in "xyz") for name in names]
 
 
-ROOT = 1.1127756842787055  # of x^7 = x + 1: powers of its inverse spread points evenly over six dimensions
-
-
 def places_o(region: Region) -> bool:
     """Return whether the region alone says where O is."""
     return region.internal_point != "best"

@@ -48,8 +48,8 @@ class Trajectory:
     rotation : array_like, shape (n, 3, 3) or (3, 3), or scipy.spatial.transform.Rotation
         Q, platform frame to base frame. The identity by default.
     unit : str
-        Name of the length unit, for screens, figures and the head of legs.csv: "mm", "cm", "m", "in" or "ft". None by
-        default. With one, times are in seconds: rates are labelled mm/s.
+        Name of the length unit, for screens, figures and the head of legs.csv: "mm", "cm", "m", "in" or "ft". "", none,
+        by default. With one, times are in seconds: rates are labelled mm/s.
 
     Raises
     ------

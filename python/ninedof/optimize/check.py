@@ -19,6 +19,7 @@ from ninedof.design.design_point import DesignPoint
 from ninedof.design.study import LENGTH
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.result import Result, Status
+from ninedof.proof.machine_record import PROVED
 from ninedof.robot.geometry import TRIPLES
 from ninedof.support.arguments import flag, whole
 from ninedof.support.arrays import Floats
@@ -226,7 +227,7 @@ def _region(result: Result, problem: _core.Problem, x: list[float], seed: int) -
 def _proofs(result: Result) -> Iterator[Finding]:
     for limit in result.certify().limits:
         sentence = f"{limit.side} {limit.shown(limit.limit):g}: {limit.answer}, the worst value is {limit.worded()}"
-        yield Finding(f"proof: {limit.name}", limit.answer != "violated", limit.margin, sentence)
+        yield Finding(f"proof: {limit.name}", limit.answer == PROVED, limit.margin, sentence)
 
 
 def _bounds(result: Result) -> Iterator[Finding]:

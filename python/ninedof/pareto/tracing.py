@@ -32,6 +32,7 @@ def pareto(
     study: Study,
     against: str,
     values: Sequence[float] | None = None,
+    *,
     points: int = 13,
     threads: int | None = None,
     progress: Progress | None = None,

@@ -90,12 +90,11 @@ def _evaluations(axes: Any, longest: int) -> None:
 
 
 def _runs(axes: Any, gaps: list[Floats], extended: Floats, colour: str, tolerance: float) -> None:
-    """Draw one line per start, the median of all (`held` continues each run with its last value), the tolerance."""
+    """Draw one line per start, the median of all (`extended` continues each run with its last value), the tolerance."""
     there = [_steps(gap) for gap in gaps if gap[-1] <= tolerance]
     stuck = [_steps(gap) for gap in gaps if gap[-1] > tolerance]
-    median = np.quantile(
-        extended, 0.5, axis=0, method="lower"
-    )  # an average would fail while half the runs are infinite
+    # An average would fail while half the runs are infinite.
+    median = np.quantile(extended, 0.5, axis=0, method="lower")
     axes.add_collection(LineCollection(there, colors=colour, linewidths=0.5, alpha=0.35, zorder=2))
     axes.add_collection(LineCollection(stuck, colors=style.ALARM, linewidths=0.8, alpha=0.85, zorder=3))
     axes.add_collection(LineCollection([_steps(median)], colors=style.INK, linewidths=1.6, zorder=4))

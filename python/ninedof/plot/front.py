@@ -94,11 +94,11 @@ def _designs(front: Front, most: int) -> dict[int, Candidate]:
 
 
 def _objective(axes: Any, rows: Sequence[Row], objective: str) -> None:
-    values = [row for row in rows if row["objective"] is not None]
-    x, y = (np.array([row[key] for row in values], dtype=np.float64) for key in ("limit", "objective"))
+    solved_rows = [row for row in rows if row["objective"] is not None]
+    x, y = (np.array([row[key] for row in solved_rows], dtype=np.float64) for key in ("limit", "objective"))
     axes.plot(x, y, color=style.SERIES[0], zorder=2)
     used = set()
-    for row in values:
+    for row in solved_rows:
         kind = list(FOUND)[2 if row["status"] != "optimal" else int(row["dominated"])]
         mark = FOUND[kind] | {"mfc": "white"} if row["dominated"] else FOUND[kind]
         axes.plot(row["limit"], row["objective"], **mark, ms=5, mew=1.1, zorder=4)

@@ -47,7 +47,7 @@ def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, f
     """
     t, lengths, kappa = followed.time, followed.leg_lengths, followed.condition_number
     others = {name: as_floats(f"margins.{name}", values, t.shape) for name, values in (margins or {}).items()}
-    curves = _drawn(kappa)
+    samples = _drawn(kappa)
     rows = (1.0, 0.85, 0.85) if others else (1.0, 0.85)
     with style.page(figure, style.TWO_COLUMNS, 2.15 * sum(rows)) as figure:
         bottom, top = (0.07, 0.96) if others else (0.1, 0.94)
@@ -57,11 +57,11 @@ def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, f
         panels += [figure.add_subplot(grid[k, :]) for k in range(1, len(rows))]
         for k, (kind, title) in enumerate(style.LEG_WORDS.items()):
             legs = slice(3 * k, 3 * k + 3)
-            _legs(panels[k], t[curves], lengths[curves, legs], kind)
+            _legs(panels[k], t[samples], lengths[samples, legs], kind)
             _limits(panels[k], followed.limits[0][legs], followed.limits[1][legs], lengths[:, legs])
             panels[k].set_title(title, size=style.TEXT_SIZE)
             panels[k].set_ylabel(style.with_unit("length", followed.unit))
-        _condition(panels[3], t[curves], kappa[curves])
+        _condition(panels[3], t[samples], kappa[samples])
         if others:
             _margins(panels[4], t, others)
         for axes in panels:
@@ -123,10 +123,10 @@ def _condition(axes: Any, t: Floats, kappa: Floats) -> None:
 
 def _margins(axes: Any, t: Floats, margins: Mapping[str, Floats]) -> None:
     for k, (name, values) in enumerate(margins.items()):
-        curves, colours = _drawn(-values), len(style.SERIES)
-        percent = 100.0 * np.minimum(values[curves], MOST_MARGIN)
+        samples, colours = _drawn(-values), len(style.SERIES)
+        percent = 100.0 * np.minimum(values[samples], MOST_MARGIN)
         dashes = style.DASHES[(k + k // colours) % len(style.DASHES)]
-        axes.plot(t[curves], percent, color=style.SERIES[k % colours], ls=dashes, label=name.replace("_", " "))
+        axes.plot(t[samples], percent, color=style.SERIES[k % colours], ls=dashes, label=name.replace("_", " "))
     axes.axhline(0.0, **LIMIT)
     low, high = axes.get_ylim()
     if min(float(values.min()) for values in margins.values()) < 0.0:

@@ -24,7 +24,6 @@ MOST_CURVES = 9
 FINEST = 600  # values along an axis that a map can show
 MAP = "viridis"
 SMOOTH = 8  # values each way from which a map without gaps is drawn as bands between contours, else as cells
-LEGS = ("external legs", "upper internal legs", "lower internal legs")
 
 
 def sweep(result: SweepResult, name: str = "", figure: Figure | None = None) -> Figure:
@@ -91,7 +90,7 @@ def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any,
             axes.margins(x=0.0)
             axes.set_ylabel(style.with_unit(_words(name), _unit(result, name)))
             if of_legs:
-                axes.set_title(LEGS[k], size=style.TEXT_SIZE, pad=16.0)
+                axes.set_title(tuple(style.LEG_WORDS.values())[k], size=style.TEXT_SIZE, pad=16.0)
             if names:
                 axes.legend(loc="lower left", ncols=4, bbox_to_anchor=(0.0, 0.99), borderaxespad=0.0, handlelength=2.4)
         if name.startswith("condition_number"):

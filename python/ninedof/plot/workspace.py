@@ -333,12 +333,12 @@ def _distribution(axes: Any, percentiles: Floats) -> None:
 
 def _levels(axes: Any, levels: Floats) -> None:
     axes.set_title("error of the volume")
-    opaque = levels[levels[:, 3] > 0.0]
-    if len(opaque) == 0:
+    with_error = levels[levels[:, 3] > 0.0]
+    if len(with_error) == 0:
         axes.set_axis_off()
         return
-    axes.loglog(opaque[:, 1], opaque[:, 3] / levels[-1, 2], "o-", color=style.SERIES[0], ms=3.5)
-    axes.set_xlim(10.0 ** np.floor(np.log10(opaque[0, 1])), 1.3 * 10.0 ** np.ceil(np.log10(opaque[-1, 1])))
+    axes.loglog(with_error[:, 1], with_error[:, 3] / levels[-1, 2], "o-", color=style.SERIES[0], ms=3.5)
+    axes.set_xlim(10.0 ** np.floor(np.log10(with_error[0, 1])), 1.3 * 10.0 ** np.ceil(np.log10(with_error[-1, 1])))
     axes.xaxis.set_major_formatter(style.power_of_ten)
     axes.yaxis.set_major_formatter(style.power_of_ten)
     axes.minorticks_off()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import astuple
 from time import perf_counter
 from typing import Any, TypedDict, Unpack
 
@@ -173,7 +174,9 @@ def machine_digest(
     study: Study, geometry: Geometry, configurations: Configuration, characteristic_length: float
 ) -> str:
     """Return a digest of every number on which a proof of the condition number depends."""
-    digest = sha256(repr((float(characteristic_length), study.objective.region)).encode())
+    region = study.objective.region
+    exact = None if region is None else astuple(region)  # its repr is for people, with six digits
+    digest = sha256(repr((float(characteristic_length), exact)).encode())
     joints = (geometry.base_external, geometry.base_internal, geometry.platform_external, geometry.platform_internal)
     for array in (*joints, configurations.position, configurations.rotation, configurations.internal_point):
         digest.update(repr(np.asarray(array, float).tolist()).encode())

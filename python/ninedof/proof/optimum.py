@@ -40,9 +40,9 @@ class OptimumProof:
     """Boxes left for which less than the target is proved."""
     seconds: float
     better: float | None = None
-    """The condition number of a design below the target, or a greater one, where the search met one in its domain and
-    ended. Perhaps no design of the study: the proof takes the radii and the twist of hexagons as independent
-    within their ranges, and leaves limits out."""
+    """Upper bound of the condition number of a design below the target, where the search met one in its domain and
+    ended; None if it met none. Perhaps no design of the study: the proof takes the radii and the twist of hexagons as
+    independent within their ranges, and leaves limits out."""
     left_out: tuple[str, ...] = ()
     """Limits of the study that the proof does without: the bound holds for more designs than the study allows."""
     interrupted: bool = False

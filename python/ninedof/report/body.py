@@ -29,24 +29,24 @@ class _TooLong(Exception):
     pass
 
 
-def body_of(workspace: WorkspaceMap) -> dict[str, Any] | None:
+def body_of(workspace_map: WorkspaceMap) -> dict[str, Any] | None:
     """Return vertices and faces of the surface; None for orientations, samples and empty workspaces."""
-    if workspace.of_angles or workspace.method == "sample" or not workspace.volume > 0.0:
+    if workspace_map.of_angles or workspace_map.method == "sample" or not workspace_map.volume > 0.0:
         return None
-    surface = workspace.surface(MOST)
+    surface = workspace_map.surface(MOST)
     if not len(surface.faces):
         return None
     return {"vertices": numbers(surface.points), "faces": surface.faces.tolist()}
 
 
-def _box_of(workspace: WorkspaceMap) -> tuple[Floats, Floats] | None:
+def _box_of(workspace_map: WorkspaceMap) -> tuple[Floats, Floats] | None:
     """Return a box close about a workspace that is small in its own: its cells show it too coarsely; else None."""
-    inside = workspace.cells.fraction > 0.0
-    centre, half = workspace.cells.centre[inside], 0.5 * workspace.cells.size[inside]
+    inside = workspace_map.cells.fraction > 0.0
+    centre, half = workspace_map.cells.centre[inside], 0.5 * workspace_map.cells.size[inside]
     low, high = (centre - half).min(axis=0), (centre + half).max(axis=0)
     low, high = low - ROOM * (high - low), high + ROOM * (high - low)
-    low, high = np.maximum(low, workspace.low), np.minimum(high, workspace.high)
-    return (low, high) if (high - low < SMALL * (workspace.high - workspace.low)).all() else None
+    low, high = np.maximum(low, workspace_map.low), np.minimum(high, workspace_map.high)
+    return (low, high) if (high - low < SMALL * (workspace_map.high - workspace_map.low)).all() else None
 
 
 def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None, str]:

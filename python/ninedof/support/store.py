@@ -24,7 +24,7 @@ from ninedof.support.files import (
 )
 from ninedof.support.json import decode, encode
 
-FORMAT = "ninedof-question-1"
+FORMAT = "ninedof-question-2"
 QUESTION, PIECES = "question.json", "pieces"
 MOST_NAMED = 3  # differences of two questions in a message
 

@@ -69,7 +69,7 @@ def opened(work: W, out: str | os.PathLike[str] | None) -> Iterator[tuple[W, Sto
 
 
 def computed(work: Work, store: Store | None, executor: Executor | None, progress: Progress | None) -> Computed:
-    """Yield every chunk with its values: first those that the folder has, then the others as they come.
+    """Check the arguments; yield every chunk with its values: those that the folder has, then the others as they come.
 
     Parameters
     ----------
@@ -88,6 +88,10 @@ def computed(work: Work, store: Store | None, executor: Executor | None, progres
     if work.points > MOST_CHUNKS * work.chunk:
         least = -(-work.points // MOST_CHUNKS)
         raise ValueError(f"chunk: got {work.chunk} of {work.points} points, expected at least {least}")
+    return _computed(work, store, executor, progress)
+
+
+def _computed(work: Work, store: Store | None, executor: Executor | None, progress: Progress | None) -> Computed:
     done, missing, some = 0, [], store is not None and store.kept()
     for k, first in enumerate(range(0, work.points, work.chunk)):
         chunk = Chunk(first, min(first + work.chunk, work.points))

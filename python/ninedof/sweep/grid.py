@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -16,7 +16,7 @@ from ninedof.design.indices import Index, identity
 from ninedof.support.angles import DEG
 from ninedof.support.arrays import Floats
 from ninedof.support.extras import versions
-from ninedof.support.files import Arrays, naming
+from ninedof.support.files import Arrays, naming, part_name
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
 from ninedof.support.store import Store
@@ -66,8 +66,8 @@ class GridWork:
         """Return what the values depend on."""
         return {**self._arguments(), "index": [identity(i) for i in self.indices]}
 
-    def _targets(self, store: Store | None) -> dict[str, Target]:
-        """Return an array for each index, in memory or in files of the folder."""
+    def _targets(self, store: Store | None, unfinished: ExitStack) -> dict[str, Target]:
+        """Return an array for each index, in memory or in files of the folder; files that stay unfinished go."""
         shapes = {i.name: (*self.grid.shape, *i.tail) for i in self.indices}
         points = " x ".join(map(str, self.grid.shape))
         size = 2 * 8 * sum(map(math.prod, shapes.values()))  # the finished chunks, and the arrays
@@ -76,7 +76,11 @@ class GridWork:
             room = f"their values take {size / 1e9:.4g} GB, and {free / 1e9:.3g} GB are free on the disk of out"
             raise ValueError(f"over: got {points} points, expected fewer: {room}")
         try:
-            return {name: Target(name, shape, folder) for name, shape in shapes.items()}
+            targets = {}
+            for name, shape in shapes.items():
+                targets[name] = Target(name, shape, folder)
+                unfinished.callback(targets[name].discard)
+            return targets
         except MemoryError:
             expected = "what fits into memory, or out for a folder"
             raise ValueError(f"over: got {points} points, expected {expected}") from None
@@ -94,16 +98,13 @@ class GridWork:
     ) -> SweepResult:
         """Compute everything and return it with its labels; `unit` is the name of the length unit."""
         with opened(self, out) as (work, store):
-            targets = work._targets(store)
-            try:
-                for chunk, values in computed(work, store, executor, progress):
+            chunks = computed(work, store, executor, progress)
+            with ExitStack() as unfinished:
+                targets = work._targets(store, unfinished)
+                for chunk, values in chunks:
                     for name, target in targets.items():
                         target.put(chunk.first, values[name])
-            except BaseException:
-                for target in targets.values():
-                    target.discard()
-                raise
-        arrays = {name: target.array() for name, target in targets.items()}
+                arrays = {name: target.array() for name, target in targets.items()}
         swept = tuple(axis.name for axis in self.grid.axes)
         labelled = {name: "deg" if name.endswith(DEG) else units[name] for name in swept}
         labelled |= {i.name: i.unit for i in self.indices}
@@ -125,12 +126,16 @@ class Target:
     def __init__(self, name: str, shape: tuple[int, ...], folder: Path | None) -> None:
         """Make it, without values."""
         self._path = None if folder is None else folder / f"{name}.npy"
-        if self._path is None:
+        if folder is None or self._path is None:
             self._array = np.empty(shape)
             return
-        self._path.unlink(missing_ok=True)
-        self._offset = np.lib.format.open_memmap(self._path, "w+", np.float64, shape).offset
-        self._file = self._path.open("r+b")
+        self._part = folder / part_name(self._path.name)
+        try:
+            self._offset = np.lib.format.open_memmap(self._part, "w+", np.float64, shape).offset
+            self._file = self._part.open("r+b")
+        except OSError as error:
+            self._part.unlink(missing_ok=True)
+            raise naming(error, self._path) from None
 
     def put(self, first: int, values: Floats) -> None:
         """Take the values of points from `first` on."""
@@ -145,10 +150,11 @@ class Target:
             raise naming(error, self._path) from None
 
     def array(self) -> Floats:
-        """Return the array; one in a file is read as it is needed."""
+        """Return the full array; one in a file takes its name, and is read as it is needed."""
         if self._path is None:
             return self._array
         self._file.close()
+        os.replace(self._part, self._path)
         mapped: Floats = np.load(self._path, mmap_mode="r")
         return mapped
 
@@ -157,7 +163,7 @@ class Target:
         if self._path is not None:
             with suppress(OSError):
                 self._file.close()
-            self._path.unlink(missing_ok=True)
+            self._part.unlink(missing_ok=True)
 
 
 def _free(folder: Path) -> float:

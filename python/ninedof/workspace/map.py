@@ -192,6 +192,10 @@ class WorkspaceMap(Saved):
         axes = tuple(name for name in self.coordinates if name != axis)
         return from_core(WorkspaceSlice, section, axes=axes, plane=(axis, float(at)))
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out the field, which is computed when it is used."""
+        return {name: value for name, value in vars(self).items() if name != "field"}
+
     @cached_property
     def field(self) -> _core.WorkspaceField:
         """Allowed share and condition number on an even raster about the workspace, smooth between the cells.

@@ -77,7 +77,10 @@ def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[s
         elif ROWS[name].kind == "sign":
             criteria[name] = True
         else:
-            criteria[name] = _criterion(name, low, high, limit.axis)
+            criterion = _criterion(name, low, high, limit.axis)
+            if criterion is None:  # a min of 0
+                continue
+            criteria[name] = criterion
             if name == CLEARANCE and (collide := _collisions(study, g)):
                 exempt = [pair for pair in PARTS[name] if pair not in collide]
                 criteria[name] = {"min": low, "exempt": exempt}
@@ -87,13 +90,13 @@ def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[s
 
 
 def _criterion(name: str, low: float, high: float, axis: Sequence[float]) -> Any:
-    """Return a limit at poses as a criterion: a number where that says all of it."""
+    """Return a limit at poses as a criterion: a number where that says all of it, None without a side that limits."""
     row = ROWS[name]
     ends = {"min": low, "max": min(high, math.pi) if row.is_angle else high}
     entries: dict[str, Any] = {side: ends[side] for side in row.sides if 0.0 < ends[side] < math.inf}
-    if axis:
+    if entries and axis:
         entries["axis"] = axis
-    return entries if len(entries) > 1 else next(iter(entries.values()))
+    return entries if len(entries) > 1 else next(iter(entries.values()), None)
 
 
 def _collisions(study: Study, g: Geometry) -> list[str]:

@@ -19,7 +19,7 @@ from sizes import LONG, size
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.proof.machine import certify
+from ninedof.proof.machine import certify, machine_digest
 from ninedof.proof.machine_record import MachineCertificate, outward
 
 VARIABLES = {
@@ -384,3 +384,18 @@ def test_words_never_claim_more_than_is_proved():
                 assert down <= Fraction(x) <= up
                 assert up - down <= abs(Fraction(x)) * Fraction(2, 10 ** (digits - 1))
     assert outward(5e-324, False) == "4.94065e-324"
+
+
+def test_every_number_of_a_region_is_part_of_the_machine():
+    """Its text for people has six digits, and of long paths only their length."""
+    c = nd.Configuration.neutral([3.9828, 3.9828], [2.4435, 2.4435])
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    way = [[0.01 * k, 0.0, 0.0] for k in range(30)]
+    regions = [
+        {"box": [0.1, 0.1, 0.1]},
+        {"box": [0.1000001, 0.1, 0.1]},
+        {"path": way},
+        {"path": [*way[:-1], [0.3, 0, 0]]},
+    ]
+    digests = {machine_digest(nd.Study(objective={"region": region}), g, c, 1.0) for region in regions}
+    assert len(digests) == 4

@@ -328,3 +328,17 @@ def test_a_disk_that_is_full_ends_the_run_and_keeps_what_is_finished(tmp_path, e
     assert finished(tmp_path) == {0, 1, 2, 3}
     monkeypatch.undo()
     assert asked(tmp_path).tobytes() == expected.tobytes()
+
+
+def test_a_call_that_is_refused_leaves_the_arrays_of_a_finished_run(tmp_path, expected):
+    asked(tmp_path)
+    before = {p: p.read_bytes() for p in tmp_path.rglob("*.np*")}
+    with pytest.raises(ValueError, match="progress: got 5"):
+        asked(tmp_path, progress=5)
+
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        asked(tmp_path, progress=stop)
+    assert {p: p.read_bytes() for p in tmp_path.rglob("*.np*")} == before

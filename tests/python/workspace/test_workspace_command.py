@@ -238,6 +238,11 @@ def test_ranges_by_kind_and_the_own_fraction():
     assert own_fraction(upper, lower, np.array([0.1, 0.0, 2.0])) is None
 
 
+def test_a_limit_that_limits_nothing_is_no_criterion():
+    g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0), nd.Configuration.neutral(3.9828, 2.4432)
+    assert study_limits(nd.Study(constraints={"leg_clearance": {"min": 0.0}}), g, home) == ({}, [])
+
+
 def test_joints_that_coincide_in_one_design_alone_collide():
     """As for optimize and certify, legs may share a joint where they do in every design of the study."""
     g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0), nd.Configuration.neutral(3.9828, 2.4432)

@@ -1,5 +1,7 @@
 """Smooth fields and bodies of a map against the functions they stand for, and against shapes known in closed form."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -51,6 +53,11 @@ def test_the_boundary_has_the_limit_that_is_reached_there(found):
     middle[:2] = False  # the face of the box
     names = [found.limit_names[n] == expected[k] for n, k in zip(s.limit[middle], worst[middle], strict=True)]
     assert np.mean(names) > 0.9
+
+
+def test_a_map_is_copied_without_the_field_it_has_computed(found):
+    fraction = found.field.fraction
+    assert np.array_equal(pickle.loads(pickle.dumps(found)).field.fraction, fraction)
 
 
 def test_field_and_body_have_the_volume_of_the_map(found):

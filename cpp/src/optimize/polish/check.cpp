@@ -114,8 +114,10 @@ RegionCheck check_placed(const Problem& problem, const Region& region, const Eig
   }
   std::vector<Placed> known;
   for (std::size_t k = 0; k < problem.objective.poses.size(); ++k) {
-    const Pose& pose = problem.objective.poses[k];
-    Placed placed{region.nearest(region.coordinates(pose)), pose.internal / (pose.in_zp ? 1.0 : zp)};
+    Pose pose = problem.objective.poses[k];
+    Placed placed{Vec6::Zero(), pose.internal / (pose.in_zp ? 1.0 : zp)};
+    if (pose.in_zp != region.in_zp) pose.position *= pose.in_zp ? zp : 1.0 / zp;
+    placed.at = region.nearest(region.coordinates(pose));
     const std::array<int, 3> offset = offset_variables(problem, k);
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (offset[axis] >= 0) placed.shift[static_cast<Eigen::Index>(axis)] = x[offset[axis]];

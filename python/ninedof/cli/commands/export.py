@@ -69,10 +69,10 @@ def export(options: ExportOptions) -> Answer:
         own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
     unit = chosen.unit if options.unit is None else unit_argument(options.unit)
     try:
-        files = write(chosen.result or chosen.design, row.name, file, unit=unit, **more)
+        path = write(chosen.result or chosen.design, row.name, file, unit=unit, **more)
     except MissingExtra as error:
         raise ValueError(str(error)) from None
-    return Answer([f"{row.words}: {files}"], {"format": row.name, "file": str(files)})
+    return Answer([f"{row.words}: {path}"], {"format": row.name, "file": str(path)})
 
 
 def _by_suffix(out: Path | None) -> Format:

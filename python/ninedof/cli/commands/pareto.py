@@ -85,7 +85,7 @@ def pareto(options: ParetoOptions) -> None:
         screen.print(study.length_note)
     with run_folder(options.out) as directory, screen.bar("limits", f"{name}, {against}") as bar:
         how: dict[str, Any] = {"threads": options.threads, "progress": bar.show, "out": directory}
-        front = trace_front(replace(study), against, options.value or None, options.points, **how)
+        front = trace_front(replace(study), against, options.value or None, points=options.points, **how)
     parts: list[Any] = [front_table(front)] if front.limits else []
     if front.interrupted:
         count = "1 limit is" if len(front) == 1 else f"{len(front)} limits are"

@@ -102,8 +102,8 @@ def _coordinates(at: DesignAtPoses) -> tuple[list[Any], dict[str, Any]]:
         least, kinds = factor * far * result.distance[pose, axes], result.mechanism[pose, axes]
 
         def text(x: float, digits: int, degree: str = degree) -> str:
-            digits_of_x = f"{x:.{digits}g}"
-            return "-" if not math.isfinite(x) else digits_of_x + degree if degree else amount(digits_of_x, length_unit)
+            number = f"{x:.{digits}g}"
+            return "-" if not math.isfinite(x) else number + degree if degree else amount(number, length_unit)
 
         for k, axis in enumerate("xyz"):
             backward, forward = ((text(least[j], 4), str(kinds[j])) for j in (k, k + 3))
