@@ -85,13 +85,13 @@ def computed(work: Work, store: Store | None, executor: Executor | None, progres
     """
     executor_argument(executor)
     progress_argument(progress)
-    if work.points > MOST_CHUNKS * work.chunk:
-        least = -(-work.points // MOST_CHUNKS)
-        raise ValueError(f"chunk: got {work.chunk} of {work.points} points, expected at least {least}")
     return _computed(work, store, executor, progress)
 
 
 def _computed(work: Work, store: Store | None, executor: Executor | None, progress: Progress | None) -> Computed:
+    if work.points > MOST_CHUNKS * work.chunk:
+        least = -(-work.points // MOST_CHUNKS)
+        raise ValueError(f"chunk: got {work.chunk} of {work.points} points, expected at least {least}")
     done, missing, some = 0, [], store is not None and store.kept()
     for k, first in enumerate(range(0, work.points, work.chunk)):
         chunk = Chunk(first, min(first + work.chunk, work.points))
