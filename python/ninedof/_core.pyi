@@ -400,18 +400,14 @@ def search_condition(
     progress: _Progress | None,
     /,
 ) -> ConditionState: ...
-def region_pose(region: Region, at: Sequence[float], /) -> tuple[_Triple, _Triple, _Triple]: ...
 def region_poses(region: Region, at: _Floats, /) -> _Floats: ...
 def search_region(
     problem: Problem, region: Region, variables: Sequence[float], samples: int, seed: int, threads: int, /
 ) -> dict[str, Any]: ...
 def leg_ranges(problem: Problem, zp: float, lengths: _Floats, /) -> list[_Range]: ...
 def search_region_placed(
-    problem: Problem,
+    design: PlacedDesign,
     region: Region,
-    variables: Sequence[float],
-    log_index: float,
-    ranges: Sequence[_Range],
     known: Sequence[tuple[Sequence[float], Sequence[float]]],
     samples: int,
     seed: int,

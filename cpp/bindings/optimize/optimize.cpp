@@ -78,13 +78,6 @@ std::array<double, 6> numbers(const Vec6& at) {
   return out;
 }
 
-/// Shift of p, rotation vector and shift of s at given coordinates.
-py::tuple region_pose(const Region& r, const std::array<double, 6>& at) {
-  const Pose pose = r.pose(r.nearest(Vec6::Map(at.data())));
-  const auto three = [](const Vec3& v) { return py::make_tuple(v[0], v[1], v[2]); };
-  return py::make_tuple(three(pose.position), three(pose.rotation), three(pose.internal));
-}
-
 /// For rows of coordinates: those of the nearest poses of the region, then shift of p, rotation vector and shift of s.
 Array region_poses(const Region& r, const py::object& at) {
   const py::ssize_t count = py::len(at);
@@ -103,9 +96,8 @@ Array region_poses(const Region& r, const py::object& at) {
 /// where each leg is longest and shortest.
 py::dict worst_of_region(const Problem& problem, const Region& r, const std::vector<double>& x, long samples,
                          std::uint64_t seed, int threads) {
-  const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
   const RegionWorst found = interruptible(py::none(), [&](const Control& control) {
-    return search_region(problem, r, variables, {samples, seed, threads, 1e-5}, control);
+    return search_region(problem, r, vector_from(x), {samples, seed, threads, 1e-5}, control);
   });
   py::list limits, index, longest, shortest;
   for (const RegionWorst::Index& end : found.index) index.append(py::make_tuple(end.logarithm, numbers(end.at)));
@@ -152,20 +144,16 @@ py::tuple places_in_region(const PlacedDesign& design, const Region& r, const py
 }
 
 /// Ends of the ascents as (coordinates of the pose, shift of s in zp, excess, logarithm of the index, least margin, its
-/// limit).
-/// `ranges`: (limit, low, high, size) of the lengths of the nine legs; `known`: (coordinates, shift).
-py::dict worst_with_placing(const Problem& problem, const Region& r, const std::vector<double>& x, double log_index,
-                            const std::vector<RangeEntry>& ranges, const py::sequence& known, long samples,
+/// limit). `known`: (coordinates, shift).
+py::dict worst_with_placing(const PlacedDesign& design, const Region& r, const py::sequence& known, long samples,
                             std::uint64_t seed, int threads) {
-  const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-  const PlacementGoal goal{log_index, ranges_from(problem, ranges)};
   std::vector<Placed> places;
   for (const py::handle& place : known) {
     const auto [at, shift] = place.cast<std::tuple<std::array<double, 6>, std::array<double, 3>>>();
     places.push_back({Vec6::Map(at.data()), Vec3::Map(shift.data())});
   }
   const PlacedWorst found = interruptible(py::none(), [&](const Control& control) {
-    return search_region_placed(problem, r, variables, goal, places,
+    return search_region_placed(design.problem, r, design.variables, design.goal(), places,
                                 {.samples = samples, .seed = seed, .threads = threads}, control);
   });
   py::list ends;
@@ -196,15 +184,13 @@ void bind_optimize(py::module_& m) {
       .def(py::init([](int starts, std::uint64_t seed, int threads, int max_evaluations,
                        const std::optional<Vectors>& warm, double time_limit) {
              Settings settings{starts, seed, threads, max_evaluations, {}, time_limit};
-             for (const std::vector<double>& x : warm ? *warm : Vectors())
-               settings.warm.emplace_back(Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size())));
+             for (const std::vector<double>& x : warm ? *warm : Vectors()) settings.warm.push_back(vector_from(x));
              return settings;
            }),
            py::kw_only(), py::arg("starts") = defaults.starts, py::arg("seed") = defaults.seed,
            py::arg("threads") = defaults.threads, py::arg("max_evaluations") = defaults.max_evaluations,
            py::arg("warm") = py::none(), py::arg("time_limit") = defaults.time_limit);
   bind_results(m);
-  m.def("region_pose", &region_pose);
   m.def("region_poses", &region_poses);
   m.def("search_region", &worst_of_region);
   m.def("leg_ranges", &ranges_about);
@@ -237,10 +223,8 @@ void bind_optimize(py::module_& m) {
   });
   m.def("trace", [](const Problem& problem, const std::vector<double>& start, const std::string& formulation) {
     const Formulation f = formulation_from(formulation);
-    return interruptible(py::none(), [&](const Control& control) {
-      return trace(problem, Eigen::VectorXd::Map(start.data(), static_cast<Eigen::Index>(start.size())), f, {},
-                   control.stop);
-    });
+    return interruptible(
+        py::none(), [&](const Control& control) { return trace(problem, vector_from(start), f, {}, control.stop); });
   });
 }
 

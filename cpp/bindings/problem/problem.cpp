@@ -9,10 +9,6 @@
 namespace ninedof::python {
 namespace {
 
-Eigen::VectorXd full(const std::vector<double>& x) {
-  return Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-}
-
 /// The family's part of a full set of variables.
 std::span<const double> own(const Problem& problem, const std::vector<double>& x) {
   if (x.size() < problem.variables.size())
@@ -86,7 +82,7 @@ void bind_requests(py::module_& m) {
 
 /// log of the objective with its gradient, condition numbers, and every constraint's smallest margin with its own.
 py::dict evaluate_at(const Problem& problem, const std::vector<double>& x) {
-  const Evaluation e = evaluate(problem, full(x));
+  const Evaluation e = evaluate(problem, vector_from(x));
   py::list margins;
   py::dict limited;
   for (const Evaluation::Margin& m : e.margins) limited[py::str(m.name)] = m.limited;
@@ -105,7 +101,7 @@ py::dict evaluate_at(const Problem& problem, const std::vector<double>& x) {
 
 /// Stacks (n, 3), (n, 3, 3), (n, 3): the neutral configuration, then the poses of the objective.
 py::tuple configurations_at(const Problem& problem, const std::vector<double>& x) {
-  const std::vector<Configuration> all = configurations(problem, full(x));
+  const std::vector<Configuration> all = configurations(problem, vector_from(x));
   const auto n = static_cast<py::ssize_t>(all.size());
   Array p(std::vector<py::ssize_t>{n, 3}), q(std::vector<py::ssize_t>{n, 3, 3}), s(std::vector<py::ssize_t>{n, 3});
   for (py::ssize_t k = 0; k < n; ++k) {
@@ -160,7 +156,7 @@ void bind_problem(py::module_& m) {
            [](const Problem& p, const std::vector<double>& x) { return design_family(p.family).geometry(own(p, x)); })
       .def("configurations", &configurations_at)
       .def("characteristic_length",
-           [](const Problem& p, const std::vector<double>& x) { return characteristic_length(p, full(x)); })
+           [](const Problem& p, const std::vector<double>& x) { return characteristic_length(p, vector_from(x)); })
       .def("exempt_pairs", &exempt_pairs)
       .def("evaluate", &evaluate_at)
       .def("starts", [](const Problem& p, int count, std::uint64_t seed) {

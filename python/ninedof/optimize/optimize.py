@@ -162,6 +162,7 @@ def _anew(
         seconds=perf_counter() - begin,
         study=study,
         region=report,
+        proof=None,
     )
 
 

@@ -92,10 +92,8 @@ def certify(
     values = options_of("certify", CertifyArguments, options, gap=0.05, time_limit=300.0, tolerance=1e-6, threads=0)
     region = study.objective.region
     gap, seconds = finite("gap", values["gap"], 1e-9), finite("time_limit", values["time_limit"], 0.0)
-    tolerance, threads = (
-        finite("tolerance", values["tolerance"], 0.0, 0.01),
-        whole("threads", values["threads"], 0, MOST),
-    )
+    tolerance = finite("tolerance", values["tolerance"], 0.0, 0.01)
+    threads = whole("threads", values["threads"], 0, MOST)
     resume, progress, keep = values["resume"], values["progress"], values["keep"]
     if (condition_number := values["condition_number"]) is not None:
         condition_number = finite("condition_number", condition_number, 1.0)

@@ -14,14 +14,11 @@ K = TypeVar("K")
 T = TypeVar("T")
 V = TypeVar("V")
 
-_MISSING = object()
-
 
 def from_core(kind: type[T], struct: Any, **others: Any) -> T:
-    """Return a dataclass or a named tuple whose fields are attributes of a struct, and others by name."""
+    """Return a dataclass or a named tuple whose fields are attributes of a struct, but for those given by name."""
     names = getattr(kind, "_fields", None) or tuple(kind.__dataclass_fields__)  # type: ignore[attr-defined]
-    values = {name: getattr(struct, name, _MISSING) for name in names if name not in others}
-    return kind(**{name: value for name, value in values.items() if value is not _MISSING}, **others)
+    return kind(**{name: getattr(struct, name) for name in names if name not in others}, **others)
 
 
 def options_of(where: str, kind: type, options: Mapping[str, Any], **defaults: Any) -> Mapping[str, Any]:

@@ -111,5 +111,6 @@ def certified_workspace(
         connected=connected(asked),
         archetype=arguments["archetype"],
         seconds=perf_counter() - begin,
+        estimate=None,
         unit=unit,
     )

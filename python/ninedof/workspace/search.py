@@ -210,7 +210,9 @@ def workspace(
         method=method,
         seconds=perf_counter() - begin,
         internal_point_audit=from_core(MapAudit, search.internal_point_audit),
+        indices={},
         unit=unit,
+        certified=None,
     )
     if not indices or result.interrupted:
         return result

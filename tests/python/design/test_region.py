@@ -35,7 +35,7 @@ def test_poses_of_coordinates(region):
     rng = np.random.default_rng(1)
     for _ in range(20):
         at = 1.5 * np.array(region.reach) * rng.uniform(-1.0, 1.0, 6)
-        position, rotation, internal = map(np.array, _core.region_pose(region.for_core(), at.tolist()))
+        position, rotation, internal = _core.region_poses(region.for_core(), [at])[0, 6:].reshape(3, 3)
         turn = Rotation.from_rotvec(rotation)
         tilted = math.acos(np.clip(turn.as_matrix()[2, 2], -1.0, 1.0))
         assert tilted <= region.tilt + 1e-7
@@ -48,7 +48,7 @@ def test_poses_of_coordinates(region):
             assert min(abs(position[1]), abs(position[0] - 1.0)) <= 1e-12
         inside = 0.5 * np.array(region.reach) * rng.uniform(-1.0, 1.0, 6)
         expected = Rotation.from_rotvec([*inside[3:5], 0.0]) * Rotation.from_rotvec([0.0, 0.0, inside[5]])
-        found = Rotation.from_rotvec(_core.region_pose(region.for_core(), inside.tolist())[1])
+        found = Rotation.from_rotvec(_core.region_poses(region.for_core(), [inside])[0, 9:12])
         assert (found * expected.inv()).magnitude() < 1e-12
 
 

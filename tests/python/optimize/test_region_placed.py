@@ -149,7 +149,8 @@ def placed(known, samples=1, threads=1):
     lengths = np.asarray(nd.leg_lengths(G, nd.Configuration.neutral(2.0, 1.0))).reshape(1, 9)
     ranges = _core.leg_ranges(nd.Study(constraints={"stroke_ratio": (None, 1.3)}).problem(), 2.0, lengths)
     x = [SIDES.get(name, 0.0) for name in plain.names]
-    found = _core.search_region_placed(plain, REGION.for_core(), x, LEVEL, ranges, known, samples, 3, threads)
+    design = _core.PlacedDesign(problem=plain, variables=x, log_index=LEVEL, ranges=ranges)
+    found = _core.search_region_placed(design, REGION.for_core(), known, samples, 3, threads)
     return found, ranges
 
 
@@ -160,7 +161,7 @@ def test_o_is_placed_where_the_worst_is_least():
     found, ((_, low, high, _),) = placed([(pose, (0.0,) * 3) for pose in at])
     above = []
     for pose, excess in zip(at, found["at_known"], strict=True):
-        position, rotation, _ = _core.region_pose(REGION.for_core(), pose)
+        position, rotation = _core.region_poses(REGION.for_core(), [pose])[0, 6:12].reshape(2, 3)
         p, q = np.add(position, [0.0, 0.0, 2.0]), Rotation.from_rotvec(rotation).as_matrix()
 
         def worst(shift, p=p, q=q):

@@ -193,7 +193,7 @@ def test_what_is_proved_of_a_changed_head_is_true(genuine, tmp_path):
     assert verdict(head, tmp_path).proved
     rng = np.random.default_rng(27)
     places, proved, refused, below = head.numbers(), 0, 0, 0
-    for _ in range(size(200, 5000)):
+    for _ in range(size(500, 5000)):
         forged = head
         for k in rng.choice(len(places), rng.integers(1, 3), replace=False):
             i, j = places[k]

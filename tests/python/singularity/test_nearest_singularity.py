@@ -57,7 +57,7 @@ def test_no_random_direction_is_nearer_and_the_pose_is_singular(published, part)
 
 
 def refined(g, c, tangents, most, rng):
-    """The least distance over 4000 random directions, the best 200 of them each turned to where it is least."""
+    """The least distance over 4000 random directions, the best 400 of them each turned to where it is least."""
 
     def distance(ways):
         return most * nd.distance_to_singularity(g, c, most * ways @ tangents.T).distance
@@ -67,13 +67,13 @@ def refined(g, c, tangents, most, rng):
 
     ways = unit(rng.normal(size=(4000, 3)))
     least = distance(ways)
-    order = np.argsort(least)[:200]
-    ways, least, angle = ways[order], least[order], np.full(200, 0.05)
-    for _ in range(40):
-        around = unit(ways[:, None] + angle[:, None, None] * unit(rng.normal(size=(200, 4, 3))))
-        result = distance(around.reshape(-1, 3)).reshape(200, 4)
+    order = np.argsort(least)[:400]
+    ways, least, angle = ways[order], least[order], np.full(400, 0.05)
+    for _ in range(60):
+        around = unit(ways[:, None] + angle[:, None, None] * unit(rng.normal(size=(400, 4, 3))))
+        result = distance(around.reshape(-1, 3)).reshape(400, 4)
         k = np.argmin(result, axis=1)
-        better = result[np.arange(200), k] < least
+        better = result[np.arange(400), k] < least
         ways[better], least[better] = around[better, k[better]], result[better, k[better]]
         angle[~better] *= 0.7
     return least.min()
@@ -83,7 +83,7 @@ def refined(g, c, tangents, most, rng):
 def test_refined_directions_are_no_nearer_and_the_sheet_says_the_same():
     """The valleys of some robots are narrow, and a search about one direction alone ends in the wrong one."""
     rng = np.random.default_rng(2027)
-    for _ in range(size(20, 300)):
+    for _ in range(size(40, 300)):
         g = robot(rng)
         c = nd.Configuration(rng.normal([0, 0, 4.0], 0.3), internal_point=rng.normal([0, 0, 2.0], 0.3))
         longest = 4.0 * nd.leg_lengths(g, c).max()
