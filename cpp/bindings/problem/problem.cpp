@@ -84,8 +84,11 @@ void bind_requests(py::module_& m) {
 py::dict evaluate_at(const Problem& problem, const std::vector<double>& x) {
   const Evaluation e = evaluate(problem, vector_from(x));
   py::list margins;
-  py::dict limited;
-  for (const Evaluation::Margin& m : e.margins) limited[py::str(m.name)] = m.limited;
+  py::dict limited, parts;
+  for (const Evaluation::Margin& m : e.margins) {
+    limited[py::str(m.name)] = m.limited;
+    parts[py::str(m.name)] = m.part;
+  }
   for (const Evaluation::Margin& m : e.margins) margins.append(py::make_tuple(m.name, m.value, array_from(m.gradient)));
   py::dict out;
   out["log_objective"] = e.log_objective;
@@ -96,6 +99,7 @@ py::dict evaluate_at(const Problem& problem, const std::vector<double>& x) {
   out["characteristic_length"] = e.characteristic_length;
   out["margins"] = margins;
   out["limited"] = limited;
+  out["parts"] = parts;
   return out;
 }
 

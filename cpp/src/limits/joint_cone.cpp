@@ -1,5 +1,6 @@
 /// base_cone, platform_cone: angle between each leg, pointing away from its joint on that body, and an axis of the
-/// body: a given one, or the direction of that leg at the neutral configuration. u is its cosine.
+/// body: a given one, or the direction of that leg at the neutral configuration. u is its cosine. The same of the
+/// external or the internal legs alone, whose joints are others to buy and to mount: base_cone_external and so on.
 /// Declared in limits/pose_row.hpp.
 
 #include <algorithm>
@@ -10,25 +11,26 @@
 namespace ninedof {
 namespace {
 
-template <bool platform>
+/// The legs of a body from `first` on.
+template <bool platform, int first = 0, int count = legs_at_body>
 struct JointCone {
-  static constexpr int items = legs_at_body, cone_body = platform;
+  static constexpr int items = count, cone_body = platform, first_at_body = first;
   static constexpr double width = 1e-5;
   static constexpr bool falls = true, at_home = true;
 
-  static std::string part(int item) { return leg_name(leg_at(platform, item)); }
+  static std::string part(int item) { return leg_name(leg_at(platform, first + item)); }
   static double slopes(const PointLook& look, int item, PointSlopes& out) {
-    const LegEnds ends = leg_ends(leg_at(platform, item));
+    const LegEnds ends = leg_ends(leg_at(platform, first + item));
     return slopes_of<JointCone, 2>(look, item, {ends.from, ends.to}, out);
   }
   template <class Look>
   static auto direction(const Look& look, int item) {
-    return sense_at(platform, item) * look.direction(leg_at(platform, item));
+    return sense_at(platform, first + item) * look.direction(leg_at(platform, first + item));
   }
   /// The axis at the pose, base frame.
   template <class Look>
   static auto axis(const Look& look, int item) {
-    const auto a = look.axis(platform, item);
+    const auto a = look.axis(platform, first + item);
     if constexpr (!platform) return a;
     const auto& q = look.q();
     return a.x * q[0] + a.y * q[1] + a.z * q[2];
@@ -52,7 +54,7 @@ struct JointCone {
   }
   static Interval smooth(const Interval& angle) { return cos(angle); }
   static void moves(const FormLook& look, int item, Moves& out) {
-    const FormVector v = from_joint(platform, item, [&](int point) { return look.at(point); });
+    const FormVector v = from_joint(platform, first + item, [&](int point) { return look.at(point); });
     out.add(v);
     out.add(axis(look, item), centre(v).norm());
   }
@@ -62,5 +64,9 @@ struct JointCone {
 
 constinit const PoseRow base_cone_row = pose_row_of<JointCone<false>>();
 constinit const PoseRow platform_cone_row = pose_row_of<JointCone<true>>();
+constinit const PoseRow base_cone_external_row = pose_row_of<JointCone<false, 0, 3>>();
+constinit const PoseRow base_cone_internal_row = pose_row_of<JointCone<false, 3, 3>>();
+constinit const PoseRow platform_cone_external_row = pose_row_of<JointCone<true, 0, 3>>();
+constinit const PoseRow platform_cone_internal_row = pose_row_of<JointCone<true, 3, 3>>();
 
 }  // namespace ninedof

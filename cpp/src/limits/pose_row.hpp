@@ -27,8 +27,9 @@ struct PoseRow {
   int items = 0;  ///< legs, pairs of legs, determinants
   /// Of a row of leg lengths: its items are legs from this one on.
   int first_leg = -1;
-  /// Of a row of angles at the joints of a body, one for each of its legs: 0 for the base, 1 for the platform.
-  int cone_body = -1;
+  /// Of a row of angles at the joints of a body: 0 for the base, 1 for the platform; its items are the legs of the body
+  /// from `first_at_body` on.
+  int cone_body = -1, first_at_body = 0;
   bool pairs = false;       ///< items are pairs of legs (leg_pairs.hpp), which may be exempt
   bool on_the_way = false;  ///< it also has to hold at home and on the way from there to each pose
   double width = 3e-5;      ///< of an enclosure in which no limit lies, relative: it is narrow enough
@@ -51,7 +52,8 @@ struct PoseRow {
 };
 
 extern const PoseRow leg_length_row, external_length_row, upper_length_row, lower_length_row, base_cone_row,
-    platform_cone_row, leg_clearance_row, singularity_free_row;
+    platform_cone_row, base_cone_external_row, base_cone_internal_row, platform_cone_external_row,
+    platform_cone_internal_row, leg_clearance_row, singularity_free_row;
 
 /// "l1" to "r3", in the order of leg_lengths.
 const char* leg_name(int leg);
@@ -89,6 +91,7 @@ constexpr PoseRow pose_row_of() {
   out.items = Row::items;
   if constexpr (requires { Row::first_leg; }) out.first_leg = Row::first_leg;
   if constexpr (requires { Row::cone_body; }) out.cone_body = Row::cone_body;
+  if constexpr (requires { Row::first_at_body; }) out.first_at_body = Row::first_at_body;
   if constexpr (requires { Row::on_the_way; }) out.on_the_way = Row::on_the_way;
   if constexpr (requires { Row::width; }) out.width = Row::width;
   out.part = Row::part;

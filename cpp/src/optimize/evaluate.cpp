@@ -46,7 +46,7 @@ Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& variables) {
     // With a leg of no length a ratio is infinite, and its margin has no gradient.
     const double by = std::isfinite(slope) ? slope : 0.0;
     out.margins.back() = {name, value, by * design.margin_gradient.row(k).transpose(),
-                          p.limited_value(static_cast<int>(k), design.margins[k])};
+                          p.limited_value(static_cast<int>(k), design.margins[k]), p.margin_part(static_cast<int>(k))};
   }
   return out;
 }

@@ -18,6 +18,9 @@ from ninedof.support.arrays import Floats
 PARTS: dict[str, tuple[str, ...]] = _core.limit_parts
 """The limits that have a value at every pose, and their items: legs, pairs of legs "l1-q2", determinants "det N"."""
 CONES = tuple(name for name in PARTS if ROWS[name].is_angle)
+JOINTS = {name: (name.partition("_")[0], PARTS[name]) for name in CONES if len(PARTS[name]) == 3}
+"""The limits on the cones of one kind of joint, and the body and the legs there: external and internal joints of each
+body, which may be of two makes and mounted in two ways."""
 CLEARANCE = next(name for name, parts in PARTS.items() if "-" in parts[0])
 """The limit on the distance of pairs of legs."""
 SPREADS = _core.limits_over_lengths  # limits that compare poses
@@ -45,6 +48,18 @@ def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration,
 
     """
     return _core.limit_numbers(name, axis, g, home, c)
+
+
+def cone_axes(study: Study | None) -> dict[str, tuple[float, ...]]:
+    """Return the axis of the cone of each of the `JOINTS` in a study; () for the legs' own directions at home.
+
+    That of a limit on these joints, else of one on all joints of their body, else none.
+    """
+    axes: dict[str, tuple[float, ...]] = dict.fromkeys(JOINTS, ())
+    limits = () if study is None else study.limits
+    for limit in sorted(limits, key=lambda one: (one.at == "poses", one.name in JOINTS)):
+        axes |= {name: limit.axis for name in JOINTS if limit.name in CONES and name.startswith(limit.name)}
+    return axes
 
 
 def exempt_pairs(g: Geometry, study: Study | None = None) -> list[bool]:

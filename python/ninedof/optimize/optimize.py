@@ -18,6 +18,7 @@ from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.result import Candidate, Result, Status, candidate_of
 from ninedof.optimize.warm import Warm, warm_starts, warm_variables
+from ninedof.optimize.words import axis_hint
 from ninedof.proof.optimum import GAPS, OptimumProof, left_out_of, prove_optimum
 from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
 from ninedof.support.arrays import thread_argument
@@ -157,7 +158,7 @@ def _anew(
         Result,
         end,
         status=Status(end.status),
-        reason=end.reason + unit,
+        reason=end.reason + unit + (axis_hint(study) if end.status == Status.INFEASIBLE else ""),
         candidates=tuple(candidate_of(problem, one) for one in end.candidates),
         seconds=perf_counter() - begin,
         study=study,

@@ -101,3 +101,21 @@ def agreement_sentence(completed: int, arrived: int, abandoned: int, optimal: bo
         f"{out}. A better optimum to which {100.0 * least_share(completed):.0f} % of {which} lead would have been met "
         f"with a probability of {100.0 * SURE:.0f} %; a rarer one may have been missed"
     )
+
+
+def axis_hint(study: Study) -> str:
+    """Return a sentence on axes of cones that point against the legs; "" where none does.
+
+    While the platform is above the base, legs point up from the base and down from the platform.
+    """
+    against = [
+        limit.label
+        for limit in study.limits
+        if limit.axis and limit.high <= math.pi / 2 and (limit.axis[2] < 0.0) == limit.name.startswith("base")
+    ]
+    if not against:
+        return ""
+    return (
+        f". The axis of {' and of '.join(against)} points against the legs: an axis points from the joint along the "
+        "leg, upwards at the base and downwards at the platform"
+    )

@@ -171,7 +171,7 @@ def certified_workspace(
 def kind_of(name: str) -> str:
     """Return the key of `KINDS` of a limit."""
     first = name.split(" ")[0]
-    return first if first in KINDS else first[:1]
+    return next((kind for kind in KINDS if len(kind) > 1 and first.startswith(kind)), first[:1])
 
 
 def _layout() -> ConstrainedLayoutEngine:

@@ -136,8 +136,11 @@ class MachineCertificate:
 
     def sentences(self) -> list[str]:
         """Return what is proved, and what is not, in words."""
-        low, high = min(a for a, _ in self.lengths), max(b for _, b in self.lengths)
-        legs = f"every leg stays between {outward(low, False)} and {amount(outward(high, True), self.unit)}"
+        kinds = []
+        for k, kind in ((0, "external"), (3, "upper internal"), (6, "lower internal")):
+            low, high = min(a for a, _ in self.lengths[k : k + 3]), max(b for _, b in self.lengths[k : k + 3])
+            kinds.append(f"the {kind} legs are {outward(low, False)} to {amount(outward(high, True), self.unit)} long")
+        legs = ", ".join(kinds)
         index = ""
         if math.isfinite(self.condition[1]):
             index = f", and the condition number is at most {outward(self.condition[1], True)}"

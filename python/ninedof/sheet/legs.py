@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.limit_numbers import CONES, PARTS
+from ninedof.design.limit_numbers import JOINTS
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -38,7 +38,8 @@ class LegRow:
     acceleration: float
     """Bound of its acceleration over the same while the platform's velocities are constant."""
     base_cone: float | None
-    """Largest angle at its base joint from its direction at the neutral pose, base frame, rad; None without one."""
+    """Largest angle at its base joint, base frame, rad, from the axis that a limit of the study has there, else from
+    its direction at the neutral pose: `Sheet.cone_axes`. None without such a joint."""
     platform_cone: float | None
     """The same at its platform joint, platform frame."""
     forces: tuple[tuple[float, float], ...]
@@ -48,8 +49,9 @@ class LegRow:
     twist_acceleration: tuple[float, float] | None = None
     """Least and largest acceleration for the given twist and its rate."""
     permitted: tuple[float, float] | None = None
-    """If O is placed at every pose of a region and limits compare poses: the lengths between which placing O keeps
-    the leg. `shortest` and `longest` are those that the region was found to need."""
+    """The lengths that the limits of the study leave it and, if O is placed at every pose of a region and limits
+    compare poses, between which placing O keeps it; None where nothing limits a leg. `shortest` and `longest` are
+    those that the poses need."""
 
     def flat(self) -> dict[str, Any]:
         """Return the columns of a table, angles in degrees, "" where a leg has no such joint."""
@@ -62,7 +64,7 @@ class LegRow:
         }
         if self.permitted is not None:
             row |= dict(zip(("permitted_shortest", "permitted_longest"), self.permitted, strict=True))
-        for name in CONES:
+        for name in ("base_cone", "platform_cone"):
             angle = getattr(self, name)
             row[f"{name}_deg"] = "" if angle is None else float(np.degrees(angle))
         for name in ("twist_speed", "twist_acceleration"):
@@ -86,7 +88,9 @@ def leg_rows(g: Geometry, c: Configuration, numbers: Mapping[str, Floats]) -> tu
         ratio = high / low
     idle = idle_legs(lengths)
     speed, acceleration = (numbers[name].max(axis=0) for name in ("speed", "acceleration"))
-    cones = {name: dict(zip(PARTS[name], numbers[name].max(axis=0).tolist(), strict=True)) for name in CONES}
+    cones: dict[str, dict[str, float]] = {"base_cone": {}, "platform_cone": {}}
+    for name, (body, legs) in JOINTS.items():
+        cones[f"{body}_cone"] |= zip(legs, numbers[name].max(axis=0).tolist(), strict=True)
     forces = numbers.get("force", np.empty((len(c), 0))).reshape(len(c), -1, 9)
     ranges = [name for name in ("twist_speed", "twist_acceleration") if name in numbers]
 

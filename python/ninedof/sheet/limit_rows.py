@@ -26,6 +26,8 @@ class LimitRow:
     """In the unit of the limit."""
     margin: float
     """As `margin_of`, negative if violated: `DesignPoint.margins`."""
+    part: str
+    """The leg, the pair of legs ("l1-q2") or the determinant that reaches it; "" for a limit without parts."""
     unit: str
     """"ratio", "length", "angle" or "sign" as in the table of constraints; "ratio" for a length over zp or a radius."""
 
@@ -54,4 +56,4 @@ def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, 
 
 def _row(side: str, bound: float, kind: str, point: Mapping[str, Any]) -> LimitRow:
     ((label, margin, _),) = point["margins"]
-    return LimitRow(label, side, bound, point["limited"][label], margin, kind)
+    return LimitRow(label, side, bound, point["limited"][label], margin, point["parts"][label], kind)

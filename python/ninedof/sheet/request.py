@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.limit_numbers import PARTS, exempt_pairs
+from ninedof.design.limit_numbers import CONES, JOINTS, PARTS, cone_axes, exempt_pairs
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
@@ -148,9 +148,11 @@ def internal_over(c: Configuration) -> str:
 
 
 def _limits(study: Study | None) -> list[tuple[str, Floats]]:
-    """Return limits at poses and axes of cones: each about the neutral directions, and about the axes of the study."""
-    cones = [limit.for_core() for limit in (study.limits if study is not None else ()) if limit.axis]
-    return [(name, np.zeros(3)) for name in PARTS if len(ROWS[name].sides) == 1] + [(c.name, c.axis) for c in cones]
+    """Return limits at poses and axes of cones: of each kind of joint about its axis, then all that the study has."""
+    cones = [limit.for_core() for limit in (study.limits if study is not None else ()) if limit.row.is_angle]
+    joints = [(name, np.array(axis or np.zeros(3))) for name, axis in cone_axes(study).items()]
+    others = [(name, np.zeros(3)) for name in PARTS if len(ROWS[name].sides) == 1 and name not in CONES]
+    return others + joints + [(c.name, c.axis) for c in cones if c.name not in JOINTS]
 
 
 def _six(name: str, value: ArrayLike) -> tuple[float, ...]:

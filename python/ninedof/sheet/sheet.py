@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, is_dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any, NamedTuple, Unpack
 
 import numpy as np
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.design.limit_numbers import CLEARANCE, PARTS
+from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_axes, leg_limits_of
 from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
@@ -122,6 +122,9 @@ class Sheet:
     """The search of the region of the study; None without one."""
     unit: str = ""
     """Name of the length unit; "" without one."""
+    cone_axes: dict[str, tuple[float, ...]] = field(default_factory=dict)
+    """The axis from which the angles of each kind of joint are, "base_cone_external" and so on, in the frame of its
+    body; () for the direction of each leg at the neutral pose."""
     leg_ranges: tuple[tuple[float, float], ...] | None = None
     """If O is placed anew at every pose of a region: the length that each leg keeps in all of it, empty if no limit
     compares poses. None for others."""
@@ -306,7 +309,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     numbers = _core.sheet_numbers(question, c)
     kappa = numbers["condition_number"][:, 0] if "condition_number" in numbers else np.full(len(c), np.inf)
     determinants = _determinants(g, c)
-    legs = zip(leg_rows(g, c, numbers), ranges or (None,) * 9, strict=True)
+    legs = zip(leg_rows(g, c, numbers), _permitted(study, c[0], ranges), strict=True)
     return Sheet(
         geometry=g,
         configurations=c,
@@ -328,8 +331,23 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         limits=limit_rows(study, variables) if study is not None and isinstance(variables, Mapping) else (),
         region=look,
         unit=getattr(study or design, "unit", "") if values["unit"] is None else unit_argument(values["unit"]),
+        cone_axes=cone_axes(study),
         leg_ranges=ranges,
     )
+
+
+def _permitted(
+    study: Study | None, home: Configuration, ranges: Sequence[tuple[float, float]] | None
+) -> Sequence[tuple[float, float] | None]:
+    """Return the lengths that a study leaves each leg, None for all where nothing limits a leg."""
+    low, high = np.zeros(9), np.full(9, np.inf)
+    if study is not None:
+        low, high = leg_limits_of(study, float(home.position[2]))
+    if ranges:
+        least, most = np.transpose(ranges)
+        low, high = np.maximum(low, least), np.minimum(high, most)
+    limited = low.any() or np.isfinite(high).any()
+    return list(zip(low.tolist(), high.tolist(), strict=True)) if limited else (None,) * 9
 
 
 def _tolerances(legs: ArrayLike | None, joints: ArrayLike | None) -> _core.Tolerances | None:

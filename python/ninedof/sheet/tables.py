@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -68,10 +68,16 @@ def poses_table(sheet: Any) -> Table:
 def limits_table(sheet: Any) -> Table:
     """Return the limits of the study beside the values and margins."""
     where = "at its poses" if sheet.region is None else "over its region"
-    columns = [Column("limit"), Column(), *(Column(name, "", RIGHT) for name in ("allowed", "here", "margin"))]
+    columns = [
+        Column("limit"),
+        Column(),
+        Column(),
+        *(Column(name, "", RIGHT) for name in ("allowed", "here", "margin")),
+    ]
     rows = [
         (
             row.name,
+            row.part,
             row.side,
             *(limit_amount(row, value, short, sheet.unit) for value in (row.limit, row.value)),
             margin_words(row.margin, row.unit),
@@ -136,15 +142,17 @@ def _joints(sheet: Any) -> Table:
 
 def lengths_table(sheet: Any) -> Table:
     """Return the lengths of the legs."""
-    permitted = bool(sheet.leg_ranges)
-    names = ["shortest", "longest", "neutral", "stroke", *(("at least", "at most") if permitted else ())]
+    permitted = any(leg.permitted for leg in sheet.legs)
+    names = ["shortest", "longest", "neutral", "stroke"]
+    if permitted:
+        names = ["needs from", "needs to", "neutral", "stroke", "permitted from", "permitted to"]
     columns = [Column("leg"), *(Column(name, sheet.unit, SHORT) for name in names), Column("ratio", "", ".4f")]
     rows = [
         (leg.name, leg.shortest, leg.longest, leg.neutral, leg.stroke, *(leg.permitted or ()), leg.stroke_ratio)
         for leg in sheet.legs
     ]
-    what = "lengths needed, and permitted (at least, at most)" if permitted else "lengths"
-    return Table(f"Legs {over(sheet)}: {what}", columns, list(grouped(rows)))
+    title = "lengths that the poses need, and that limits permit" if permitted else "lengths"
+    return Table(f"Legs {over(sheet)}: {title}", columns, list(grouped(rows)))
 
 
 def _motions(sheet: Any) -> Table:
@@ -227,10 +235,26 @@ def _motion_words(sheet: Any) -> Iterator[str]:
     yield (
         f"Speed: the largest in any direction for a platform speed of {amount(f'{linear:g}', per(sheet.unit, 's'))}, "
         f"turning {angular:g}° per {'second' if sheet.unit else 'time unit'}, {o}. "
-        f"Acceleration: {most} while both are constant. Cones: from the direction at the neutral pose."
+        f"Acceleration: {most} while both are constant. Cones: from {_axes_words(sheet.cone_axes)}."
     )
     if sheet.idle:
         yield f"{', '.join(sheet.idle)} never move {over(sheet)}."
+
+
+def _axes_words(axes: Mapping[str, Sequence[float]]) -> str:
+    """Return from which axes the angles at the joints are."""
+    if len({*axes.values()}) < 2 and not any(axes.values()):
+        return "the direction at the neutral pose"
+    words = []
+    for body in ("base", "platform"):
+        kinds = {name.rpartition("_")[2]: axis for name, axis in axes.items() if name.startswith(body)}
+        if len({*kinds.values()}) == 1:
+            kinds = {"": next(iter(kinds.values()))}
+        for kind, axis in kinds.items():
+            joints = f"at {kind} joints of the {body}" if kind else f"at the {body}"
+            of = f"the axis {vector_words(axis)}" if axis else "the direction at the neutral pose"
+            words.append(f"{of} {joints}")
+    return ", ".join(words)
 
 
 def _pose(sheet: Any, k: int) -> str:

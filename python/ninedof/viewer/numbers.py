@@ -98,7 +98,9 @@ def _worst(limits: Sequence[PoseLimit]) -> list[LimitRow]:
         if key not in worst or not one.margin[0] >= worst[key].margin[0]:
             worst[key] = one
     return [
-        LimitRow(one.label, one.side, float(one.limit), float(one.value[0]), float(one.margin[0]), _kind(one.name))
+        LimitRow(
+            one.label, one.side, float(one.limit), float(one.value[0]), float(one.margin[0]), one.part, _kind(one.name)
+        )
         for one in worst.values()
     ]
 
@@ -107,7 +109,7 @@ def _of_design(variant: Variant, limits: Sequence[PoseLimit]) -> list[LimitRow]:
     """Return the limits that belong to the design and not to a pose."""
     of_pose = {one.name for one in limits}
     return [
-        LimitRow(name, "", math.nan, math.nan, margin, _kind(name))
+        LimitRow(name, "", math.nan, math.nan, margin, "", _kind(name))
         for name, margin in (variant.margins or {}).items()
         if name not in of_pose and not name.startswith("condition")
     ]

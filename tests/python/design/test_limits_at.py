@@ -40,6 +40,10 @@ LIMITS = (
         "leg_clearance": {"min": 0.2},
         "base_cone": {"max_deg": 50.0, "axis": [0.1, -0.2, 2.0]},
         "platform_cone": {"max_deg": 60.0, "axis": [0.2, 0.3, -1.0]},
+        "base_cone_external": {"max_deg": 50.0, "axis": [0.1, -0.2, 2.0]},
+        "base_cone_internal": {"max_deg": 55.0, "axis": [0.1, 0.2, 2.0]},
+        "platform_cone_external": {"max_deg": 60.0, "axis": [0.2, 0.3, -1.0]},
+        "platform_cone_internal": {"max_deg": 65.0, "axis": [0.2, -0.3, -1.0]},
         "singularity_free": {"min": 0.01},
     },
     {
@@ -139,6 +143,10 @@ def hand(name, options, g, c):
         "leg_clearance": lambda: [between_segments(start[i], end[i], start[j], end[j]) / unit for i, j in pairs],
         "base_cone": lambda: angles(np.vstack([along[:3], along[6:]])),
         "platform_cone": lambda: angles(np.vstack([-along[:3], along[3:6]]) @ c.rotation),
+        "base_cone_external": lambda: angles(along[:3]),
+        "base_cone_internal": lambda: angles(along[6:]),
+        "platform_cone_external": lambda: angles(-along[:3] @ c.rotation),
+        "platform_cone_internal": lambda: angles(along[3:6] @ c.rotation),
         "singularity_free": determinants,
     }
     return np.array(values[name]())

@@ -42,6 +42,10 @@ LIMITS = {
     "leg_clearance": {"radius": 0.05},
     "base_cone": [{"max_deg": 60, "axis": [0, 0, 1]}, {"max_deg": 50, "axis": [0, 0, 1], "at": "neutral"}],
     "platform_cone": {"max_deg": 40},
+    "base_cone_external": {"max_deg": 45, "axis": [0.1, 0, 1]},
+    "base_cone_internal": {"max_deg": 55, "axis": [0, 0, 1]},
+    "platform_cone_external": {"max_deg": 35},
+    "platform_cone_internal": {"max_deg": 50, "axis": [0, 0, -1]},
     "singularity_free": {"min": 0.01, "steps": 1},
 }
 

@@ -248,7 +248,7 @@ def test_the_sheet_of_a_result_has_the_limits():
     lines = found.summary().splitlines()
     assert [line.split()[0] for line in lines].count("l1") == 2  # lengths, speeds
     assert re.search(rf"condition number +{found.condition_number.value:.6f}", found.summary())
-    assert re.match(r"base_cone +max +45.00°", lines[-1])
+    assert re.match(r"base_cone +[lr][123] +max +45.00°", lines[-1])
     assert repr(found).startswith("<Sheet over 28 poses")
 
 

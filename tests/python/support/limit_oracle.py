@@ -131,6 +131,11 @@ def _unit(robot, limit):
     return _height(robot) if limit.of == "zp" else 1.0
 
 
+def _some_joints(body, legs):
+    """The angles of the external or the internal legs of a body alone."""
+    return lambda r, limit: cone(r, body, limit.axis).reshape(-1, 6)[:, legs].reshape(-1)
+
+
 def _some_legs(first, last):
     return (lambda r, limit: _legs(r)[:, first:last].reshape(-1) / _unit(r, limit),) * 2
 
@@ -202,6 +207,11 @@ RULES = {  # the values that must be at most the high limit, and those that must
     "leg_clearance": (None, _leg_clearance),
     "base_cone": (lambda r, limit: cone(r, "base", limit.axis), None),
     "platform_cone": (lambda r, limit: cone(r, "platform", limit.axis), None),
+    **{
+        f"{body}_cone_{kind}": (_some_joints(body, legs), None)
+        for body in ("base", "platform")
+        for kind, legs in (("external", slice(0, 3)), ("internal", slice(3, 6)))
+    },
     "singularity_free": (None, lambda r, limit: determinants(r, limit.steps if limit.at == "poses" else 0)),
 }
 

@@ -18,6 +18,7 @@ from ninedof.optimize.region_report import posed
 SPREADS = ("leg_ratio", "stroke", "stroke_ratio")
 OF_POSES = (
     *("leg_length", "external_length", "upper_length", "lower_length", "base_cone", "platform_cone"),
+    *("base_cone_external", "base_cone_internal", "platform_cone_external", "platform_cone_internal"),
     *("leg_clearance", "singularity_free"),
 )
 SMOOTHINGS = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7)

@@ -197,6 +197,11 @@ double PreparedProblem::limited_value(int k, double margin) const {
   return c.value_at(c.side_of(row), margin);
 }
 
+std::string PreparedProblem::margin_part(int k) const {
+  const auto [constraint, row] = margins[at_index(k)];
+  return constraint < 0 ? "" : constraints[at_index(constraint)]->part_of(row);
+}
+
 double PreparedProblem::violation_factor(int k) const {
   const auto [constraint, row] = margins[at_index(k)];
   return constraint < 0 ? 1.0 : constraints[at_index(constraint)]->violation_factor(row);

@@ -63,6 +63,7 @@ struct PreparedProblem {
   double margin_price(int k) const;
   ShownMargin shown_margin(int k, double margin) const;
   double limited_value(int k, double margin) const;
+  std::string margin_part(int k) const;
   double violation_factor(int k) const;
   /// The state of the design at `y`, in solver coordinates.
   void set_state(const Eigen::VectorXd& y, DesignState& state) const;

@@ -31,6 +31,8 @@ class Constraint {
   Side side_of(int row) const { return item_of(row).first; }
   /// The pose that a row looks at besides home, an index of DesignState::poses.
   int pose_of(const DesignState& v, int row) const { return pose(v, item_of(row).second); }
+  /// The leg, the pair of legs or the determinant that a row is about; "" where it has none.
+  std::string part_of(int row) const { return part(item_of(row).second); }
   /// All poses that a row looks at where the value of the constraint is that of a few.
   virtual std::vector<int> poses_of(const DesignState& v, int row) const { return {pose_of(v, row)}; }
   /// Of a row with this margin: 1 - value / high or value / low - 1; of a determinant, which has no scale, value - low.
@@ -69,6 +71,7 @@ class Constraint {
   virtual int items(Side side) const = 0;
   /// The pose of an item; of those that look at all poses or at none, the first.
   virtual int pose(const DesignState& v, int) const { return first_pose(v); }
+  virtual std::string part(int) const { return ""; }
   /// The limited value. The second adds `scale` times its derivatives.
   virtual double value(const DesignState&, Side, int) const { return 0.0; }
   virtual void add_value_gradient(const DesignState&, Side, int, double, Row) const {}

@@ -22,23 +22,24 @@ class PoseLimit : public Constraint {
  private:
   SolverMargin form() const override { return row_.solver; }
   int items(Side) const override { return row_.pose->items * poses_; }
-  int part(int item) const { return item % row_.pose->items; }
+  int index(int item) const { return item % row_.pose->items; }
+  std::string part(int item) const override { return row_.pose->part(index(item)); }
   /// The neutral pose comes first where the way is looked at.
   int pose(const DesignState& v, int item) const override {
     return (row_.on_the_way() ? 0 : first_pose(v)) + item / row_.pose->items;
   }
-  bool exempt(int item) const { return row_.pose->pairs && exempt_[at_index(part(item))]; }
+  bool exempt(int item) const { return row_.pose->pairs && exempt_[at_index(index(item))]; }
   PointLook look(const DesignState& v, int item) const { return {v.pose(pose(v, item)), v.pose(0), limit().axis}; }
 
   double value(const DesignState& v, Side, int item) const override {
     // Never the least, in any unit.
     if (exempt(item)) return 1e6 * std::max(limit().low, v.length(v.longest) / unit(v));
-    return row_.pose->number(look(v, item), part(item)) / unit(v);
+    return row_.pose->number(look(v, item), index(item)) / unit(v);
   }
   void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
     if (exempt(item)) return;
     PointSlopes slopes;
-    const double number = row_.pose->slopes(look(v, item), part(item), slopes), u = unit(v), by = scale / u;
+    const double number = row_.pose->slopes(look(v, item), index(item), slopes), u = unit(v), by = scale / u;
     const int k = pose(v, item);
     for (int n = 0; n < slopes.points; ++n)
       v.add_point(k, slopes.at[at_index(n)].point, by * slopes.at[at_index(n)].slope, out);

@@ -52,6 +52,7 @@ class Spread : public Constraint {
   }
 
  private:
+  std::string part(int item) const override { return each_leg_ && way_ == Way::ruling ? leg_name(item) : ""; }
   SolverMargin form() const override { return row_.solver; }
   enum class Way { pairs, auxiliary, ruling };
   static constexpr int few = 9;

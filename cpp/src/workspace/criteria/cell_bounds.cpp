@@ -35,7 +35,7 @@ CellBounds::CellBounds(const Geometry& g, const WorkspaceDomain& domain, const C
   };
   for (const int leg : limited) line(leg, 1.0);  // for the size, before anything is compared with it
   for (const BodyCones& body : cones)
-    for (int k = 0; k < legs_at_body; ++k) line(leg_at(body.platform, k), sense_at(body.platform, k));
+    for (const int k : body.legs()) line(leg_at(body.platform, k), sense_at(body.platform, k));
   rounding_ = 1e-12 * size_;
   for (const int leg : limited) {
     Leg one{line(leg, 1.0), limits.low[leg], limits.high[leg]};
@@ -43,13 +43,13 @@ CellBounds::CellBounds(const Geometry& g, const WorkspaceDomain& domain, const C
     if (!constant_.back()) legs_.push_back(std::move(one));
   }
   for (const BodyCones& body : cones)
-    for (int k = 0; k < legs_at_body; ++k) {
+    for (const int k : body.legs()) {
       const bool platform = body.platform;
+      const Vec3& axis = body.axis[at_index(k - body.first)];
       ConedLeg one{line(leg_at(platform, k), sense_at(platform, k)), {}, platform};
       for (std::size_t r = 0; r < rotations_; ++r)
         one.cone.emplace_back(
-            platform && chart.positional() ? domain.rotations[r] * body.axis[at_index(k)] : body.axis[at_index(k)],
-            body.angle);
+            platform && chart.positional() ? domain.rotations[r] * axis : axis, body.angle);
       const bool limits_it = body.angle < std::numbers::pi;
       constant_.push_back(!(limits_it && moves(one, platform ? one.at[0].norm() : one.arm.norm())));
       if (!constant_.back()) cones_.push_back(std::move(one));

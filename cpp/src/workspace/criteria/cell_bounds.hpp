@@ -2,6 +2,7 @@
 /// Bounds over a whole cell: of leg lengths, of angles from the axes of joints, and of the distance from the boundary of
 /// the region.
 
+#include <ranges>
 #include <vector>
 
 #include "workspace/chart.hpp"
@@ -20,7 +21,10 @@ struct Proof {
 struct BodyCones {
   bool platform;
   double angle;
-  std::array<Vec3, 6> axis;
+  int first = 0;           ///< of the legs of the body
+  std::vector<Vec3> axis;  ///< of each leg from there on
+
+  auto legs() const { return std::views::iota(first, first + static_cast<int>(axis.size())); }
 };
 
 class CellBounds {

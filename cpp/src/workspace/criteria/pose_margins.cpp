@@ -100,10 +100,11 @@ void Margins::list_groups() {
     const int first = pose_groups_;
     groups(row == nullptr || row->pairs ? 1 : row->items, c.row->info.kind == LimitKind::length ? size_ : 1.0);
     if (row == nullptr || row->cone_body < 0 || placement_.searched()) continue;
-    BodyCones body{row->cone_body == 1, c.high, {}};
-    for (int k = 0; k < legs_at_body; ++k) {
-      const Xyz<double> axis = PointLook(home_points_, home_points_, c.axis).axis(body.platform, k);
-      body.axis[at_index(k)] = {axis.x, axis.y, axis.z};
+    BodyCones body{row->cone_body == 1, c.high, row->first_at_body, {}};
+    for (int k = 0; k < row->items; ++k) {
+      const PointLook look(home_points_, home_points_, c.axis);
+      const Xyz<double> axis = look.axis(body.platform, row->first_at_body + k);
+      body.axis.emplace_back(axis.x, axis.y, axis.z);
       with_bounds.push_back(at_index(first + k));
     }
     cones.push_back(body);
