@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import ninedof as nd
+from ninedof.design.duty import DUTIES
 from ninedof.support.angles import DEG
 from ninedof.support.schema import Table, keys
 
@@ -23,12 +24,15 @@ SOURCES = {
     "poses.box": nd.poses.box,
     "poses.ball": nd.poses.ball,
     "poses.path": nd.poses.path,
+    **{kind.__name__: kind for kind in DUTIES.values()},
 }
 SPELLED = {  # of docstrings, as a file has them
     "sequence of (3,) floats": "[[x, y, z], …]",
+    "sequence of (6,) floats": "[[six numbers], …]",
     "sequence of Pose or mappings": "tables",
     "Region or mapping": "table",
     "(3,) floats": "[x, y, z]",
+    "(6,) floats": "[six numbers]",
     "(2,) floats": "[a, b]",
     "float": "number",
     "int": "integer",

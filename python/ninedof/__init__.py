@@ -33,6 +33,7 @@ from ninedof.conditioning.conditioning import (
 from ninedof.conditioning.hexagonal import hexagonal_condition_number
 from ninedof.design import poses as poses
 from ninedof.design.design_point import DesignPoint
+from ninedof.design.duty import About, Loads, Masses, Speeds, Tolerances, Tool
 from ninedof.design.objective import Objective
 from ninedof.design.pose import Pose
 from ninedof.design.region import Region
@@ -122,6 +123,7 @@ if TYPE_CHECKING:
 __version__: str = _core.version
 
 __all__ = [
+    "About",
     "AssemblyModes",
     "Bounds",
     "Candidate",
@@ -141,9 +143,11 @@ __all__ = [
     "LegForces",
     "LimitBreak",
     "LimitProof",
+    "Loads",
     "LowerBound",
     "MachineCertificate",
     "MapAudit",
+    "Masses",
     "Mechanism",
     "NearestSingularity",
     "Objective",
@@ -157,9 +161,12 @@ __all__ = [
     "Singularity",
     "SingularityDistance",
     "SingularityMargins",
+    "Speeds",
     "Status",
     "Study",
     "SweepResult",
+    "Tolerances",
+    "Tool",
     "Trace",
     "TrackStatus",
     "Tracked",

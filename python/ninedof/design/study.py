@@ -13,6 +13,7 @@ from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.design_point import DesignPoint, design_point
+from ninedof.design.duty import DUTIES, About, Loads, Masses, Speeds, Tolerances, Tool, duty
 from ninedof.design.limits import ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
 from ninedof.support.angles import DEG, angle_entry, degrees_of, in_radians
@@ -47,6 +48,7 @@ TABLES = {
     "constraints": (),
     "objective": (),
     "solver": ("starts", "seed"),
+    **dict.fromkeys(DUTIES, ()),
 }
 """The tables of a study file, and the arguments that are keys of one; the others are arguments as a whole."""
 MOST_STARTS = 1_000_000  # each may be searched four times, and all ends are kept
@@ -137,6 +139,14 @@ class Study:
     unit : str, optional
         Name of the length unit, "mm", "cm", "m", "in" or "ft", shown wherever a length stands. A label: nothing is
         converted. None by default. The `unit` of poses and regions is something else, the scale of their shifts.
+    about : About or mapping
+        Project, author and revision: the title block of reports.
+    tool : Tool or mapping
+        The point of the platform, with its axes, that region, paths, loads, errors and the condition number belong to.
+        The origin of the plate by default.
+    loads, masses, speeds, tolerances : Loads, Masses, Speeds, Tolerances or mappings
+        What the machine carries, how fast it moves and how well it is made: defaults of `sheet`, of the commands about
+        one design, and of reports.
 
     Raises
     ------
@@ -161,6 +171,12 @@ class Study:
     objective: Objective = entry(_objective, Objective())
     unit: str = entry(_unit, "")
     """Name of the length unit; "" without one."""
+    about: About = entry(duty(About), About())
+    tool: Tool = entry(duty(Tool), Tool())
+    loads: Loads = entry(duty(Loads), Loads())
+    masses: Masses = entry(duty(Masses), Masses())
+    speeds: Speeds = entry(duty(Speeds), Speeds())
+    tolerances: Tolerances = entry(duty(Tolerances), Tolerances())
     defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
     """Free variables that were not given and took the family's default bounds."""
     length_assumed: bool = field(default=False, init=False, compare=False, repr=False)
@@ -222,6 +238,8 @@ class Study:
         require_unit_at_top({name: entries for name, entries in tables.items() if name != "objective"})
         arguments = {"unit": data.get("unit", "")}
         for name, names in TABLES.items():
+            if name in DUTIES and name not in data:
+                continue
             known_keys(name, tables[name], names or tables[name])
             arguments |= tables[name] if names else {name: tables[name]}
         return cls(**arguments)
@@ -242,6 +260,7 @@ class Study:
             "constraints": {name: one if len(one) > 1 else one[0] for name, one in constraints.items()},
             "objective": self.objective.to_dict(),
             "solver": {"starts": self.starts, "seed": self.seed},
+            **{name: entries for name in DUTIES if (entries := getattr(self, name).to_dict())},
         }
 
     def save(self, path: str | os.PathLike[str]) -> None:

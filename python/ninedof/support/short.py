@@ -56,7 +56,8 @@ def _fields(thing: Any) -> list[tuple[str, Any]]:
         value = getattr(thing, one.name)
         default = one.default_factory() if one.default_factory is not MISSING else one.default
         plain = isinstance(value, PLAIN) and not isinstance(value, Enum)
-        if one.repr and not (plain and type(default) is type(value) and default == value):
+        same = value is default or (plain and type(default) is type(value) and default == value)
+        if one.repr and not same:
             found.append((one.name, value))
     return found
 

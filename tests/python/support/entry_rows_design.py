@@ -6,6 +6,7 @@ from entry_rows import RATES, row
 
 import ninedof as nd
 from ninedof import poses
+from ninedof.design.duty import DUTIES
 
 TRIPLE = [[1.0, 0.0, 0.0], [-0.5, 1.0, 0.0], [-0.5, -1.0, 0.0]]
 TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
@@ -32,6 +33,19 @@ OF_ROBOT = (
 
 # --- studies ----------------------------------------------------------------------------------------------------------
 
+DUTY = {
+    "about": {"project": "a head", "author": "N", "revision": "B"},
+    "tool": {"position": (0.0, 0.1, 0.2), "rotation": (0.0, 0.0, 0.5)},
+    "loads": {"gravity": (0.0, 0.0, 9.81), "wrenches": ((0.0, 0.0, 0.0, 0.0, 0.0, -5.0),)},
+    "masses": {
+        **{"platform": 5.0, "centre": (0.0, 0.1, 0.0), "inertia": (1.0, 1.0, 1.5, 0.0, 0.1, 0.0), "cylinder": 2.0},
+        **{"rod": 1.0, "cylinder_centre": 0.3, "rod_centre": 0.2, "cylinder_inertia": 0.1, "rod_inertia": 0.1},
+        "internal_point": 0.5,
+    },
+    "speeds": {"linear": 2.0, "angular": 0.5, "acceleration": 1.0, "angular_acceleration": 0.25},
+    "tolerances": {"joints": 0.02, "legs": 0.01},
+}
+
 row("Study")(
     lambda: {
         "family": "hexagonal",
@@ -42,9 +56,18 @@ row("Study")(
         "seed": 0,
         "objective": {"index": "condition_number", "poses": [{"position": [0.1, 0.0, 0.0], "unit": "zp"}]},
         "unit": "mm",
+        **{name: kind(**DUTY[name]).to_dict() for name, kind in DUTIES.items()},
     },
     words={"variables": OF_ROBOT, "characteristic_length": OF_ROBOT},
 )
+for name, kind in DUTIES.items():
+    row(kind.__name__)(DUTY[name].copy)
+    row(f"{kind.__name__}.from_dict", kind.from_dict, words={"data": (name,)})(
+        lambda kind=kind, name=name: {"data": kind(**DUTY[name]).to_dict()}
+    )
+    row(f"{kind.__name__}.to_dict", kind(**DUTY[name]).to_dict)(dict)
+row("Tool.seen", nd.Tool(**DUTY["tool"]).seen)(lambda: {"point": (1.0, 2.0, 3.0)})
+row("Masses.seen_from", nd.Masses(**DUTY["masses"]).seen_from)(lambda: {"tool": nd.Tool(**DUTY["tool"])})
 row("Study.paper", nd.Study.paper)(dict)
 row("Study.from_dict", nd.Study.from_dict, words={"data": ("study", *OF_ROBOT)})(lambda: {"data": it.study().to_dict()})
 row("Study.to_dict", lambda: it.study().to_dict())(dict)

@@ -1,0 +1,259 @@
+"""The duty of a machine as a study file states it: title, tool, loads, masses, speeds and tolerances."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ninedof.support.arguments import Vector, finite, instance, items, shown, text, vector
+from ninedof.support.schema import Table, entry, read
+from ninedof.support.short import short_repr
+
+Six = tuple[float, float, float, float, float, float]
+STANDARD: Vector = (0.0, 0.0, -9.81)
+positive_or_zero = partial(finite, least=0.0)
+
+
+def _six(name: str, value: Any, expected: str) -> Six:
+    six = items(name, value, expected)
+    if len(six) != 6:
+        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
+    a, b, c, d, e, f = (finite(f"{name}[{k}]", x) for k, x in enumerate(six))
+    return a, b, c, d, e, f
+
+
+def _wrenches(name: str, value: Any) -> tuple[Six, ...]:
+    rows = items(name, value, "a list of [mx, my, mz, fx, fy, fz]")
+    return tuple(_six(f"{name}[{k}]", one, "[mx, my, mz, fx, fy, fz]") for k, one in enumerate(rows))
+
+
+def _inertia(name: str, value: Any) -> Six:
+    six = _six(name, value, "[ixx, iyy, izz, ixy, ixz, iyz]")
+    small, middle, large = np.linalg.eigvalsh(_matrix(six))
+    slack = 1e-9 * max(abs(small), abs(large))
+    if small < -slack or large > small + middle + slack:
+        moments = ", ".join(f"{x:g}" for x in (small, middle, large))
+        raise ValueError(f"{name}: got principal moments {moments}, expected none below 0 or above the other two's sum")
+    return six
+
+
+def _matrix(six: Six) -> np.ndarray[Any, np.dtype[np.float64]]:
+    xx, yy, zz, xy, xz, yz = six
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+@short_repr
+@dataclass(frozen=True)
+class About(Table):
+    """The title block of a report.
+
+    Parameters
+    ----------
+    project, author, revision : text
+        Shown as they are; empty by default.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> nd.Study(about={"project": "Polishing head", "revision": "B"}).about
+    About(project='Polishing head', revision='B')
+
+    """
+
+    project: str = entry(text, "")
+    author: str = entry(text, "")
+    revision: str = entry(text, "")
+
+
+@short_repr
+@dataclass(frozen=True)
+class Tool(Table):
+    """The frame in which the machine is used: its origin is the tool's point, p of every pose.
+
+    Region, poses, paths, twists, loads, errors and the condition number belong to it. Limits of the design alone, such
+    as the height zp, and O at home belong to the plates.
+
+    Parameters
+    ----------
+    position : (3,) floats
+        The tool's point in the platform's frame, in the unit of lengths. Zero by default: the plate's origin.
+    rotation : (3,) floats
+        Rotation vector from the platform's axes to the tool's, in radians. Zero by default.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> tool = nd.Tool(position=(0.0, 0.0, -100.0))
+    >>> tool.seen((0.0, 0.0, 20.0))  # a point of the platform
+    (0.0, 0.0, 120.0)
+
+    """
+
+    position: Vector = entry(vector, (0.0, 0.0, 0.0))
+    rotation: Vector = entry(vector, (0.0, 0.0, 0.0), angle=True)
+
+    @property
+    def axes(self) -> np.ndarray[Any, np.dtype[np.float64]]:
+        """The tool's axes in the platform's frame: the columns of a rotation."""
+        angle = float(np.linalg.norm(self.rotation))
+        if angle == 0.0:
+            return np.eye(3)
+        x, y, z = np.asarray(self.rotation) / angle
+        cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        return np.asarray(np.eye(3) + np.sin(angle) * cross + 2.0 * np.sin(0.5 * angle) ** 2 * (cross @ cross))
+
+    def seen(self, point: Vector) -> Vector:
+        """Return a point of the platform's frame in the tool's frame."""
+        x, y, z = (self.axes.T @ np.subtract(vector("point", point), self.position)).tolist()
+        return x, y, z
+
+
+@short_repr
+@dataclass(frozen=True)
+class Loads(Table):
+    """Loads on the platform, and gravity: by its direction, how the machine is mounted.
+
+    Parameters
+    ----------
+    gravity : (3,) floats
+        Force per mass in base axes. (0, 0, -9.81) by default, the base below and level: kilograms give newtons in any
+        unit of lengths. A machine that hangs from the ceiling has (0, 0, 9.81).
+    wrenches : sequence of (6,) floats
+        Each (mx, my, mz, fx, fy, fz): a moment about the tool's point and a force, base axes. None by default.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> nd.Loads(gravity=(9.81, 0.0, 0.0), wrenches=[[0, 0, 0, 0, 0, -500]])  # on a wall
+    Loads(gravity=(9.81, 0, 0), wrenches=((0, 0, 0, 0, 0, -500),))
+
+    """
+
+    gravity: Vector = entry(vector, STANDARD)
+    wrenches: tuple[Six, ...] = entry(_wrenches, ())
+
+
+@short_repr
+@dataclass(frozen=True)
+class Masses(Table):
+    """Masses and inertias of the platform, of the two bodies of each leg, and of O.
+
+    Parameters
+    ----------
+    platform : float
+        Mass of the platform with its load. Zero by default.
+    centre : (3,) floats
+        Its centre of mass in the platform's frame. Zero by default.
+    inertia : (6,) floats
+        (ixx, iyy, izz, ixy, ixz, iyz) about that centre, axes of the platform's frame: entries of the matrix. Zero by
+        default.
+    cylinder, rod : float
+        Masses of the two bodies of each leg. Zero by default.
+    cylinder_centre, rod_centre : float
+        Distance of the centre of mass from the joint that the body hangs on: of the cylinder from the beginning of the
+        leg (base joint r_i, platform joint ũ_i, base joint r̂_i), of the rod from its end. Zero by default.
+    cylinder_inertia, rod_inertia : float
+        About a transverse axis through that centre. Zero by default.
+    internal_point : float
+        A point mass at O. Zero by default.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> nd.Masses(platform=12.0, centre=(0.0, 0.0, 30.0), cylinder=1.4, rod=0.6)
+    Masses(platform=12, centre=(0, 0, 30), cylinder=1.4, rod=0.6)
+
+    """
+
+    platform: float = entry(positive_or_zero, 0.0)
+    centre: Vector = entry(vector, (0.0, 0.0, 0.0))
+    inertia: Six = entry(_inertia, (0.0,) * 6)
+    cylinder: float = entry(positive_or_zero, 0.0)
+    rod: float = entry(positive_or_zero, 0.0)
+    cylinder_centre: float = entry(positive_or_zero, 0.0)
+    rod_centre: float = entry(positive_or_zero, 0.0)
+    cylinder_inertia: float = entry(positive_or_zero, 0.0)
+    rod_inertia: float = entry(positive_or_zero, 0.0)
+    internal_point: float = entry(positive_or_zero, 0.0)
+
+    def seen_from(self, tool: Tool) -> Masses:
+        """Return the same masses with centre and inertia in the tool's frame, that of geometries and poses."""
+        axes = instance("tool", tool, Tool).axes
+        m = (axes.T @ _matrix(self.inertia) @ axes).tolist()
+        inertia = (m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2])
+        return replace(self, centre=tool.seen(self.centre), inertia=inertia)
+
+
+@short_repr
+@dataclass(frozen=True)
+class Speeds(Table):
+    """Greatest speeds and accelerations of the tool, in any direction.
+
+    Parameters
+    ----------
+    linear : float
+        Of the tool's point, length/time. Zero by default.
+    angular : float
+        About any axis, radians/time. Zero by default.
+    acceleration : float
+        Of the tool's point, length/time². Zero by default.
+    angular_acceleration : float
+        Radians/time². Zero by default.
+
+    Examples
+    --------
+    >>> import math
+    >>> import ninedof as nd
+    >>> nd.Speeds(linear=200.0, angular=math.radians(30)).to_dict()
+    {'linear': 200.0, 'angular_deg': 30.0}
+
+    """
+
+    linear: float = entry(positive_or_zero, 0.0)
+    angular: float = entry(positive_or_zero, 0.0, angle=True)
+    acceleration: float = entry(positive_or_zero, 0.0)
+    angular_acceleration: float = entry(positive_or_zero, 0.0, angle=True)
+
+
+@short_repr
+@dataclass(frozen=True)
+class Tolerances(Table):
+    """Half widths of the errors of manufacture.
+
+    Parameters
+    ----------
+    joints : float
+        Radius about each joint centre in which it lies, a length. Zero by default.
+    legs : float
+        Of each leg length, to both sides. Zero by default.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> nd.Tolerances(joints=0.02, legs=0.01)
+    Tolerances(joints=0.02, legs=0.01)
+
+    """
+
+    joints: float = entry(positive_or_zero, 0.0)
+    legs: float = entry(positive_or_zero, 0.0)
+
+
+DUTIES: dict[str, type[Table]] = {
+    "about": About,
+    "tool": Tool,
+    "loads": Loads,
+    "masses": Masses,
+    "speeds": Speeds,
+    "tolerances": Tolerances,
+}
+"""The tables of a study file that say what the machine is for, by name."""
+
+
+def duty(kind: type[Table]) -> Callable[[str, Any], Any]:
+    """Return the check of an argument that is such a table or a mapping of its entries."""
+    return lambda name, value: value if isinstance(value, kind) else read(kind, value, name)
