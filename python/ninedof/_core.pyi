@@ -311,7 +311,9 @@ limit_parts: dict[str, tuple[str, ...]]
 limits_over_lengths: tuple[str, ...]
 margin_tolerance: float
 
-def limit_numbers(name: str, axis: ArrayLike, geometry: Geometry, home: _Poses, c: _Poses, /) -> _Floats: ...
+def limit_numbers(
+    name: str, axis: ArrayLike, geometry: Geometry, home: _Poses, c: _Poses, characteristic_length: float, /
+) -> _Floats: ...
 def pairs_sharing_a_joint(geometry: Geometry, /) -> list[bool]: ...
 
 class Settings:

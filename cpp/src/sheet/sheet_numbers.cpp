@@ -23,7 +23,8 @@ WorstEnd worst_end(const std::string& limit) {
 
 SheetNumbers::SheetNumbers(const SheetQuestion& question) : question_(question) {
   for (const auto& [name, axis] : question_.limits) {
-    limits_.emplace_back(name, question_.geometry, question_.neutral, axis, question_.exempt);
+    limits_.emplace_back(name, question_.geometry, question_.neutral, axis, question_.exempt,
+                         question_.characteristic_length.value_or(1.0));
     groups_.push_back({name, limits_.back().items(), worst_end(name)});
   }
   using enum WorstEnd;

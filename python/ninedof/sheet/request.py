@@ -148,9 +148,15 @@ def internal_over(c: Configuration) -> str:
 
 
 def _limits(study: Study | None) -> list[tuple[str, Floats]]:
-    """Return limits at poses and axes of cones: each about the neutral directions, and about the axes of the study."""
-    cones = [limit.for_core() for limit in (study.limits if study is not None else ()) if limit.axis]
-    return [(name, np.zeros(3)) for name in PARTS if len(ROWS[name].sides) == 1] + [(c.name, c.axis) for c in cones]
+    """Return limits at poses and axes of cones: each about the neutral directions, and about the axes of the study.
+
+    Ratios, which the sheet has no table of, only where the study limits them.
+    """
+    limits = study.limits if study is not None else ()
+    cones = [limit.for_core() for limit in limits if limit.axis]
+    own = {limit.name for limit in limits}
+    names = [name for name in PARTS if len(ROWS[name].sides) == 1 and (ROWS[name].kind != "ratio" or name in own)]
+    return [(name, np.zeros(3)) for name in names] + [(c.name, c.axis) for c in cones]
 
 
 def _six(name: str, value: ArrayLike) -> tuple[float, ...]:

@@ -56,6 +56,9 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
     for (const PoseCriterion& c : criteria_besides_legs(criteria)) {
       const PoseRow* row = c.row->pose;
       if (row == nullptr || row->pairs != pairs) continue;
+      if (!row->has_bounds())
+        throw InvalidArgument("criteria", c.row->info.name,
+                              "criteria with bounds over boxes of poses: a map has others");
       const bool no_limit = c.row->info.kind == LimitKind::angle && c.high >= std::numbers::pi;  // none is greater
       std::vector<Interval> ranges(at_index(row->items), Interval(c.low, no_limit ? infinity : c.high));
       for (int item = 0; pairs && item < row->items; ++item)
