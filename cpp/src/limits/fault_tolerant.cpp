@@ -1,6 +1,6 @@
 /// fault_tolerant: the condition number of J' with one internal leg locked, for each of the six. An external leg takes
-/// a freedom in every design (conditioning/locked_legs.hpp), and is no item. Not of a formula over every number type: a
-/// dual through singular values is wrong at ties. Over boxes of poses nothing is known of it.
+/// a freedom in every design (conditioning/locked_legs.hpp), and is no item. Not a formula over every number type: a dual
+/// through singular values is wrong at ties, and over boxes of poses matrices are tested (conditioning/forms/split.cpp).
 /// Declared in limits/pose_row.hpp.
 
 #include <cmath>
@@ -11,15 +11,13 @@
 namespace ninedof {
 namespace {
 
-constexpr int first_internal = 3;
-
 struct FaultTolerant {
-  static constexpr int items = 6;
+  static constexpr int items = 6, first_locked = 3;
 
-  static std::string part(int item) { return leg_name(first_internal + item); }
+  static std::string part(int item) { return leg_name(first_locked + item); }
   static double number(const PointLook& look, int item) {
     const LockedLegs legs(look.here().at, look.here().legs, look.characteristic_length());
-    return legs.condition_number({first_internal + item});
+    return legs.condition_number({first_locked + item});
   }
   static double slopes(const PointLook& look, int item, PointSlopes& out) {
     const double kappa = number(look, item);
@@ -28,7 +26,7 @@ struct FaultTolerant {
     out.length = 0.0;
     if (!std::isfinite(kappa)) return kappa;
     const PosedPoints& here = look.here();
-    const Spectrum s = locked_spectrum(here.at, here.legs, look.characteristic_length(), first_internal + item);
+    const Spectrum s = locked_spectrum(here.at, here.legs, look.characteristic_length(), first_locked + item);
     PointGradient by = zero_gradient();
     for (const auto& [place, sign] : {std::pair{0, 1.0}, std::pair{5, -1.0}}) {
       const double sigma = s.sigma[place];

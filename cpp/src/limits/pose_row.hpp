@@ -38,7 +38,7 @@ struct PoseRow {
   double (*number)(const PointLook&, int item) = nullptr;
   /// `number` and its derivatives, zero where it has none.
   double (*slopes)(const PointLook&, int item, PointSlopes&) = nullptr;
-  /// u over a box of poses. Null for pairs of legs, see limits/leg_clearance.hpp, and where nothing is known over boxes.
+  /// u over a box of poses. Null for pairs of legs, see limits/leg_clearance.hpp, and for condition numbers.
   PoseForm (*form)(const FormLook&, int item) = nullptr;
   /// u without a positive factor, where that is simpler: enough for a limit of 0.
   PoseForm (*numerator)(const FormLook&, int item) = nullptr;
@@ -50,8 +50,9 @@ struct PoseRow {
   /// Whether the number falls as u grows.
   bool falls = false;
 
-  /// Whether the number has bounds over boxes of poses.
-  bool has_bounds() const { return form != nullptr || pairs; }
+  /// Of a row of condition numbers with a leg locked: its items are legs from this one on. It has no u: over boxes of
+  /// poses it is bounded as the condition number is (conditioning/forms).
+  int first_locked = -1;
 };
 
 extern const PoseRow leg_length_row, external_length_row, upper_length_row, lower_length_row, base_cone_row,
@@ -107,6 +108,7 @@ constexpr PoseRow pose_row_of() {
     out.falls = Row::falls;
   }
   if constexpr (requires { Row::pairs; }) out.pairs = Row::pairs;
+  if constexpr (requires { Row::first_locked; }) out.first_locked = Row::first_locked;
   if constexpr (requires { Row::numerator; }) out.numerator = Row::numerator;
   return out;
 }

@@ -8,7 +8,6 @@
 #include "limits/leg_clearance.hpp"
 #include "limits/table.hpp"
 #include "math/numbers.hpp"
-#include "math/splitmix.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "proof/region/pose.hpp"
@@ -30,6 +29,8 @@ const PoseRow& checked_row(const PoseQuantity& wanted) {
   const PoseRow& row = pose_row("limit_name", wanted.limit_name);
   if (wanted.item < 0 || wanted.item >= row.items)
     throw InvalidArgument("item", std::to_string(wanted.item), "0 to " + std::to_string(row.items - 1));
+  if (row.first_locked >= 0 && !wanted.greatest)
+    throw InvalidArgument("greatest", "false for " + wanted.limit_name, "true: only the greatest is enclosed");
   if (row.pairs && wanted.greatest)
     throw InvalidArgument("greatest", "true for " + wanted.limit_name, "false: only the least distance is enclosed");
   return row;
@@ -160,64 +161,28 @@ class Climb {
   Box at_;
 };
 
-/// The worst value met where nothing is known over boxes: of a sample, then of samples about the worst of it. Its other
-/// end stays open.
-class Met {
- public:
-  Met(const Domain& domain, const PoseQuantity& wanted)
-      : domain_(domain),
-        wanted_(wanted),
-        row_(checked_row(wanted)),
-        home_(posed_points(domain.machine().geometry, domain.machine().neutral)) {}
-
-  template <class Stop>
-  Extreme run(const Stop& stopped) {
-    for (const Box& root : domain_.roots())
-      for (long n = 0; n < (root.low == root.high ? 1 : samples) && !stopped(); ++n) look(inside(root, root, 1.0));
-    const auto root = std::ranges::find_if(domain_.roots(), [&](const Box& one) { return one.piece == at_.piece; });
-    for (double part = 0.25; part > 1e-4 && at_.low != root->low && !stopped(); part *= 0.5)
-      for (long n = 0; n < samples / 16; ++n) look(inside(*root, at_, part));
-    const double end = wanted_.greatest ? infinity : -infinity;
-    const double value = wanted_.greatest ? worst_ * (1.0 - room) : -worst_ * (1.0 + room);
-    return {std::min(value, end), std::max(value, end), domain_.met(at_), 0};
+/// The condition number with a leg locked: roughly, then to the gap of the settings, then to the limit, until it is
+/// decided on which side of the limit it is.
+Extreme with_a_leg_locked(const PosedRobot& machine, const PoseQuantity& wanted, int leg, ProofSettings settings,
+                          const Control& control) {
+  constexpr double legs = 6.0, roughly = 1.0;
+  settings.locked = leg;
+  settings.seconds /= legs;
+  Control quiet;
+  quiet.stop = control.stop;
+  Extreme out{0.0, infinity, {}, 0};
+  const double gap = settings.gap;
+  for (const auto& [to, condition] : {std::pair{roughly, 0.0}, std::pair{gap, 0.0}, std::pair{gap, wanted.limit}}) {
+    settings.gap = to;
+    settings.condition = condition;
+    const Extreme now = worst_condition(machine, settings, {}, quiet).extreme;
+    if (now.low > out.low) out.at = now.at;
+    out = {std::max(out.low, now.low), std::min(out.high, now.high), out.at, out.boxes + now.boxes};
+    const bool kept = to == gap && !(out.high > wanted.limit), passed = out.low >= wanted.limit;
+    if (kept || passed) break;
   }
-
- private:
-  static constexpr long samples = 8192;
-  static constexpr double room = 1e-9;  // for rounding: the numbers are those of doubles
-
-  /// A point within a part of a box about a point of it.
-  Box inside(const Box& root, const Box& about, double part) {
-    Box out = root;
-    for (std::size_t k = 0; k < PoseForm::size; ++k) {
-      const double size = part * (root.high[k] - root.low[k]), middle = 0.5 * (about.low[k] + about.high[k]);
-      const double at = middle + size * (uniform_from(stream(k, next_)) - 0.5);
-      out.low[k] = out.high[k] = std::clamp(at, root.low[k], root.high[k]);
-    }
-    ++next_;
-    return domain_.nearest(out);
-  }
-  void look(const Box& point) {
-    const PosedRobot& machine = domain_.machine();
-    const FormPose pose = domain_.pose(point);
-    Mat3 rotation;
-    rotation << centre(pose.q[0]), centre(pose.q[1]), centre(pose.q[2]);
-    const PosedPoints here = posed_points(machine.geometry, {centre(pose.p), rotation, centre(pose.s)});
-    const PointLook seen(here, home_, wanted_.axis, machine.characteristic_length);
-    const double value = (wanted_.greatest ? 1.0 : -1.0) * row_.number(seen, wanted_.item);
-    if (!(value > worst_) && next_ > 1) return;
-    worst_ = value;
-    at_ = point;
-  }
-
-  const Domain& domain_;
-  const PoseQuantity& wanted_;
-  const PoseRow& row_;
-  PosedPoints home_;
-  std::uint64_t next_ = 0;
-  double worst_ = -infinity;
-  Box at_;
-};
+  return out;
+}
 
 }  // namespace
 }  // namespace over_region
@@ -236,9 +201,13 @@ std::vector<Extreme> pose_extremes(const PosedRobot& machine, const std::vector<
   std::vector<Extreme> out(quantities.size());
   parallel_for(static_cast<long>(quantities.size()), 1, settings.threads, [&](long k, long) {
     const auto n = static_cast<std::size_t>(k);
-    const bool bounds = pose_row("limit_name", quantities[n].limit_name).has_bounds();
-    out[n] = bounds ? Climb(domain, quantities[n], settings).run(stopped) : Met(domain, quantities[n]).run(stopped);
+    if (pose_row("limit_name", quantities[n].limit_name).first_locked < 0)
+      out[n] = Climb(domain, quantities[n], settings).run(stopped);
   });
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    const int first = pose_row("limit_name", quantities[n].limit_name).first_locked;
+    if (first >= 0) out[n] = with_a_leg_locked(machine, quantities[n], first + quantities[n].item, settings, control);
+  }
   return out;
 }
 
