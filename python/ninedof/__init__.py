@@ -77,7 +77,8 @@ from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_i
 from ninedof.report.report import report
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.sheet.failure import Failure, failure
+from ninedof.sheet.failure.failure import failure
+from ninedof.sheet.failure.result import Failure
 from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.singularity import (

@@ -13,7 +13,7 @@ import ninedof as nd
 from ninedof import _core
 from ninedof.optimize.region_report import posed
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.failure import SETS
+from ninedof.sheet.failure.failure import SETS
 
 DESIGN = Path(__file__).resolve().parents[3] / "examples" / "04_design.toml"
 RNG = np.random.default_rng(14)

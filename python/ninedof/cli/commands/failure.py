@@ -11,8 +11,8 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import LOAD, Design, Options
 from ninedof.cli.posed import load_option
-from ninedof.sheet.failure import failure as failure_of
-from ninedof.sheet.failure_tables import failure_parts
+from ninedof.sheet.failure.failure import failure as failure_of
+from ninedof.sheet.failure.tables import failure_parts
 from ninedof.support.arguments import finite
 
 PLACE = 3
