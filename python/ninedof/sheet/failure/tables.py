@@ -20,7 +20,7 @@ PURE = 1e-9  # a part of a motion below this beside the other is rounding
 
 def failure_parts(failure: Any) -> Iterator[Part]:
     """Yield the tables and sentences of a failure."""
-    yield from region_words(failure)
+    yield from list(region_words(failure))[:2]  # the last is of lengths
     healthy = failure.healthy
     where = "neutral pose" if healthy.pose == 0 else f"pose {healthy.pose}"
     yield f"Nine legs at work: condition number at most {healthy.value:.6f} ({where})."
