@@ -17,7 +17,7 @@ TREE = {
         ("Guides", _listed("characteristic-length regions reading-a-map assembly-modes confidence", "guides/")),
         (
             "Subjects",
-            _listed("conventions kinematics workspace optimization certificate certify sweeps")
+            _listed("conventions kinematics workspace failure optimization certificate certify sweeps")
             + _listed("study-file figures viewer report exports"),
         ),
         ("The paper", _listed("paper values equations")),

@@ -78,6 +78,8 @@ from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_i
 from ninedof.report.report import report
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.sheet.failure.failure import failure
+from ninedof.sheet.failure.result import Failure
 from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.singularity import (
@@ -134,6 +136,7 @@ __all__ = [
     "DeterminantBounds",
     "Ellipsoid",
     "ErrorBounds",
+    "Failure",
     "Followed",
     "Front",
     "Geometry",
@@ -195,6 +198,7 @@ __all__ = [
     "error_map",
     "error_samples",
     "export",
+    "failure",
     "follow",
     "force_ellipsoid",
     "forward_acceleration",

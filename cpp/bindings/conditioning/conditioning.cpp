@@ -1,13 +1,17 @@
 #include "ninedof/conditioning/conditioning.hpp"
 
+#include <pybind11/stl.h>
+
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "ninedof/batch/batch.hpp"
 #include "ninedof/conditioning/axis_spectrum.hpp"
 #include "ninedof/conditioning/characteristic_length.hpp"
+#include "ninedof/conditioning/locked_legs.hpp"
 #include "support/arrays.hpp"
 #include "support/lengths.hpp"
 #include "support/module.hpp"
@@ -63,6 +67,22 @@ void bind_conditioning(py::module_& m) {
             batch::singular_values(g, c.view(first, last), lc.from(first), to);
           });
         });
+  m.def("locked_condition_numbers", [](const Geometry& g, const ConfigurationStack& c, const Array& length,
+                                       const std::vector<std::pair<int, int>>& sets, int threads) {
+    const Lengths lc(length, c.count());
+    return for_each_row(c.count(), std::ssize(sets), threads, py::none(), [&](long i, double* to) {
+      const PosedPoints here = posed_points(g, c[i]);
+      const LockedLegs legs(here.at, here.legs, lc[i]);
+      for (const auto& [first, second] : sets) *to++ = legs.condition_number({first, second});
+    });
+  });
+  m.def("relative_manipulability", [](const Geometry& g, const ConfigurationStack& c, int threads) {
+    return for_each_row(c.count(), 9, threads, py::none(), [&](long i, double* to) {
+      const PosedPoints here = posed_points(g, c[i]);
+      const LockedLegs legs(here.at, here.legs, 1.0);
+      for (int leg = 0; leg < 9; ++leg) *to++ = legs.relative_manipulability(leg);
+    });
+  });
   m.def("hexagonal_condition_numbers", [](const Array& designs, int threads, const py::object& out) {
     const long count = static_cast<long>(designs.size() / 6);
     const double* x = rows("designs", designs, count, 6);

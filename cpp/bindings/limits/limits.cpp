@@ -24,8 +24,8 @@ void bind_limits(py::module_& m) {
   m.attr("limits_over_lengths") = py::tuple(py::cast(limits_over_lengths()));
   m.attr("margin_tolerance") = margin_tolerance;
   m.def("limit_numbers", [](const std::string& name, const Vec3& axis, const Geometry& g, const Configuration& home,
-                            const ConfigurationStack& c) {
-    const LimitNumbers numbers(name, g, home, axis);
+                            const ConfigurationStack& c, double characteristic_length) {
+    const LimitNumbers numbers(name, g, home, axis, {}, characteristic_length);
     return for_each_row(c.count(), numbers.items(), 0, py::none(), [&](long k, double* out) { numbers.at(c[k], out); });
   });
   m.def("pairs_sharing_a_joint", [](const Geometry& g) { return pairs_sharing_a_joint(g); });

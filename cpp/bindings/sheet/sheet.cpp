@@ -1,3 +1,4 @@
+#include "ninedof/domains/region_sample.hpp"
 #include "ninedof/sheet/sheet_region.hpp"
 #include "support/module.hpp"
 #include "support/placing.hpp"
@@ -32,10 +33,10 @@ std::function<PlacedAt()> placing_from(const PlacedDesign& design, const Region&
   };
 }
 
-Array worst_of(const SheetRegion& found) {
-  Array out({std::ssize(found.worst), py::ssize_t{6}});
+Array coordinates_of(const std::vector<Vec6>& poses) {
+  Array out({std::ssize(poses), py::ssize_t{6}});
   double* to = out.mutable_data();
-  for (const Vec6& at : found.worst) to = python::write(at, to);
+  for (const Vec6& at : poses) to = python::write(at, to);
   return out;
 }
 
@@ -59,7 +60,7 @@ void bind_question(py::module_& m) {
       .def_readwrite("joints", &Tolerances::joints, "Twelve.");
   py::class_<SheetQuestion>(m, "SheetQuestion", "A machine, and what its sheet is asked for.")
       .def(py::init([](const Geometry& g, const Configuration& neutral, const py::kwargs& given) {
-        return with_keywords(SheetQuestion{g, neutral, {}, {}, {}, {}, {}, {}, {}, {}}, given);
+        return with_keywords(SheetQuestion{g, neutral, {}, {}, {}, {}, {}, {}, {}, {}, {}}, given);
       }))
       .def_readwrite("limits", &SheetQuestion::limits, "Names of limits at poses, with the axes of cones.")
       .def_readwrite("exempt", &SheetQuestion::exempt, "The pairs of legs that may meet.")
@@ -74,7 +75,14 @@ void bind_question(py::module_& m) {
       .def_readwrite("weight", &SheetQuestion::weight, "Added to each load, or None.")
       .def_readwrite("errors", &SheetQuestion::errors, "Tolerances, or None.")
       .def_readwrite("leg_stiffness", &SheetQuestion::leg_stiffness, "Shape (9,), or None.")
-      .def_readwrite("characteristic_length", &SheetQuestion::characteristic_length, "None: no condition number.");
+      .def_readwrite("characteristic_length", &SheetQuestion::characteristic_length, "None: no condition number.")
+      .def_property(
+          "locked", [](const SheetQuestion& q) { return q.locked.size(); },
+          [](SheetQuestion& q, const std::vector<std::pair<int, int>>& sets) {
+            q.locked.clear();
+            for (const auto& [first, second] : sets) q.locked.push_back({first, second});
+          },
+          "Legs locked together, the second -1 for one alone; their number is read.");
 }
 
 }  // namespace
@@ -82,7 +90,8 @@ void bind_question(py::module_& m) {
 void bind_sheet(py::module_& m) {
   bind_question(m);
   py::class_<SheetRegion>(m, "SheetRegion", "The poses of a region at which the numbers of a sheet are worst.")
-      .def_property_readonly("worst", &worst_of, "Coordinates, shape (n, 6).")
+      .def_property_readonly(
+          "worst", [](const SheetRegion& found) { return coordinates_of(found.worst); }, "Coordinates, shape (n, 6).")
       .def_readonly("looked_at", &SheetRegion::poses, "Poses.")
       .def_readonly("mean", &SheetRegion::mean, "Condition number over the even poses.")
       .def_readonly("mean_error", &SheetRegion::mean_error, "Standard error of it.");
@@ -93,6 +102,11 @@ void bind_sheet(py::module_& m) {
     return interruptible(py::none(), [&](const Control& control) {
       return sheet_over_region(question, region, {.samples = samples}, placing, control);
     });
+  });
+  m.def("even_poses", [](const Region& region, long count) {
+    std::vector<Vec6> at;
+    for (long n = 0; n < count; ++n) at.push_back(even_sample(region, n));
+    return coordinates_of(at);
   });
   m.def("leg_lengths_over", [](const Geometry& g, const Configuration& neutral, const Region& region, long samples) {
     const std::array<Vec9, 2> found = interruptible(py::none(), [&](const Control& control) {

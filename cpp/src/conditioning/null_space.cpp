@@ -3,8 +3,10 @@
 #include <cmath>
 
 namespace ninedof {
+namespace {
 
-Mat36 null_space(const Mat3& c, const Mat3& b) {
+/// Three columns of the full Householder Q of [C; B], from `first` on, as rows.
+Mat36 rows_of_basis(const Mat3& c, const Mat3& b, Eigen::Index first) {
   Eigen::Matrix<double, 6, 3> a;
   a << c, b;
   Eigen::Matrix<double, 6, 3> reflectors = Eigen::Matrix<double, 6, 3>::Zero();
@@ -22,11 +24,21 @@ Mat36 null_space(const Mat3& c, const Mat3& b) {
   }
   Mat36 basis;
   for (Eigen::Index j = 0; j < 3; ++j) {
-    Vec6 column = Vec6::Unit(3 + j);
+    Vec6 column = Vec6::Unit(first + j);
     for (Eigen::Index k = 2; k >= 0; --k) column -= (beta[k] * reflectors.col(k).dot(column)) * reflectors.col(k);
     basis.row(j) = column;
   }
   return basis;
+}
+
+}  // namespace
+
+Mat36 null_space(const Mat3& c, const Mat3& b) {
+  return rows_of_basis(c, b, 3);
+}
+
+Mat36 range_space(const Mat3& c, const Mat3& b) {
+  return rows_of_basis(c, b, 0);
 }
 
 }  // namespace ninedof

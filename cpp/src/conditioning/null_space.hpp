@@ -9,6 +9,9 @@ namespace ninedof {
 /// Householder Q, transposed. Valid also where C or B is singular.
 Mat36 null_space(const Mat3& c, const Mat3& b);
 
+/// The first three columns: a basis of the rates that motions of O cause, where these are three.
+Mat36 range_space(const Mat3& c, const Mat3& b);
+
 /// M = [A; N_q E] from the rows of A and then of E, and from C and B.
 inline Mat6 conditioning_rows(const Mat6& a_e, const Mat3& c, const Mat3& b) {
   Mat6 m;

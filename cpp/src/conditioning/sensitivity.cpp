@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "conditioning/leg_rows.hpp"
 #include "conditioning/null_space.hpp"
 #include "math/linear/svd6.hpp"
 #include "ninedof/math/error.hpp"
@@ -44,16 +45,7 @@ void add_rate_gradient(const Points& at, const NineLegs& legs, int k, const Vec6
 
 Spectrum spectrum(const Points& at, const NineLegs& legs, double lc) {
   require_positive("characteristic_length", lc);
-  Mat6 e;  // rows of A, then of E
-  Mat3 b, c;
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 &external = legs.direction[at_index(i)], &upper = legs.direction[at_index(i + 3)];
-    const Vec3 u = at[at_index(point_u + i)] - at[point_p], u_tilde = at[at_index(point_u_tilde + i)] - at[point_p];
-    e.row(i) << u.cross(external).transpose() / lc, external.transpose();
-    e.row(i + 3) << u_tilde.cross(upper).transpose() / lc, upper.transpose();
-    c.row(i) = upper;
-    b.row(i) = legs.direction[at_index(i + 6)];
-  }
+  const auto [e, c, b] = leg_rows(at, legs, lc);
   const RightSvd<6> svd = right_svd_6x6(conditioning_rows(e, c, b));
   Spectrum out;
   out.sigma = svd.sigma;
@@ -77,16 +69,17 @@ PointGradient zero_gradient() {
 
 void add_spectrum_gradient(const Points& at, const NineLegs& legs, const Spectrum& s, int a, int b, double scale,
                            PointGradient& out) {
+  const auto add = [&](int k, int of, double weight) {
+    const double rate = k == s.locked ? 0.0 : s.rates(k, of);
+    add_rate_gradient(at, legs, k, s.twist.col(of), s.sdot.col(of), rate, weight, s.characteristic_length, out);
+  };
   for (int k = 0; k < 9; ++k) {
     if (a == b) {
-      add_rate_gradient(at, legs, k, s.twist.col(a), s.sdot.col(a), s.rates(k, a), 2.0 * scale * s.rates(k, a),
-                        s.characteristic_length, out);
+      add(k, a, 2.0 * scale * s.rates(k, a));
       continue;
     }
-    add_rate_gradient(at, legs, k, s.twist.col(a), s.sdot.col(a), s.rates(k, a), scale * s.rates(k, b),
-                      s.characteristic_length, out);
-    add_rate_gradient(at, legs, k, s.twist.col(b), s.sdot.col(b), s.rates(k, b), scale * s.rates(k, a),
-                      s.characteristic_length, out);
+    add(k, a, scale * s.rates(k, b));
+    add(k, b, scale * s.rates(k, a));
   }
 }
 

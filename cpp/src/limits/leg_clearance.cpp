@@ -12,7 +12,7 @@ namespace {
 
 struct LegClearances {
   static constexpr int items = leg_pairs;
-  static constexpr bool at_home = false;
+  static constexpr bool at_home = false, pairs = true;
   static constexpr double width = 0.03;
 
   static std::string part(int item) {

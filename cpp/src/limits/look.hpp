@@ -45,8 +45,8 @@ class PointLook {
  public:
   using Number = double;
   /// `axis` of a cone: in the frame of its body, zero for the leg's own direction at home.
-  PointLook(const PosedPoints& here, const PosedPoints& home, const Vec3& axis)
-      : here_(here), home_(home), axis_(axis) {}
+  PointLook(const PosedPoints& here, const PosedPoints& home, const Vec3& axis, double characteristic_length = 1.0)
+      : here_(here), home_(home), axis_(axis), length_(characteristic_length) {}
 
   Xyz<double> at(int point) const { return xyz(here_.at[at_index(point)]); }
   Xyz<double> direction(int leg) const { return xyz(here_.legs.direction[at_index(leg)]); }
@@ -67,6 +67,7 @@ class PointLook {
   const PosedPoints& here() const { return here_; }
   const PosedPoints& home() const { return home_; }
   const Vec3& given_axis() const { return axis_; }
+  double characteristic_length() const { return length_; }
 
   static Xyz<double> xyz(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
   static std::array<Xyz<double>, 3> columns(const Mat3& q) { return {xyz(q.col(0)), xyz(q.col(1)), xyz(q.col(2))}; }
@@ -75,6 +76,7 @@ class PointLook {
   const PosedPoints& here_;
   const PosedPoints& home_;
   Vec3 axis_;
+  double length_;
 };
 
 /// Derivatives by P points of the pose, and where the limit looks at home too, by a turn of the platform about base

@@ -17,9 +17,10 @@ struct PointSlopes {
   };
   int points = 0, home_points = 0;
   bool turns = false;  ///< whether Q and the pose at home count beyond these points
-  std::array<Of, 7> at;    ///< by points of the pose
+  std::array<Of, point_count> at;  ///< by points of the pose
   std::array<Of, 2> home;  ///< by points of the neutral pose
   Vec3 turn, home_turn;    ///< by a turn of the platform about base axes beyond that of its points
+  double length = 0.0;     ///< by the characteristic length
 };
 
 /// The functions of a row. u is the smooth quantity behind the number that people read: a squared length, a cosine.
@@ -38,7 +39,7 @@ struct PoseRow {
   double (*number)(const PointLook&, int item) = nullptr;
   /// `number` and its derivatives, zero where it has none.
   double (*slopes)(const PointLook&, int item, PointSlopes&) = nullptr;
-  /// u over a box of poses. Null for pairs of legs, see limits/leg_clearance.hpp.
+  /// u over a box of poses. Null for pairs of legs, see limits/leg_clearance.hpp, and for condition numbers.
   PoseForm (*form)(const FormLook&, int item) = nullptr;
   /// u without a positive factor, where that is simpler: enough for a limit of 0.
   PoseForm (*numerator)(const FormLook&, int item) = nullptr;
@@ -49,11 +50,15 @@ struct PoseRow {
   Interval (*smooth)(const Interval& number) = nullptr;
   /// Whether the number falls as u grows.
   bool falls = false;
+
+  /// Of a row of condition numbers with a leg locked: its items are legs from this one on. It has no u: over boxes of
+  /// poses it is bounded as the condition number is (conditioning/forms).
+  int first_locked = -1;
 };
 
 extern const PoseRow leg_length_row, external_length_row, upper_length_row, lower_length_row, base_cone_row,
     platform_cone_row, base_cone_external_row, base_cone_internal_row, platform_cone_external_row,
-    platform_cone_internal_row, leg_clearance_row, singularity_free_row;
+    platform_cone_internal_row, leg_clearance_row, singularity_free_row, fault_tolerant_row;
 
 /// "l1" to "r3", in the order of leg_lengths.
 const char* leg_name(int leg);
@@ -61,12 +66,13 @@ const char* leg_name(int leg);
 /// The number of a row and its slopes, by P touched points.
 template <class Row, int P>
 double slopes_of(const PointLook& look, int item, const std::array<int, P>& touched, PointSlopes& out) {
-  static_assert(P <= 7 && (P <= 2 || !Row::at_home), "PointSlopes has no room for more");
+  static_assert(P <= point_count && (P <= 2 || !Row::at_home), "PointSlopes has no room for more");
   using Seen = DualLook<P, Row::at_home>;
   const auto u = Row::u(Seen(look, touched), item);
   const double number = Row::number_of(u.value, look, item), slope = Row::slope(number);
   out.points = out.home_points = 0;
   out.turns = false;
+  out.length = 0.0;
   if (slope == 0.0) return number;
   const auto three = [&](int first) {
     const auto f = at_index(first);
@@ -103,9 +109,9 @@ constexpr PoseRow pose_row_of() {
     out.read = Row::read;
     out.smooth = Row::smooth;
     out.falls = Row::falls;
-  } else {
-    out.pairs = true;
   }
+  if constexpr (requires { Row::pairs; }) out.pairs = Row::pairs;
+  if constexpr (requires { Row::first_locked; }) out.first_locked = Row::first_locked;
   if constexpr (requires { Row::numerator; }) out.numerator = Row::numerator;
   return out;
 }

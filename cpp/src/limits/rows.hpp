@@ -48,6 +48,7 @@ inline constexpr std::array known_limits = [] {
       of_pose({"leg_clearance", length, only_low, Unit::zp, "radius"}, linear, leg_clearance_row),
       LimitRow{{"condition_number", ratio, only_high}},
       of_pose({"singularity_free", sign, only_low, {}, "steps", 1e-3}, plain, singularity_free_row),
+      of_pose({"fault_tolerant", ratio, only_high}, logarithm, fault_tolerant_row),
   };
 }();
 

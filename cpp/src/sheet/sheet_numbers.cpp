@@ -23,7 +23,8 @@ WorstEnd worst_end(const std::string& limit) {
 
 SheetNumbers::SheetNumbers(const SheetQuestion& question) : question_(question) {
   for (const auto& [name, axis] : question_.limits) {
-    limits_.emplace_back(name, question_.geometry, question_.neutral, axis, question_.exempt);
+    limits_.emplace_back(name, question_.geometry, question_.neutral, axis, question_.exempt,
+                         question_.characteristic_length.value_or(1.0));
     groups_.push_back({name, limits_.back().items(), worst_end(name)});
   }
   using enum WorstEnd;
@@ -39,6 +40,8 @@ SheetNumbers::SheetNumbers(const SheetQuestion& question) : question_(question) 
   if (question_.errors) groups_.push_back({"error", 3, greatest});
   if (question_.leg_stiffness) groups_.push_back({"stiffness", 2, least});
   if (question_.characteristic_length) groups_.push_back({"condition_number", 1, greatest});
+  first_locked_ = groups_.size();
+  if (question_.characteristic_length) groups_.insert(groups_.end(), question_.locked.size(), {"locked", 1, greatest});
 }
 
 void SheetNumbers::evaluate(std::size_t group, const Configuration& c, double* out) const {
@@ -69,6 +72,9 @@ void SheetNumbers::evaluate(std::size_t group, const Configuration& c, double* o
     const LeastStiffness least = least_stiffness(g, c, *q.leg_stiffness);
     out[0] = least.shift;
     out[1] = least.turn;
+  } else if (name == "locked") {
+    const PosedPoints here = posed_points(g, c);
+    *out = LockedLegs(here.at, here.legs, *q.characteristic_length).condition_number(q.locked[group - first_locked_]);
   } else {
     *out = condition_number(g, c, *q.characteristic_length);
   }

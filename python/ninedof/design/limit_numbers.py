@@ -32,8 +32,15 @@ LEGS = {
 """Constraints of lengths, and their legs in the order of `leg_lengths`."""
 
 
-def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration, axis: Any = (0, 0, 0)) -> Floats:
-    """Return what a limit is about at each pose, shape (n, items): lengths, radians, distances, determinants.
+def limit_numbers(
+    name: str,
+    g: Geometry,
+    c: Configuration,
+    home: Configuration,
+    axis: Any = (0, 0, 0),
+    characteristic_length: float = 1.0,
+) -> Floats:
+    """Return what a limit is about at each pose, shape (n, items): lengths, radians, distances, determinants, ratios.
 
     Parameters
     ----------
@@ -45,9 +52,11 @@ def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration,
         A single one: determinants are positive on its side, and cones without an axis are about its legs.
     axis : array_like, shape (3,), optional
         Of a cone, in the frame of its body; by default each leg's own direction at home.
+    characteristic_length : float
+        For condition numbers.
 
     """
-    return _core.limit_numbers(name, axis, g, home, c)
+    return _core.limit_numbers(name, axis, g, home, c, characteristic_length)
 
 
 def cone_axes(study: Study | None) -> dict[str, tuple[float, ...]]:

@@ -39,6 +39,7 @@ KINDS: dict[str, tuple[str, str, Any]] = {  # limits: beginning of the name, wor
     "base_cone": ("joint cones of the base", "#AA3377", (0, (3.5, 0.7, 0.8, 0.7))),
     "platform_cone": ("joint cones of the platform", "#CC79A7", (0, (3.5, 0.7, 0.8, 0.7, 0.8, 0.7))),
     "leg_clearance": ("leg clearance", "#7B4B00", (0, (5.0, 1.0))),
+    "fault_tolerant": ("condition number, one leg locked", "#117733", (0, (1.6, 0.9))),
     "condition_number": ("condition number", style.INK, "-"),
     "det": ("singularity", "#CC3311", (0, (1.5, 0.6))),
     "region": ("region", style.MUTED, (0, (2.0, 1.6))),

@@ -183,7 +183,14 @@ class MachineCertificate:
                 by = "" if self.rule is None else " by the rule"
                 out.append(f"Violated{by}: {name}: {size[limit.side == 'min']}{at}.")
             elif limit.answer == UNDECIDED:
-                out.append(f"Undecided: {name}: the worst value is between {' and '.join(size)}.")
+                met = size[limit.side == "min"]
+                open_end = math.isinf(limit.value[limit.side == "max"])
+                between = (
+                    f"the worst value met is {met}, and nothing bounds it"
+                    if open_end
+                    else (f"the worst value is between {' and '.join(size)}")
+                )
+                out.append(f"Undecided: {name}: {between}.")
         return out
 
     def to_dict(self) -> dict[str, Any]:

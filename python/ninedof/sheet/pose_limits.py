@@ -63,7 +63,7 @@ def pose_limits(
     neutral : Configuration
         A single one, for the axes of cones, signs of determinants and units of zp.
     characteristic_length : float
-        For `condition_limit`.
+        For `condition_limit` and `fault_tolerant`.
     beside : array_like, shape (m, 9), optional
         Leg lengths at other poses: with them the spread at a pose is over these and that pose alone, whatever the order
         of the stack.
@@ -79,7 +79,8 @@ def pose_limits(
             numbers = limit_numbers(name, g, c, neutral)[:, apart(g, study)].min(axis=1, initial=math.inf)
             values = [("", numbers)]
         elif name in PARTS:
-            values = list(zip(PARTS[name], limit_numbers(name, g, c, neutral, limit.for_core().axis).T, strict=True))
+            numbers = limit_numbers(name, g, c, neutral, limit.for_core().axis, characteristic_length)
+            values = list(zip(PARTS[name], numbers.T, strict=True))
         else:
             values = _spreads(name, leg_lengths(g, c), beside) if name in SPREADS else []
         for part, value in values:

@@ -148,10 +148,16 @@ def internal_over(c: Configuration) -> str:
 
 
 def _limits(study: Study | None) -> list[tuple[str, Floats]]:
-    """Return limits at poses and axes of cones: of each kind of joint about its axis, then all that the study has."""
-    cones = [limit.for_core() for limit in (study.limits if study is not None else ()) if limit.row.is_angle]
+    """Return limits at poses and axes of cones: of each kind of joint about its axis, then all that the study has.
+
+    Ratios, which the sheet has no table of, only where the study limits them.
+    """
+    limits = study.limits if study is not None else ()
+    own = {limit.name for limit in limits}
+    cones = [limit.for_core() for limit in limits if limit.row.is_angle]
     joints = [(name, np.array(axis or np.zeros(3))) for name, axis in cone_axes(study).items()]
-    others = [(name, np.zeros(3)) for name in PARTS if len(ROWS[name].sides) == 1 and name not in CONES]
+    names = [name for name in PARTS if len(ROWS[name].sides) == 1 and (ROWS[name].kind != "ratio" or name in own)]
+    others = [(name, np.zeros(3)) for name in names if name not in CONES]
     return others + joints + [(c.name, c.axis) for c in cones if c.name not in JOINTS]
 
 

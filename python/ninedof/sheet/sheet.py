@@ -283,12 +283,12 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
 
     """
     values = options_of("sheet", SheetArguments, options, linear_speed=1.0, angular_speed=0.0, samples=SAMPLES)
-    g, c, own_length = _robot(design, poses)
+    g, c, own_length = robot_of(design, poses)
     length = length_argument(own_length if values["characteristic_length"] is None else values["characteristic_length"])
     weight = Weight.of(values["mass"], values["centre"], values["gravity"])
     internal = internal_over(c) if values["internal"] is None else values["internal"]
     motion = Motion.of(values["linear_speed"], values["angular_speed"], internal, values["twist"], values["twist_rate"])
-    loads = _loads(np.zeros((1, 6)) if values["loads"] is None and weight is not None else values["loads"])
+    loads = load_rows(np.zeros((1, 6)) if values["loads"] is None and weight is not None else values["loads"])
     length = float(length_of(g, c[0], length)) if isinstance(length, str) else length
     count = whole("samples", values["samples"], 1, MOST_SAMPLES)
     study: Study | None = getattr(design, "solved", None)
@@ -304,7 +304,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     if study is not None and region is not None and (places_o(region) or ranges is not None):
         place = None if ranges is None else Placing(design.study, c[0], variables or {}, design.objective, ranges)
         look, worst, shifts = look_over(design.study, c[0], question, count, place)
-        c = _joined(c, worst)
+        c = joined(c, worst)
         study = replace(study, objective=replace(study.objective, poses=(*study.objective.poses, *shifts)))
     numbers = _core.sheet_numbers(question, c)
     kappa = numbers["condition_number"][:, 0] if "condition_number" in numbers else np.full(len(c), np.inf)
@@ -359,7 +359,8 @@ def _tolerances(legs: ArrayLike | None, joints: ArrayLike | None) -> _core.Toler
     )
 
 
-def _robot(design: Any, poses: Configuration | None) -> tuple[Geometry, Configuration, float | str]:
+def robot_of(design: Any, poses: Configuration | None) -> tuple[Geometry, Configuration, float | str]:
+    """Return geometry, configurations, the neutral one first, and characteristic length of a design."""
     if poses is not None and (not isinstance(poses, Configuration) or len(poses.shape) != 1 or not len(poses)):
         raise ValueError(f"poses: got {shown(poses)}, expected a stack of configurations of shape (n,)")
     if isinstance(design, Geometry):
@@ -379,7 +380,8 @@ def _robot(design: Any, poses: Configuration | None) -> tuple[Geometry, Configur
     return g, Configuration(np.concatenate(p), np.concatenate(q), np.concatenate(s)), length
 
 
-def _loads(loads: ArrayLike | None) -> Floats:
+def load_rows(loads: ArrayLike | None) -> Floats:
+    """Return loads as rows (moment about p, force)."""
     rows = np.zeros((0, 6)) if loads is None else np.atleast_2d(as_floats("loads", loads, (6,)))
     if rows.ndim != 2 or not np.isfinite(rows).all():
         raise ValueError(f"loads: got {shown(loads)}, expected rows of six finite numbers, moment and force")
@@ -408,7 +410,8 @@ def _determinants(g: Geometry, c: Configuration) -> dict[str, Determinant]:
     return determinants
 
 
-def _joined(c: Configuration, more: Configuration) -> Configuration:
+def joined(c: Configuration, more: Configuration) -> Configuration:
+    """Return two stacks as one."""
     names = ("position", "rotation", "internal_point")
     return Configuration(*(np.concatenate([getattr(c, name), getattr(more, name)]) for name in names))
 

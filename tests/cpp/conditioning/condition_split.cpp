@@ -9,6 +9,8 @@
 
 #include "conditioning/forms/gram.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
+#include "ninedof/conditioning/locked_legs.hpp"
+#include "ninedof/kinematics/velocity.hpp"
 
 using namespace ninedof;
 using namespace ninedof::forms;
@@ -71,11 +73,17 @@ struct Case {
     for (int k = 0; k < 3; ++k) out.q[static_cast<std::size_t>(k)] = constant<T>(Vec3::Unit(k));
     return out;
   }
-  double condition(const Point& t) const {
+  Configuration configuration(const Point& t) const {
     Configuration c = home;
     c.position += half * Vec3(t[0], t[1], t[2]);
     c.internal_point += 0.5 * half * Vec3(t[0], t[1], t[2]);
-    return condition_number(robot, c, 1.0);
+    return c;
+  }
+  /// With a leg locked; -1: none.
+  double condition(const Point& t, int locked = -1) const {
+    if (locked < 0) return condition_number(robot, configuration(t), 1.0);
+    const PosedPoints here = posed_points(robot, configuration(t));
+    return LockedLegs(here.at, here.legs, 1.0).condition_number({locked});
   }
 };
 
@@ -145,23 +153,61 @@ TEST_SUITE("condition_split") {
     }
   }
 
+  TEST_CASE_TEMPLATE("with a leg locked the bound is above M^T M of J' without its column", T, PoseForm, CurvedForm) {
+    Sampler draw;
+    for (int trial = 0; trial < 500; ++trial) {
+      const Case one(draw, std::pow(10.0, -1.5 + draw()));
+      const int locked = 3 + trial % 6;
+      Moves unused;
+      const SplitGramOf<T> split = split_gram(one.robot, 1.0, one.template pose<T>(), unused, locked);
+      REQUIRE(split.known);
+      const Point t = draw.point();
+      Mat69 j = jacobian(one.robot, one.configuration(t), 1.0);
+      j.col(locked).setZero();
+      const Mat6 exact = (j * j.transpose()).inverse();
+      Eigen::Matrix<double, 9, 9> whole, error;  // above, across and sum
+      for (std::size_t i = 0; i < 9; ++i)
+        for (std::size_t k = 0; k < 9; ++k) {
+          const std::size_t a = std::max(i, k), b = std::min(i, k);
+          const T& form = a < 6   ? split.above[entry(a, b)]
+                          : b < 6 ? split.across[a - 6][b]
+                                  : split.sum[entry(a - 6, b - 6)];
+          const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(k);
+          whole(r, c) = static_cast<double>(at(form, t));
+          error(r, c) = form.r;
+        }
+      const double size = exact.norm();
+      const Mat6 above =
+          whole.topLeftCorner<6, 6>() + Mat6(Vec6(error.topLeftCorner<6, 6>().rowwise().sum()).asDiagonal());
+      CHECK(Eigen::SelfAdjointEigenSolver<Mat6>(above - exact).eigenvalues()[0] > -1e-9 * size);
+      if (one.half > 2e-2) continue;
+      // The least over w is the matrix itself, up to the errors.
+      const Mat6 least = whole.topLeftCorner<6, 6>() - whole.topRightCorner<6, 3>() *
+                                                           whole.bottomRightCorner<3, 3>().inverse() *
+                                                           whole.bottomLeftCorner<3, 6>();
+      CHECK((least - exact).norm() <= 1e-9 * size + 100.0 * error.norm());
+      CHECK((whole.topLeftCorner<6, 6>() - exact).norm() < 500.0 * one.half * one.half * size);
+    }
+  }
+
   TEST_CASE("what is proved of the condition number holds at points") {
     Sampler draw;
     int everywhere = 0, parts = 0, nowhere = 0;
     for (int trial = 0; trial < 2'000; ++trial) {
       const Case one(draw, std::pow(10.0, -2.0 + draw()));
-      const double limit = one.condition({}) * (1.0 + draw() * one.half);
+      const int locked = trial % 7 == 0 ? -1 : 2 + trial % 7;
+      const double limit = one.condition({}, locked) * (1.0 + draw() * one.half);
       if (!(limit > 1.0)) continue;
       Moves unused;
-      const SplitGram g = split_gram(one.robot, 1.0, one.pose(), unused);
+      const SplitGram g = split_gram(one.robot, 1.0, one.pose(), unused, locked);
       const ConditionSplit split = split_by_condition(g, limit);
-      const bool all = bounded(split_gram(one.robot, 1.0, one.pose<CurvedForm>(), unused), limit);
+      const bool all = bounded(split_gram(one.robot, 1.0, one.pose<CurvedForm>(), unused, locked), limit);
       everywhere += all;
       parts += !split.everywhere && std::isfinite(split.level);
       nowhere += lower(split.excess) > 0.0;
       for (int n = 0; n < 20; ++n) {
         const Point t = draw.point();
-        const double kappa = one.condition(t),
+        const double kappa = one.condition(t, locked),
                      along = split.slope[0] * t[0] + split.slope[1] * t[1] + split.slope[2] * t[2];
         if (all || split.everywhere || along >= split.level) CHECK(kappa <= limit * (1.0 + 1e-11));
         if (static_cast<double>(at(split.excess, t)) > split.excess.r) CHECK(kappa >= limit * (1.0 - 1e-11));

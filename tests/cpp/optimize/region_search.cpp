@@ -120,6 +120,7 @@ bool same_bits(const RegionWorst& a, const RegionWorst& b) {
 const std::vector<Limit> many{{.name = "leg_length", .low = 1.0, .high = 5.0},
                               {.name = "leg_clearance", .low = 0.1},
                               {.name = "base_cone", .high = 0.6},
+                              {.name = "fault_tolerant", .high = 6.0},
                               {.name = "singularity_free", .low = 0.02, .steps = 2}};
 
 }  // namespace

@@ -63,6 +63,7 @@ const std::vector<Limit> listed{{"radius_ratio", 0.5, 2.0},
                                 {.name = "base_cone", .high = 0.8, .axis = {0.1, -0.2, 2.0}},
                                 {.name = "platform_cone", .high = 0.8},
                                 {.name = "platform_cone", .high = 1.5, .axis = {0.1, 0.2, -0.7}},
+                                {.name = "fault_tolerant", .high = 6.0},
                                 {.name = "singularity_free", .low = 0.05, .steps = 3}};
 
 /// Whether a limit is about differences of poses: it has no meaning at one pose.

@@ -2,8 +2,10 @@
 /// Poses and constraints once more, by hand: from Geometry, legs.hpp and vectors, one plain formula each. Shares
 /// nothing with the library's views and rows.
 
+#include <Eigen/SVD>
 #include <cmath>
 
+#include "ninedof/kinematics/velocity.hpp"
 #include "ninedof/math/rotation.hpp"
 #include "ninedof/problem/problem.hpp"
 #include "ninedof/robot/legs.hpp"
@@ -20,6 +22,7 @@ using ninedof::Unit;
 struct Design {
   Geometry geometry;
   std::vector<Configuration> at;
+  double characteristic_length = 1.0;
 
   std::vector<Configuration> looked(const Limit& limit = {}) const {
     if (limit.at == ninedof::LimitAt::neutral) return {at.front()};
@@ -45,7 +48,7 @@ inline Configuration displaced(const Configuration& home, const ninedof::Pose& p
 inline Design design(const Problem& p, const Eigen::VectorXd& x, double fraction = 1.0) {
   const ninedof::DesignFamily& family = ninedof::design_family(p.family);
   const std::span<const double> own{x.data(), family.variables().size()};
-  Design out{family.geometry(own), {family.configuration(own)}};
+  Design out{family.geometry(own), {family.configuration(own)}, ninedof::characteristic_length(p, x)};
   const std::vector<std::string> names = p.names();
   for (std::size_t k = 0; k < p.objective.poses.size(); ++k) {
     Vec3 offset = Vec3::Zero();
@@ -169,6 +172,14 @@ inline Range measured(const Limit& limit, const Design& d) {
           out.add((body[i] - body[j]).norm() / (limit.of == Unit::radius ? widest(g, base) : 1.0));
     }
   }
+  if (name == "fault_tolerant")
+    for (const Configuration& c : d.looked(limit))
+      for (Eigen::Index k = 3; k < 9; ++k) {
+        Eigen::Matrix<double, 6, 9> j = ninedof::jacobian(g, c, d.characteristic_length);
+        j.col(k).setZero();
+        const Eigen::VectorXd sigma = Eigen::JacobiSVD<Eigen::MatrixXd>(j).singularValues();
+        out.add(sigma[0] / sigma[5]);
+      }
   if (name == "leg_clearance")
     for (const Configuration& c : d.looked(limit)) {
       const auto legs = segments(g, c);

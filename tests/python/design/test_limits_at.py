@@ -45,6 +45,7 @@ LIMITS = (
         "platform_cone_external": {"max_deg": 60.0, "axis": [0.2, 0.3, -1.0]},
         "platform_cone_internal": {"max_deg": 65.0, "axis": [0.2, -0.3, -1.0]},
         "singularity_free": {"min": 0.01},
+        "fault_tolerant": {"max": 9.0},
     },
     {
         "leg_length": {"min": 0.2, "max": 2.0, "of": "zp"},
@@ -126,6 +127,14 @@ def hand(name, options, g, c):
         turning = [np.cross(d, w) for d, w in zip(from_o(base[:3]), from_o(moved[:3]), strict=True)]
         return [abs(np.linalg.det(rows)) for rows in (e[6:], e[3:6], np.array(turning))]
 
+    def locked():
+        e, zero, arm = along / lengths[:, None], np.zeros((3, 3)), moved - c.position
+        external, upper = np.cross(arm[:3], e[:3]), np.cross(arm[3:], e[3:6])
+        rates = np.block([[external, e[:3], zero], [-upper, -e[3:6], e[3:6]], [zero, zero, e[6:]]])
+        twists = np.linalg.inv(rates)[:6]  # of a characteristic length of 1
+        sigma = [np.linalg.svd(np.delete(twists, leg, axis=1), compute_uv=False) for leg in range(3, 9)]
+        return [one[0] / one[5] for one in sigma]
+
     sizes = wide if options.get("of") == "radius" else (1.0, 1.0)
     pairs = [(i, j) for i in range(3) for j in range(i + 1, 9)]
     values = {
@@ -148,6 +157,7 @@ def hand(name, options, g, c):
         "platform_cone_external": lambda: angles(-along[:3] @ c.rotation),
         "platform_cone_internal": lambda: angles(along[3:6] @ c.rotation),
         "singularity_free": determinants,
+        "fault_tolerant": locked,
     }
     return np.array(values[name]())
 

@@ -47,6 +47,7 @@ LIMITS = {
     "platform_cone_external": {"max_deg": 35},
     "platform_cone_internal": {"max_deg": 50, "axis": [0, 0, -1]},
     "singularity_free": {"min": 0.01, "steps": 1},
+    "fault_tolerant": (None, 30.0),
 }
 
 
@@ -66,6 +67,8 @@ def by_hand(row):
 
 
 def text(margin, kind):
+    if margin == -np.inf:  # of a limit that is violated, and bounded by nothing
+        return "-∞"
     if kind == "sign":
         return f"{margin:.4f}"
     return "over 10000 %" if margin >= 100.0 else "below -10000 %" if margin <= -100.0 else f"{100.0 * margin:.2f} %"

@@ -42,6 +42,7 @@ def shown(published):
         "WorkspaceSurface": space.surface(),
         "SweepResult": nd.sweep(published, HOME, {"x_p": (-1, 1, 201)}, ["condition_number", "leg_lengths"]),
         "Sheet": result.sheet(),
+        "Failure": nd.failure(result),
         "Design": nd.Design(published, HOME),
         "Trajectory": line,
         "Followed": nd.follow(published, line, HOME),

@@ -28,6 +28,7 @@ LINES = {
     "certify": ["{run} --condition 50 --gap 0.9 --time 1 --tolerance 1e-3 --threads 1"],
     "check": ["{certificate}"],
     "export": ["{design} --to mjcf --out {xml} --leg-mass 1 --platform-mass 1 --gravity 1 --unit mm"],
+    "failure": ["{design} --condition 10 --load 0,0,0,0,0,1 --no-pairs"],
     "forces": ["{design} --load 0,0,0,0,0,1 --position 0,0,4 --rotation-deg 0,0,0 --internal-point 0,0,2"],
     "modes": [
         "{design} --lengths 5,5,5,3,3,3,4,4,4",

@@ -331,6 +331,19 @@ row("sheet", few=3, huge=("samples",))(
 )
 for name in ("joints", "summary", "to_csv", "to_dict"):
     row(f"Sheet.{name}", lambda name=name: getattr(it.result().sheet(it.stack()), name)())(dict)
+row("failure", few=3, huge=("samples",))(
+    lambda: {
+        "design": it.design(),
+        "poses": it.stack(),
+        "condition_number": 5.0,
+        "loads": [0.0, 0.0, 0.0, 0.0, 0.0, -1.0],
+        "pairs": False,
+        "characteristic_length": 1.0,
+        "samples": 10,
+    }
+)
+for name in ("summary", "to_dict"):
+    row(f"Failure.{name}", lambda name=name: getattr(nd.failure(it.design(), it.stack()), name)())(dict)
 row("sweep", few=20, dear=("out",), huge=("over",), words={"over": ("x_p",)})(
     lambda: {
         "geometry": it.g(),

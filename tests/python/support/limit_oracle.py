@@ -182,6 +182,15 @@ def _leg_clearance(robot, limit):
     return apart.reshape(-1) / _unit(robot, limit)
 
 
+def _fault_tolerant(robot, limit):
+    """Condition numbers of the rates to twists with one internal leg at rest, by singular values of eight columns."""
+    c = robot.poses
+    rates = np.stack([nd.inverse_velocity(robot.geometry, c, *m.reshape(3, 3)) for m in np.eye(9)], axis=-1)
+    j = np.linalg.inv(rates)[..., :6, :] * np.array([robot.length] * 3 + [1.0] * 3)[:, None]
+    sigma = [np.linalg.svd(np.delete(j, leg, axis=-1), compute_uv=False) for leg in range(3, 9)]
+    return np.concatenate([(s[..., 0] / s[..., 5]).reshape(-1) for s in sigma])
+
+
 def _alone(value):
     return (lambda r, limit: np.array([value(r)]),) * 2
 
@@ -212,6 +221,7 @@ RULES = {  # the values that must be at most the high limit, and those that must
         for body in ("base", "platform")
         for kind, legs in (("external", slice(0, 3)), ("internal", slice(3, 6)))
     },
+    "fault_tolerant": (_fault_tolerant, None),
     "singularity_free": (None, lambda r, limit: determinants(r, limit.steps if limit.at == "poses" else 0)),
 }
 

@@ -25,6 +25,7 @@ struct Spectrum {
   Eigen::Matrix<double, 3, 6> sdot;    ///< velocity of O for each twist
   Mat96 rates;                         ///< leg rates for each twist
   double characteristic_length;
+  int locked = -1;  ///< the leg of locked_spectrum, whose rates are 0: `rates` has the forces in it
 };
 
 /// Throws InvalidArgument unless the characteristic length is finite and positive.

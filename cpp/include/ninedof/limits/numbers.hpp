@@ -23,14 +23,14 @@ std::vector<std::string> limits_over_lengths();
 /// The items of a limit at poses: legs ("l1"), pairs of legs ("l1-q2") or determinants ("det N").
 std::vector<std::string> limit_parts(const std::string& name);
 
-/// The numbers that a limit at poses is about, an item each: lengths, angles in radians, distances of legs, or
-/// determinants, positive on the side of the neutral pose.
+/// The numbers that a limit at poses is about, an item each: lengths, angles in radians, distances of legs, determinants,
+/// positive on the side of the neutral pose, or condition numbers with a leg locked.
 class LimitNumbers {
  public:
   /// `axis` of a cone: in the frame of its body, zero for the leg's own neutral direction. Pairs of legs that are
   /// `exempt` have an infinite distance.
   LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const Vec3& axis = Vec3::Zero(),
-               const std::array<bool, 21>& exempt = {});
+               const std::array<bool, 21>& exempt = {}, double characteristic_length = 1.0);
   int items() const;
   /// `out` has room for them.
   void at(const Configuration& pose, double* out) const;
@@ -41,6 +41,7 @@ class LimitNumbers {
   PosedPoints home_;
   Vec3 axis_;
   std::array<bool, 21> exempt_;
+  double length_;
 };
 
 /// Every pair of legs.

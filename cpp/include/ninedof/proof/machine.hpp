@@ -61,6 +61,7 @@ struct ProofSettings {
   double relative = 1e-7;    ///< see PoseQuantity::limit
   double gap = 0.05;         ///< the same of the condition number
   double condition = 0.0;    ///< a condition number to be proved instead; 0: none
+  int locked = -1;           ///< of the condition number: an internal leg that is locked, 3 to 8; -1: none
   /// At most, for a number; ten times as many where O follows a rule: it is fitted until limits are only just kept.
   long boxes = 200'000;
 };

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ninedof/conditioning/locked_legs.hpp"
 #include "ninedof/kinematics/leg_motion.hpp"
 #include "ninedof/limits/numbers.hpp"
 #include "ninedof/statics/accuracy.hpp"
@@ -28,6 +29,7 @@ struct SheetQuestion {
   std::optional<Tolerances> errors;
   std::optional<Vec9> leg_stiffness;
   std::optional<double> characteristic_length;  ///< none: no condition number
+  std::vector<LegSet> locked;                   ///< legs whose failure is looked at
 };
 
 /// Which end of a number is the worst over poses.
@@ -46,7 +48,7 @@ class SheetNumbers {
 
   /// Each limit; "speed" and "acceleration" (9) of the motion; "twist_speed" and "twist_acceleration" (9) of its given
   /// one; "force" (9 a load); "error" (position, rotation, internal point); "stiffness" (LeastStiffness);
-  /// "condition_number". Those that were not asked for are left out.
+  /// "condition_number"; "locked" (1) for each set of legs: that of the motions left. Those that were not asked for are left out.
   const std::vector<SheetGroup>& groups() const { return groups_; }
   /// `out` has room for the numbers of the group. Pairs of legs that may meet have an infinite distance.
   void evaluate(std::size_t group, const Configuration& c, double* out) const;
@@ -55,6 +57,7 @@ class SheetNumbers {
   SheetQuestion question_;
   std::vector<LimitNumbers> limits_;
   std::vector<SheetGroup> groups_;
+  std::size_t first_locked_ = 0;
 };
 
 }  // namespace ninedof

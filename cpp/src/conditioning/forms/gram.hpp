@@ -48,7 +48,9 @@ Mat6 middle_of(const Symmetric6Of<T>& g) {
 
 /// M^T M between bounds without an inverse: for a number w of three components,
 ///     x^T M^T M x = min over w of x^T above x + 2 w^T across x + w^T sum w,
-/// so that `above` is not below M^T M. `across` vanishes in the middle of the box.
+/// so that `above` is not below M^T M. `across` vanishes in the middle of the box. With an internal leg locked (3 to 8)
+/// M is that of conditioning/locked_legs.hpp: w is across the leg, and `above` of a velocity of O that keeps its length.
+/// With `across` and `sum` free of the direction of the leg, the least over all w is that over those.
 template <class T>
 struct SplitGramOf {
   Symmetric6Of<T> above;
@@ -59,7 +61,8 @@ struct SplitGramOf {
 };
 using SplitGram = SplitGramOf<PoseForm>;
 template <class T>
-SplitGramOf<T> split_gram(const Geometry& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves);
+SplitGramOf<T> split_gram(const Geometry& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves,
+                          int locked = -1);
 
 /// Whether the condition number is proved to be at most K in all of the box.
 bool bounded(const SplitGramOf<CurvedForm>& g, double condition);

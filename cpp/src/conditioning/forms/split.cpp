@@ -92,17 +92,65 @@ Xyz<T> direction_of(const Xyz<T>& v) {
   return {out[0], out[1], out[2]};
 }
 
+namespace {
+
+/// v without its part along a unit vector.
 template <class T>
-SplitGramOf<T> split_gram(const Geometry& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves) {
+Xyz<T> across_of(const Xyz<T>& unit, const Xyz<T>& v) {
+  return v - dot(unit, v) * unit;
+}
+
+/// What a leg leaves to O: all velocities, or with the leg locked those across it.
+template <class T>
+struct Freedom {
+  bool locked = false;
+  Xyz<T> along{};
+  Xyz<T> left(const Xyz<T>& v) const { return locked ? across_of(along, v) : v; }
+};
+
+/// P S P + c c^T for P = 1 - c c^T: as S for vectors across c, apart from c.
+template <class T>
+void keep_across(const Xyz<T>& c, Symmetric3Of<T>& s) {
+  const std::array<T, 3> e{c.x, c.y, c.z};
+  std::array<Xyz<T>, 3> rows;
+  for (std::size_t i = 0; i < 3; ++i) rows[i] = across_of(c, Xyz<T>{of(s, i, 0), of(s, i, 1), of(s, i, 2)});  // S P
+  for (std::size_t j = 0; j < 3; ++j) {
+    const auto part = [&](std::size_t i) { return j == 0 ? rows[i].x : j == 1 ? rows[i].y : rows[i].z; };
+    const T along = e[0] * part(0) + e[1] * part(1) + e[2] * part(2);
+    for (std::size_t i = j; i < 3; ++i) s[entry(i, j)] = part(i) - e[i] * along + e[i] * e[j];
+  }
+}
+
+/// The best share S of K x that moves, of the least of (K x - S K x)^T other (..) + (S K x)^T own (..) in the middle.
+template <class T>
+Mat3 best_share(const Mat3& sum, const Mat3& other, const Freedom<T>& freedom) {
+  // A little on the diagonal: where H + F is nearly singular the best one is of no use.
+  const Mat3 middle = sum + 1e-7 * sum.trace() * Mat3::Identity();
+  if (!freedom.locked) return middle.inverse() * other;
+  const Vec3 c = Vec3(freedom.along.x.c, freedom.along.y.c, freedom.along.z.c).normalized();
+  const Mat3 plane = Mat3::Identity() - c * c.transpose();
+  return (plane * middle * plane + middle.trace() * c * c.transpose()).inverse() * plane * other;
+}
+
+}  // namespace
+
+template <class T>
+SplitGramOf<T> split_gram(const Geometry& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves,
+                          int locked) {
   const double inverse_lc = 1.0 / characteristic_length;
   const LegProducts<T> legs = leg_products(g, characteristic_length, pose, moves);
   const Symmetric3Of<T>&h = legs.upper, &f = legs.lower;
   SplitGramOf<T> out;
   out.external = legs.external;
   for (std::size_t n = 0; n < out.sum.size(); ++n) out.sum[n] = h[n] + f[n];
-  // Any share gives bounds. A little on the diagonal: where H + F is nearly singular the best one is of no use.
-  const Mat3 middle = middle_of(out.sum);
-  const Mat3 share = (middle + 1e-7 * middle.trace() * Mat3::Identity()).inverse() * middle_of(h);
+  Freedom<T> freedom{locked >= 0};
+  if (freedom.locked) {
+    const Ends<T> e = ends_of(g, pose, locked);
+    freedom.along = direction_of(e.to - e.from);
+  }
+  // Any share gives bounds. That of the locked side is across its leg.
+  const bool of_upper = locked >= 3 && locked < 6;
+  const Mat3 share = best_share(middle_of(out.sum), middle_of(of_upper ? f : h), freedom);
   if (!share.allFinite()) return out;
   out.known = true;
   const Xyz<T> y = inverse_lc * (pose.s - pose.p);
@@ -112,11 +160,12 @@ SplitGramOf<T> split_gram(const Geometry& g, double characteristic_length, const
                      Xyz<T>{one, zero, zero}, Xyz<T>{zero, one, zero}, Xyz<T>{zero, zero, one}};
   Columns<T> upper, lower, upper_pull, lower_pull;
   for (std::size_t j = 0; j < 6; ++j) {
-    lower[j] = applied(share, k[j]);
-    upper[j] = k[j] - lower[j];
+    (of_upper ? upper : lower)[j] = freedom.left(applied(share, k[j]));
+    if (of_upper) lower[j] = k[j] - upper[j];
+    else upper[j] = k[j] - lower[j];
     upper_pull[j] = applied(h, upper[j]);
     lower_pull[j] = applied(f, lower[j]);
-    const Xyz<T> across = lower_pull[j] - upper_pull[j];
+    const Xyz<T> across = freedom.left(lower_pull[j] - upper_pull[j]);
     out.across[0][j] = across.x;
     out.across[1][j] = across.y;
     out.across[2][j] = across.z;
@@ -124,12 +173,13 @@ SplitGramOf<T> split_gram(const Geometry& g, double characteristic_length, const
   for (std::size_t j = 0; j < 6; ++j)
     for (std::size_t i = 0; i <= j; ++i)
       out.above[entry(j, i)] = out.external[entry(j, i)] + dot(upper[i], upper_pull[j]) + dot(lower[i], lower_pull[j]);
+  if (freedom.locked) keep_across(freedom.along, out.sum);
   return out;
 }
 
 template Xyz<PoseForm> direction_of(const Xyz<PoseForm>&);
 template Xyz<CurvedForm> direction_of(const Xyz<CurvedForm>&);
-template SplitGram split_gram(const Geometry&, double, const PoseOf<PoseForm>&, Moves&);
-template SplitGramOf<CurvedForm> split_gram(const Geometry&, double, const PoseOf<CurvedForm>&, Moves&);
+template SplitGram split_gram(const Geometry&, double, const PoseOf<PoseForm>&, Moves&, int);
+template SplitGramOf<CurvedForm> split_gram(const Geometry&, double, const PoseOf<CurvedForm>&, Moves&, int);
 
 }  // namespace ninedof::forms

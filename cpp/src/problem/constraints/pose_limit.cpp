@@ -8,6 +8,8 @@
 namespace ninedof {
 namespace {
 
+constexpr double beyond_all = 1e150;  // a condition number without end, to the solver
+
 class PoseLimit : public Constraint {
  public:
   PoseLimit(const Limit& limit, const LimitRow& row, int poses, const std::array<bool, leg_pairs>& exempt)
@@ -29,12 +31,14 @@ class PoseLimit : public Constraint {
     return (row_.on_the_way() ? 0 : first_pose(v)) + item / row_.pose->items;
   }
   bool exempt(int item) const { return row_.pose->pairs && exempt_[at_index(index(item))]; }
-  PointLook look(const DesignState& v, int item) const { return {v.pose(pose(v, item)), v.pose(0), limit().axis}; }
+  PointLook look(const DesignState& v, int item) const {
+    return {v.pose(pose(v, item)), v.pose(0), limit().axis, v.characteristic_length};
+  }
 
   double value(const DesignState& v, Side, int item) const override {
     // Never the least, in any unit.
     if (exempt(item)) return 1e6 * std::max(limit().low, v.length(v.longest) / unit(v));
-    return row_.pose->number(look(v, item), index(item)) / unit(v);
+    return std::min(row_.pose->number(look(v, item), index(item)), beyond_all) / unit(v);
   }
   void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
     if (exempt(item)) return;
@@ -49,6 +53,7 @@ class PoseLimit : public Constraint {
       v.add_turn(k, by * slopes.turn, out);
       v.add_turn(0, by * slopes.home_turn, out);
     }
+    v.add_length(by * slopes.length, out);
     add_unit_gradient(v, -by * number / u, out);
   }
 

@@ -9,6 +9,7 @@
 #include "conditioning/forms/gram.hpp"
 #include "math/numbers.hpp"
 #include "math/splitmix.hpp"
+#include "ninedof/conditioning/locked_legs.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "proof/region/pose.hpp"
@@ -26,15 +27,24 @@ struct Met {
   Box at;
 };
 
-double condition_at(const Domain& domain, const Box& point) {
+/// With a leg locked it is that of doubles, with room for rounding.
+double condition_at(const Domain& domain, int locked, const Box& point) {
+  constexpr double room = 1e-9;
   const PosedRobot& machine = domain.machine();
+  if (locked >= 0) {
+    const FormPose pose = domain.pose(point);
+    Mat3 rotation;
+    rotation << centre(pose.q[0]), centre(pose.q[1]), centre(pose.q[2]);
+    const PosedPoints here = posed_points(machine.geometry, {centre(pose.p), rotation, centre(pose.s)});
+    return LockedLegs(here.at, here.legs, machine.characteristic_length).condition_number({locked}) * (1.0 - room);
+  }
   Moves unused;
   return forms::condition_attained(
       forms::gram(machine.geometry, machine.characteristic_length, domain.pose(point), unused));
 }
 
 /// Moves one coordinate after another while the condition number grows.
-Met climbed(const Domain& domain, const Box& root, Met met) {
+Met climbed(const Domain& domain, int locked, const Box& root, Met met) {
   for (double step = 0.25; step > 1e-6; step *= 0.5) {
     bool better = true;
     while (better) {
@@ -46,7 +56,7 @@ Met climbed(const Domain& domain, const Box& root, Met met) {
           if (x == next.low[k]) continue;
           next.low[k] = next.high[k] = x;
           next = domain.nearest(next);
-          const double value = condition_at(domain, next);
+          const double value = condition_at(domain, locked, next);
           if (value > met.value * (1.0 + 1e-9)) {
             met = {value, next};
             better = true;
@@ -58,7 +68,7 @@ Met climbed(const Domain& domain, const Box& root, Met met) {
 }
 
 /// A pose where the condition number is large.
-Met searched(const Domain& domain, int threads) {
+Met searched(const Domain& domain, int locked, int threads) {
   constexpr std::uint64_t samples = 64;
   const std::vector<Box>& roots = domain.roots();
   std::vector<Met> best(roots.size());
@@ -75,7 +85,7 @@ Met searched(const Domain& domain, int threads) {
             std::clamp(root.low[k] + part * (root.high[k] - root.low[k]), root.low[k], root.high[k]);
       }
       at = domain.nearest(at);
-      const double value = condition_at(domain, at);
+      const double value = condition_at(domain, locked, at);
       if (sample == 0 || value > met.value) met = {value, at};
     }
   });
@@ -84,7 +94,7 @@ Met searched(const Domain& domain, int threads) {
   std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return best[a].value > best[b].value; });
   Met out;
   for (std::size_t n = 0; n < std::min<std::size_t>(order.size(), 8); ++n) {
-    const Met met = climbed(domain, roots[order[n]], best[order[n]]);
+    const Met met = climbed(domain, locked, roots[order[n]], best[order[n]]);
     if (n == 0 || met.value > out.value) out = met;
   }
   return out;
@@ -107,7 +117,7 @@ void require_part(const Domain& domain, const Box& box) {
   if (!part) throw InvalidArgument("boxes", "a box of other poses", "boxes that a run of the same machine has left");
 }
 
-Looked look(const Domain& domain, const Box& box, double condition) {
+Looked look(const Domain& domain, int locked, const Box& box, double condition) {
   Looked out{true, false, 0.0, -1};
   if (domain.outside(box)) {
     out.proved = true;
@@ -116,11 +126,11 @@ Looked look(const Domain& domain, const Box& box, double condition) {
   Moves moves;
   const PosedRobot& machine = domain.machine();
   const PoseOf<CurvedForm> pose = domain.pose<CurvedForm>(box);
-  out.proved =
-      forms::bounded(forms::split_gram(machine.geometry, machine.characteristic_length, pose, moves), condition);
+  out.proved = forms::bounded(forms::split_gram(machine.geometry, machine.characteristic_length, pose, moves, locked),
+                              condition);
   if (out.proved) return out;
   out.divide = divided_coordinate(box, moves.along);
-  out.met = condition_at(domain, domain.nearest(middle_of(box)));
+  out.met = condition_at(domain, locked, domain.nearest(middle_of(box)));
   return out;
 }
 
@@ -148,7 +158,10 @@ WorstCondition worst_condition(const PosedRobot& machine, const ProofSettings& s
       boxes.push_back(box);
     }
   }
-  Met met = searched(domain, settings.threads);
+  const int locked = settings.locked;
+  if (locked >= 0 && (locked < 3 || locked > 8))
+    throw InvalidArgument("locked", std::to_string(locked), "an internal leg, 3 to 8, or -1");
+  Met met = searched(domain, locked, settings.threads);
   WorstCondition out;
   double proved = infinity;
   long count = 0;
@@ -168,7 +181,7 @@ WorstCondition worst_condition(const PosedRobot& machine, const ProofSettings& s
       parallel_for(static_cast<long>(ahead.size()), 16, settings.threads, [&](long first, long last) {
         if (stopped()) return;
         for (long n = first; n < last; ++n)
-          looked[static_cast<std::size_t>(n)] = look(domain, ahead[static_cast<std::size_t>(n)], target);
+          looked[static_cast<std::size_t>(n)] = look(domain, locked, ahead[static_cast<std::size_t>(n)], target);
       });
       std::vector<Box> next;
       Met best;

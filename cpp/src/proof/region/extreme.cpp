@@ -29,6 +29,8 @@ const PoseRow& checked_row(const PoseQuantity& wanted) {
   const PoseRow& row = pose_row("limit_name", wanted.limit_name);
   if (wanted.item < 0 || wanted.item >= row.items)
     throw InvalidArgument("item", std::to_string(wanted.item), "0 to " + std::to_string(row.items - 1));
+  if (row.first_locked >= 0 && !wanted.greatest)
+    throw InvalidArgument("greatest", "false for " + wanted.limit_name, "true: only the greatest is enclosed");
   if (row.pairs && wanted.greatest)
     throw InvalidArgument("greatest", "true for " + wanted.limit_name, "false: only the least distance is enclosed");
   return row;
@@ -159,6 +161,29 @@ class Climb {
   Box at_;
 };
 
+/// The condition number with a leg locked: roughly, then to the gap of the settings, then to the limit, until it is
+/// decided on which side of the limit it is.
+Extreme with_a_leg_locked(const PosedRobot& machine, const PoseQuantity& wanted, int leg, ProofSettings settings,
+                          const Control& control) {
+  constexpr double legs = 6.0, roughly = 1.0;
+  settings.locked = leg;
+  settings.seconds /= legs;
+  Control quiet;
+  quiet.stop = control.stop;
+  Extreme out{0.0, infinity, {}, 0};
+  const double gap = settings.gap;
+  for (const auto& [to, condition] : {std::pair{roughly, 0.0}, std::pair{gap, 0.0}, std::pair{gap, wanted.limit}}) {
+    settings.gap = to;
+    settings.condition = condition;
+    const Extreme now = worst_condition(machine, settings, {}, quiet).extreme;
+    if (now.low > out.low) out.at = now.at;
+    out = {std::max(out.low, now.low), std::min(out.high, now.high), out.at, out.boxes + now.boxes};
+    const bool kept = to == gap && !(out.high > wanted.limit), passed = out.low >= wanted.limit;
+    if (kept || passed) break;
+  }
+  return out;
+}
+
 }  // namespace
 }  // namespace over_region
 
@@ -176,8 +201,13 @@ std::vector<Extreme> pose_extremes(const PosedRobot& machine, const std::vector<
   std::vector<Extreme> out(quantities.size());
   parallel_for(static_cast<long>(quantities.size()), 1, settings.threads, [&](long k, long) {
     const auto n = static_cast<std::size_t>(k);
-    out[n] = Climb(domain, quantities[n], settings).run(stopped);
+    if (pose_row("limit_name", quantities[n].limit_name).first_locked < 0)
+      out[n] = Climb(domain, quantities[n], settings).run(stopped);
   });
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    const int first = pose_row("limit_name", quantities[n].limit_name).first_locked;
+    if (first >= 0) out[n] = with_a_leg_locked(machine, quantities[n], first + quantities[n].item, settings, control);
+  }
   return out;
 }
 

@@ -56,6 +56,11 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
     for (const PoseCriterion& c : criteria_besides_legs(criteria)) {
       const PoseRow* row = c.row->pose;
       if (row == nullptr || row->pairs != pairs) continue;
+      if (row->first_locked >= 0) {
+        for (int item = 0; item < row->items; ++item)
+          conditions_.push_back({add_bit(), row->first_locked + item, c.high});
+        continue;
+      }
       const bool no_limit = c.row->info.kind == LimitKind::angle && c.high >= std::numbers::pi;  // none is greater
       std::vector<Interval> ranges(at_index(row->items), Interval(c.low, no_limit ? infinity : c.high));
       for (int item = 0; pairs && item < row->items; ++item)
@@ -63,7 +68,7 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
       add(*row, FormHome(g, home, c.axis), ranges);
       if (row->on_the_way) require_kept(rows_.back(), home, c.row->info.name);
     }
-  if (criteria.condition_number) condition_ = add_bit();
+  if (criteria.condition_number) conditions_.push_back({add_bit(), -1, *criteria.condition_number});
 }
 
 int PoseCuts::add_bit() {
@@ -184,13 +189,13 @@ bool PoseCuts::all_apart(const LegPairForms& legs, double distance, Cut& apart) 
   return false;
 }
 
-void PoseCuts::look_at_condition(const FormPose& pose, Found& found) const {
-  if (condition_ < 0 || !(found.open & bit(condition_))) return;
+void PoseCuts::look_at(const ConditionLimit& limit, const FormPose& pose, Found& found) const {
+  if (!(found.open & bit(limit.bit))) return;
   Moves unused;
   const forms::ConditionSplit split = forms::split_by_condition(
-      forms::split_gram(geometry_, criteria_.characteristic_length, pose, unused), *criteria_.condition_number);
+      forms::split_gram(geometry_, criteria_.characteristic_length, pose, unused, limit.locked), limit.high);
   if (split.everywhere) {
-    found.open &= ~bit(condition_);
+    found.open &= ~bit(limit.bit);
     return;
   }
   if (!is_known(split.excess)) {
@@ -209,7 +214,8 @@ PoseCuts::Found PoseCuts::look(const PositionBox& box, std::size_t rotation, Cri
   Found found{open, false, {}};
   for (const RowCuts& row : rows_)
     if (!found.violated) look_at(row, at, found);
-  if (!found.violated && !cheap_ones) look_at_condition(at, found);
+  for (const ConditionLimit& limit : conditions_)
+    if (!found.violated && !cheap_ones) look_at(limit, at, found);
   return found;
 }
 

@@ -75,7 +75,12 @@ class PoseCuts {
   void look_at(const RowCuts& cuts, const FormPose& pose, Found& found) const;
   /// Returns whether the legs are at least the distance apart in all of the box.
   static bool look_at_pair(const LegPairForms& legs, double distance, Found& found);
-  void look_at_condition(const FormPose& pose, Found& found) const;
+  /// A limit of the condition number, with a leg locked or, with -1, without.
+  struct ConditionLimit {
+    int bit, locked;
+    double high;
+  };
+  void look_at(const ConditionLimit& limit, const FormPose& pose, Found& found) const;
   /// The poses where f > 0 are allowed, those where f < 0 are not. Returns whether that is decided.
   static bool decided(const PoseForm& f, Found& found);
   static void put(const Cut& cut, Found& found);
@@ -89,7 +94,8 @@ class PoseCuts {
   bool some_;  // one allowed rotation is enough
   std::vector<std::array<FormVector, 3>> rotations_;  // by columns
   std::vector<RowCuts> rows_;  // the cheap ones first
-  int bits_ = 0, condition_ = -1;
+  std::vector<ConditionLimit> conditions_;
+  int bits_ = 0;
   Criteria all_ = 0;
 };
 

@@ -189,11 +189,13 @@ void Margins::put_limit(const PoseCriterion& c, const Block& b, long k, const Po
     }
     return;
   }
-  const PointLook look(here, home_points_, c.axis);
+  const PointLook look(here, home_points_, c.axis, criteria_.characteristic_length);
   if (!row->pairs) {
     for (int item = 0; item < row->items; ++item) {
       const double number = row->number(look, item);
-      m.put(next++, std::min(number - c.low, c.high - number), c.name + item);
+      // A ratio may be infinite: as of the condition number.
+      const bool ratio = c.row->info.kind == LimitKind::ratio;
+      m.put(next++, ratio ? c.high / number - 1.0 : std::min(number - c.low, c.high - number), c.name + item);
     }
     return;
   }

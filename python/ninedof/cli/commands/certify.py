@@ -108,7 +108,8 @@ def certificate_table(certificate: MachineCertificate) -> Table:
         word = "at most" if one.side == "max" else "at least"
         limit = "above 0" if one.limit == 0.0 else f"{word} {one.shown(one.limit):.6g}"
         on_limit = abs(one.margin) <= certificate.tolerance * (one.limit if one.kind == "sign" else 1.0)
-        proved = f"{word} {one.worded(9 if on_limit else 6)}"
+        bounded = math.isfinite(one.value[one.side == "max"])
+        proved = f"{word} {one.worded(9 if on_limit else 6)}" if bounded else "nothing"
         margin = f"within {certificate.tolerance:g}" if on_limit else margin_words(one.margin, one.kind)
         rows.append((with_unit(one.name.replace("_", " "), one.unit(unit)), limit, proved, margin, one.answer))
     high = certificate.condition[1]

@@ -1,0 +1,160 @@
+"""The failure of legs as tables and sentences."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from ninedof.sheet.pose_words import pose_words, vector_words
+from ninedof.sheet.tables import load_words, over, region_words
+from ninedof.support.arrays import Floats
+from ninedof.support.units import amount
+from ninedof.tables import RIGHT, Column, Table, grouped
+from ninedof.tables.table import Part
+
+PURE = 1e-9  # a part of a motion below this beside the other is rounding
+
+
+def failure_parts(failure: Any) -> Iterator[Part]:
+    """Yield the tables and sentences of a failure."""
+    yield from list(region_words(failure))[:2]  # the last is of lengths
+    healthy = failure.healthy
+    where = "neutral pose" if healthy.pose == 0 else f"pose {healthy.pose}"
+    yield f"Nine legs at work: condition number at most {healthy.value:.6f} ({where})."
+    yield locked_table(failure, failure.locked)
+    yield (
+        "Locked: at its length at the pose. An external leg takes the motion of its platform joint along the leg, "
+        "in every design: one freedom, and the condition number is that of the five others."
+    )
+    if failure.pairs:
+        yield pairs_table(failure)
+        yield from _pairs_beside(failure)
+    yield free_table(failure)
+    yield from (free_words(failure, one) for one in failure.free)
+    if len(failure.loads):
+        yield loads_table(failure)
+        yield "Locked legs bear load as before: a locked leg changes no force."
+
+
+def locked_table(failure: Any, locked: Sequence[Any]) -> Table:
+    """Return what is left with each of some sets of legs locked."""
+    shares = failure.region is not None
+    columns = [Column("locked"), *(Column(name, "", RIGHT) for name in ("freedoms", "worst", "times", "pose"))]
+    if shares:
+        columns += [Column(name, "", RIGHT) for name in ("share", "from home")]
+    rows = []
+    for one in locked:
+        cells = [", ".join(one.legs), str(one.freedoms), _number(one.remaining), _number(one.ratio, 3)]
+        cells.append(str(one.pose) if one.pose else "neutral")
+        if shares:
+            cells += [_percent(one.share), _percent(one.share_from_home)]
+        rows.append(tuple(cells))
+    notes = ["times: of the worst with nine legs at work"]
+    if shares:
+        notes.append(f"share: of the region's poses with a condition number of at most {failure.bound:g}")
+        notes.append("from home: the same with the leg at its length at home, O moved to the nearest point for it")
+    notes += [f"pose {k}: {_pose(failure, k)}" for k in sorted({one.pose for one in locked} - {0})]
+    what = "one leg locked" if len(locked[0].legs) == 1 else "two legs locked"
+    return Table(f"Condition number with {what}, worst {over(failure)}", columns, list(grouped(rows)), notes)
+
+
+def pairs_table(failure: Any) -> Table:
+    """Return the condition numbers with two internal legs locked, as a triangle."""
+    names = sorted({leg for one in failure.pairs for leg in one.legs if leg[0] != "l"})
+    numbers = {one.legs: one for one in failure.pairs if one.freedoms == 6}
+    rows = []
+    for k, leg in enumerate(names[:-1]):
+        cells = [_number(numbers[leg, other].condition_number, 5) for other in names[k + 1 :]]
+        rows.append((leg, *[""] * k, *cells))
+    columns = [Column("and"), *(Column(name, "", RIGHT) for name in names[1:])]
+    worst = max(numbers.values(), key=lambda one: one.condition_number)
+    notes = [f"worst: {' and '.join(worst.legs)}, {_number(worst.condition_number)}, {_place(failure, worst.pose)}"]
+    if worst.share is not None:
+        least = min(numbers.values(), key=lambda one: one.share)
+        notes.append(f"least share of the region: {' and '.join(least.legs)}, {_percent(least.share)}")
+    return Table(f"Condition number with two internal legs locked, worst {over(failure)}", columns, rows, notes)
+
+
+def free_table(failure: Any) -> Table:
+    """Return the size of the motion that each free leg leaves to itself."""
+    names = ("at home", "of largest", "least", "most")
+    columns = [Column("free"), *(Column(name, "", RIGHT) for name in names)]
+    rows = [
+        (one.leg, _number(one.size, 4), _percent(one.share), _number(one.least.value, 4), _number(one.largest.value, 4))
+        for one in failure.free
+    ]
+    notes = [
+        "its column of J': the motion (l_c omega, pdot) for a unit of its length, the other eight locked",
+        f"least, most: {over(failure)}; of largest: of the nine columns at home",
+    ]
+    return Table("One leg free: the motion that is lost", columns, list(grouped(rows)), notes)
+
+
+def loads_table(failure: Any) -> Table:
+    """Return which loads the other eight legs bear."""
+    columns = [Column("free"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(failure.loads) + 1))]
+    rows = []
+    for one in failure.free:
+        cells = [_number(x.largest, 4) if x.borne else f"not borne ({_number(x.carries, 4)})" for x in one.loads]
+        rows.append((one.leg, *cells))
+    notes = [load_words(k, load, failure.unit) for k, load in enumerate(failure.loads, start=1)]
+    notes.append("the largest force in the other legs; in brackets what the leg has to carry")
+    return Table(f"Loads with one leg free, {over(failure)}", columns, list(grouped(rows)), notes)
+
+
+def free_words(failure: Any, one: Any) -> str:
+    """Return the motion of the platform with a leg free, at the neutral pose."""
+    p = failure.configurations.position[0]
+    motion = motion_words(np.array(one.twist), p, failure.characteristic_length, failure.unit)
+    return f"{one.leg} free: {motion}"
+
+
+def motion_words(twist: Floats, p: Floats, length: float, unit: str) -> str:
+    """Return a twist (omega, pdot) at p as a screw, in words."""
+    if np.isnan(twist).any():
+        return "the pose is singular"
+    omega, pdot = twist[:3], twist[3:]
+    turn, shift = float(np.linalg.norm(omega)), float(np.linalg.norm(pdot))
+    if turn * length <= PURE * shift:
+        return "the platform rests" if shift == 0.0 else f"the platform shifts along {_direction(pdot / shift)}"
+    point = p + np.cross(omega, pdot) / turn**2
+    rise = float(omega @ pdot) / turn**2 * math.tau
+    through = amount(vector_words(float(f"{x:.4g}") for x in point), unit)
+    words = f"the platform turns about {_direction(omega / turn)} through {through}"
+    if abs(rise) <= PURE * shift / turn:
+        return words
+    return f"{words}, advancing {amount(f'{rise:.4g}', unit)} a turn"
+
+
+def _pairs_beside(failure: Any) -> Iterator[str]:
+    """Yield a sentence for pairs with external legs."""
+    for count, words in ((5, "One external leg in a pair: five"), (4, "Two external legs: four")):
+        some = [one for one in failure.pairs if one.freedoms == count]
+        worst = max(some, key=lambda one: one.remaining)
+        number = _number(worst.remaining)
+        yield f"{words} freedoms left, condition number at most {number} ({' and '.join(worst.legs)})."
+
+
+def _direction(v: Floats) -> str:
+    return vector_words(np.round(v, 3) + 0.0)
+
+
+def _number(value: float, digits: int = 6) -> str:
+    if math.isnan(value):
+        return "-"
+    return "lost" if math.isinf(value) else f"{value:.{digits}g}"
+
+
+def _percent(share: float | None) -> str:
+    return "-" if share is None or math.isnan(share) else f"{100.0 * share:.3g} %"
+
+
+def _place(failure: Any, k: int) -> str:
+    return "at the neutral pose" if k == 0 else f"at pose {k}: {_pose(failure, k)}"
+
+
+def _pose(failure: Any, k: int) -> str:
+    return pose_words(failure.configurations[k], failure.configurations.rotation[0], failure.unit)

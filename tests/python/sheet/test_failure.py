@@ -1,0 +1,176 @@
+"""Failure of legs: against numpy's singular values of J' without columns, equilibria without a leg, random poses."""
+
+import json
+from itertools import combinations
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from region_oracle import random_poses
+
+import ninedof as nd
+from ninedof import _core
+from ninedof.optimize.region_report import posed
+from ninedof.robot.leg_names import LEGS
+from ninedof.sheet.failure.failure import SETS
+
+DESIGN = Path(__file__).resolve().parents[3] / "examples" / "04_design.toml"
+RNG = np.random.default_rng(14)
+
+
+def columns_of(g, c, length):
+    """J' by least squares of the leg rates, which needs no matrix of the paper."""
+    rates = np.concatenate(
+        [nd.inverse_velocity(g, c, *motion.reshape(3, 3))[None] for motion in np.eye(9)]
+    ).T  # rates of omega, pdot, sdot
+    return np.linalg.inv(rates)[:6] * np.array([length] * 3 + [1.0] * 3)[:, None]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_each_set_of_legs_against_numpy(seed):
+    g, c = robot(seed)
+    j = columns_of(g, c[0], 1.3)
+    one = nd.failure(g, c, characteristic_length=1.3)
+    for case, legs in zip((*one.locked, *one.pairs), SETS, strict=True):
+        left = np.delete(j, [k for k in legs if k >= 0], axis=1)
+        sigma = np.linalg.svd(left, compute_uv=False)
+        expected = sigma[0] / sigma[case.freedoms - 1]
+        assert case.remaining == pytest.approx(expected, rel=1e-8)
+        rank = np.linalg.matrix_rank(left, tol=1e-9 * sigma[0])
+        assert (rank == 6) == case.controlled == (case.condition_number < np.inf)
+        assert rank == case.freedoms
+
+
+def robot(seed):
+    rng = np.random.default_rng(seed)
+    base, platform = rng.normal(size=(2, 3, 3)) * [3.0, 3.0, 0.3], rng.normal(size=(2, 3, 3)) * [2.0, 2.0, 0.3]
+    g = nd.Geometry(*base, *platform)
+    c = nd.Configuration.neutral([4.0], 2.0).moved(0.2 * rng.normal(size=9))
+    return g, c
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_relative_manipulability(seed):
+    g, c = robot(seed)
+    j = columns_of(g, c[0], 0.7)
+    found = nd.failure(g, c, pairs=False).relative_manipulability[0]
+    inverse = np.linalg.inv(j @ j.T)
+    expected = np.sqrt(np.maximum(1.0 - np.einsum("ik,ij,jk->k", j, inverse, j), 0.0))
+    assert found == pytest.approx(expected, abs=1e-5)
+    assert (found**2).sum() == pytest.approx(3.0, abs=1e-12)  # nine rates, six freedoms
+    left = [np.delete(j, pair, axis=1) for pair in combinations(range(9), 2)]
+    shares = [np.linalg.det(m @ m.T) for m in left] / np.linalg.det(j @ j.T)
+    assert shares.sum() == pytest.approx(3.0, rel=1e-6)  # (3 over 2)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_motion_of_a_free_leg_moves_that_leg_alone(seed):
+    g, c = robot(seed)
+    for k, one in enumerate(nd.failure(g, c, pairs=False).free):
+        rates = nd.inverse_velocity(g, c[0], one.twist[:3], one.twist[3:], one.internal_point)
+        assert rates == pytest.approx(np.eye(9)[k], abs=1e-9)
+        assert one.size == pytest.approx(np.linalg.norm(one.twist))
+
+
+def test_loads_that_the_other_eight_legs_bear():
+    g, c = robot(1)
+    h = np.stack([nd.inverse_velocity(g, c[0], *m.reshape(3, 3)) for m in np.eye(9)], axis=1)
+    forces = RNG.normal(size=9)
+    forces[4] = 0.0  # in equilibrium with a force at O too, which is taken away by the internal legs
+    forces[[6, 7, 8]] = np.linalg.solve(h[6:, 6:].T, -h[3:6, 6:].T @ forces[3:6])
+    load = -(h.T @ forces)[:6]
+    one = nd.failure(g, c, loads=[load, load + np.eye(6)[2]])
+    borne = [[x.borne for x in free.loads] for free in one.free]
+    assert borne == [[k == 4, False] for k in range(9)]
+    assert one.free[4].loads[0].largest == pytest.approx(np.abs(forces).max())
+    assert one.free[3].loads[0].carries == pytest.approx(abs(forces[3]))
+    for k in range(9):  # without a leg: whether the other eight balance the load, by least squares
+        rest = np.delete(h, k, axis=0).T
+        x = np.linalg.lstsq(rest, -np.concatenate([load, np.zeros(3)]), rcond=None)[0]
+        assert (np.abs(rest @ x + np.concatenate([load, np.zeros(3)])).max() < 1e-9) == (k == 4)
+
+
+def region_result(region):
+    study = nd.Study(family="symmetric", objective={"region": nd.Region(**region)}, characteristic_length=1.5)
+    sizes = {"base_external_radius": 5.0, "base_internal_radius": 3.0, "zp": 4.0, "zs": 2.2}
+    sizes |= {"platform_external_radius": 2.0, "platform_internal_radius": 1.2}
+    angles = {"base_internal_angle": 0.6, "platform_external_angle": 0.9, "platform_internal_angle": 1.1}
+    point = posed(study, (nd.Pose(),)).evaluate(sizes | angles)
+    names = ("geometry", "configuration", "configurations", "characteristic_length")
+    return SimpleNamespace(study=study, variables=sizes | angles, **{name: getattr(point, name) for name in names})
+
+
+def test_a_region_no_random_pose_is_worse_and_shares():
+    region = {"box": [0.5, 0.4, 0.3], "tilt": 0.15}
+    design = region_result(region)
+    one = nd.failure(design, samples=1000, condition_number=8.0)
+    there = posed(design.study, random_poses(design.study.objective.region, 2000, RNG))
+    c = there.evaluate(design.variables).configurations[1:]
+    g = design.geometry
+    j = nd.jacobian(g, c, 1.5)
+    for case, legs in zip((*one.locked, *one.pairs), SETS, strict=True):
+        sigma = np.linalg.svd(np.delete(j, [k for k in legs if k >= 0], axis=2), compute_uv=False)
+        kappa = sigma[:, 0] / sigma[:, case.freedoms - 1]
+        assert kappa.max() <= case.remaining * (1.0 + 1e-9)
+        if case.controlled:
+            assert case.share == pytest.approx((kappa <= 8.0).mean(), abs=0.05)
+        else:
+            assert not case.share or case.freedoms == 6
+    for k, case in enumerate(one.locked[3:], start=3):  # the leg as long as at home, O on a sphere about its joint
+        joint = c.position + c.rotation @ g.platform_internal[k - 3] if k < 6 else g.base_internal[k - 6]
+        length = nd.leg_lengths(g, design.configuration)[k]
+        arm = c.internal_point - joint
+        o = joint + arm * (length / np.linalg.norm(arm, axis=1))[:, None]
+        sigma = np.linalg.svd(
+            np.delete(nd.jacobian(g, nd.Configuration(c.position, c.rotation, o), 1.5), k, axis=2), compute_uv=False
+        )
+        assert case.share_from_home == pytest.approx((sigma[:, 0] / sigma[:, 5] <= 8.0).mean(), abs=0.05)
+
+
+def test_control_is_lost_with_opposite_legs_of_a_region_locked():
+    one = nd.failure(region_result({"box": [0.5, 0.4, 0.3], "tilt": 0.15}), samples=1000)
+    assert [case.controlled for case in one.locked] == [False] * 3 + [True] * 6
+    assert one.locked[0].condition_number == np.inf
+
+
+def test_a_singular_pose_has_no_control():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    one = nd.failure(g, nd.Configuration.neutral([3.9828], 3.9828))  # O in the plane of the platform joints
+    assert one.healthy.value == np.inf
+    assert not any(case.controlled for case in (*one.locked, *one.pairs))
+    assert "singular" in one.summary()
+
+
+def test_what_is_said():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    one = nd.failure(g, nd.Configuration.neutral([3.9828], 2.3745), loads=[0, 0, 0, 0, 0, -10.0])
+    text = one.summary()
+    assert "l1 free: the platform turns about" in text
+    assert "not borne" in text
+    assert "<table" in one._repr_html_()
+    assert one.worst.legs[0] in repr(one)
+    data = one.to_dict()
+    assert len(data["locked"]) == 9
+    assert len(data["pairs"]) == 36
+    assert [one["leg"] for one in data["free"]] == list(LEGS)
+    with pytest.raises(ValueError, match=r"condition_number: got 0\.5, expected a finite number at least 1"):
+        nd.failure(g, nd.Configuration.neutral([3.9828], 2.3745), condition_number=0.5)
+
+
+def test_the_command(run):
+    status, out, _ = run(f"failure {DESIGN} --condition 5 --load '0 0 0 0 0 -10' --no-pairs --json")
+    data = json.loads(out)
+    assert status == 0
+    assert (data["bound"], data["pairs"], len(data["locked"])) == (5.0, [], 9)
+    assert [free["loads"][0]["borne"] for free in data["free"]] == [True] * 3 + [False] * 6
+    status, _, err = run(f"failure {DESIGN} --condition 0.5")
+    assert status != 0
+    assert "--condition: got 0.5" in err
+
+
+def test_a_stack_is_one_pose_after_the_other():
+    g, _ = robot(2)
+    c = nd.Configuration.neutral(np.linspace(3.0, 5.0, 7), 2.0)
+    both = [_core.locked_condition_numbers(g, c[k], np.array([1.0]), list(SETS), 1)[0] for k in range(7)]
+    assert (_core.locked_condition_numbers(g, c, np.array([1.0]), list(SETS), 2) == np.array(both)).all()
