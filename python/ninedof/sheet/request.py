@@ -26,8 +26,8 @@ STANDARD = (0.0, 0.0, -9.81)
 class SheetArguments(TypedDict, total=False):
     """Options of `sheet`, which says what they mean."""
 
-    linear_speed: float
-    angular_speed: float
+    linear_speed: float | None
+    angular_speed: float | None
     internal: str | None
     loads: ArrayLike | None
     leg_errors: ArrayLike | None
@@ -86,7 +86,7 @@ class Weight(NamedTuple):
 
     mass: float
     centre: Vector
-    """Centre of mass in the platform frame."""
+    """Centre of mass in the platform frame of the geometry, that of the tool."""
     gravity: Vector
     """Force per mass, base axes: with 9.81 and kilograms forces are in newtons, in any unit of length."""
 
@@ -149,7 +149,7 @@ def internal_over(c: Configuration) -> str:
 
 def _limits(study: Study | None) -> list[tuple[str, Floats]]:
     """Return limits at poses and axes of cones: each about the neutral directions, and about the axes of the study."""
-    cones = [limit.for_core() for limit in (study.limits if study is not None else ()) if limit.axis]
+    cones = [] if study is None else [limit.for_core(study.tool) for limit in study.limits if limit.axis]
     return [(name, np.zeros(3)) for name in PARTS if len(ROWS[name].sides) == 1] + [(c.name, c.axis) for c in cones]
 
 
