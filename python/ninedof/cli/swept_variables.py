@@ -47,7 +47,7 @@ def _of_named(
     length = chosen.characteristic_length
     if chosen.tool:
         raise ValueError(
-            f"--over: got variables of {name}, which has a [tool], expected coordinates: p_x, theta_z, ..."
+            f"--over: got variables of {name}, which has a [tool], expected coordinates of the configuration"
         )
     if chosen.result is not None and chosen.result.best is not None and chosen.study is not None:
         family = chosen.study.family
