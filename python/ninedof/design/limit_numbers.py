@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ninedof import _core
-from ninedof.design.limits import ROWS
+from ninedof.design.limits import ROWS, Limit
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -59,16 +59,16 @@ def limit_numbers(
     return _core.limit_numbers(name, axis, g, home, c, characteristic_length)
 
 
-def cone_axes(study: Study | None) -> dict[str, tuple[float, ...]]:
-    """Return the axis of the cone of each of the `JOINTS` in a study; () for the legs' own directions at home.
+def cone_limits(study: Study | None) -> dict[str, Limit | None]:
+    """Return the limit on the cone of each of the `JOINTS` in a study, None without one.
 
-    That of a limit on these joints, else of one on all joints of their body, else none.
+    That on these joints, else one on all joints of their body; at the poses rather than at the neutral one.
     """
-    axes: dict[str, tuple[float, ...]] = dict.fromkeys(JOINTS, ())
+    out: dict[str, Limit | None] = dict.fromkeys(JOINTS)
     limits = () if study is None else study.limits
     for limit in sorted(limits, key=lambda one: (one.at == "poses", one.name in JOINTS)):
-        axes |= {name: limit.axis for name in JOINTS if limit.name in CONES and name.startswith(limit.name)}
-    return axes
+        out |= {name: limit for name in JOINTS if limit.name in CONES and name.startswith(limit.name)}
+    return out
 
 
 def exempt_pairs(g: Geometry, study: Study | None = None) -> list[bool]:
@@ -86,17 +86,18 @@ def apart(g: Geometry, study: Study | None = None) -> list[int]:
     return [k for k, meet in enumerate(exempt_pairs(g, study)) if not meet]
 
 
-def leg_limits_of(study: Study, zp: float) -> tuple[Floats, Floats]:
+def leg_limits_of(study: Study, neutral: Configuration) -> tuple[Floats, Floats]:
     """Return the least and greatest length of each leg in a study, shapes (9,); 0 and infinity where it has none.
 
     Parameters
     ----------
     study : Study
-    zp : float
-        Height of the platform, for limits in units of it.
+    neutral : Configuration
+        A single one, for limits in units of zp.
 
     """
     low, high = np.zeros(9), np.full(9, math.inf)
+    zp = study.zp(neutral)
     for limit in study.limits:
         if limit.name in LEGS and limit.at == "poses":
             unit, legs = zp if limit.of == "zp" else 1.0, LEGS[limit.name]

@@ -74,12 +74,13 @@ def pose_limits(
         name, kind = limit.name, limit.row.kind
         if limit.at != "poses":
             continue
-        unit = float(neutral.position[2]) if limit.of == "zp" else 1.0
+        unit = study.zp(neutral) if limit.of == "zp" else 1.0
         if name == CLEARANCE:
             numbers = limit_numbers(name, g, c, neutral)[:, apart(g, study)].min(axis=1, initial=math.inf)
             values = [("", numbers)]
         elif name in PARTS:
-            numbers = limit_numbers(name, g, c, neutral, limit.for_core().axis, characteristic_length)
+            axis = limit.for_core(study.tool).axis
+            numbers = limit_numbers(name, g, c, neutral, axis, characteristic_length)
             values = list(zip(PARTS[name], numbers.T, strict=True))
         else:
             values = _spreads(name, leg_lengths(g, c), beside) if name in SPREADS else []

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.limit_numbers import CONES, JOINTS, PARTS, cone_axes, exempt_pairs
+from ninedof.design.duty import Tool
+from ninedof.design.limit_numbers import CONES, JOINTS, PARTS, cone_limits, exempt_pairs
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
@@ -26,8 +27,8 @@ STANDARD = (0.0, 0.0, -9.81)
 class SheetArguments(TypedDict, total=False):
     """Options of `sheet`, which says what they mean."""
 
-    linear_speed: float
-    angular_speed: float
+    linear_speed: float | None
+    angular_speed: float | None
     internal: str | None
     loads: ArrayLike | None
     leg_errors: ArrayLike | None
@@ -86,7 +87,7 @@ class Weight(NamedTuple):
 
     mass: float
     centre: Vector
-    """Centre of mass in the platform frame."""
+    """Centre of mass in the platform frame of the geometry, that of the tool."""
     gravity: Vector
     """Force per mass, base axes: with 9.81 and kilograms forces are in newtons, in any unit of length."""
 
@@ -153,9 +154,13 @@ def _limits(study: Study | None) -> list[tuple[str, Floats]]:
     Ratios, which the sheet has no table of, only where the study limits them.
     """
     limits = study.limits if study is not None else ()
+    tool = Tool() if study is None else study.tool
     own = {limit.name for limit in limits}
-    cones = [limit.for_core() for limit in limits if limit.row.is_angle]
-    joints = [(name, np.array(axis or np.zeros(3))) for name, axis in cone_axes(study).items()]
+    cones = [limit.for_core(tool) for limit in limits if limit.row.is_angle]
+    joints = [
+        (name, np.zeros(3) if limit is None else limit.for_core(tool).axis)
+        for name, limit in cone_limits(study).items()
+    ]
     names = [name for name in PARTS if len(ROWS[name].sides) == 1 and (ROWS[name].kind != "ratio" or name in own)]
     others = [(name, np.zeros(3)) for name in names if name not in CONES]
     return others + joints + [(c.name, c.axis) for c in cones if c.name not in JOINTS]
