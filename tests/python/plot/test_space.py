@@ -15,6 +15,7 @@ import ninedof as nd
 from ninedof import plot
 from ninedof.plot import style
 from ninedof.plot.space.ellipsoid import VIEW
+from ninedof.robot.leg_names import LEGS
 from ninedof.robot.plates import distinct, outlines
 
 STANDING = nd.Configuration.neutral(zp=3.9828, zs=2.3745)
@@ -51,7 +52,8 @@ def legs(axes):
     letters = {colour.lower(): letter for letter, colour in style.LEG_COLOURS.items()}
     ends = {"l": [], "q": [], "r": []}
     for line in axes.lines:
-        if letter := letters.get(to_hex(line.get_color())):
+        letter = letters.get(to_hex(line.get_color()))
+        if letter and line.get_linewidth() > 1.0:  # thin ones lead from a name to its leg
             ends[letter].append(np.transpose(line.get_data_3d()))
     return {letter: np.array(each) for letter, each in ends.items()}
 
@@ -128,6 +130,25 @@ def test_labels_carry_the_unit():
     assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_title()) == ("x (mm)", "y (mm)", "a title")
     assert {"z (mm)", "O"} <= {text.get_text() for text in axes.texts}
     assert drawn("coupled", legend=False).get_legend() is None
+
+
+FLAT_ONE = plot.Robot("", nd.Geometry.hexagonal(0.0, 44.0, 2.0, 0.0), nd.Configuration.neutral(16.0, 15.0))
+
+
+@pytest.mark.parametrize("robot", [*(plot.Robot("", g, TILTED) for g in GEOMETRIES.values()), FLAT_ONE])
+def test_every_leg_is_named_on_light_ground_and_o_is_no_second_ring(robot):
+    axes = Figure().add_subplot(projection="3d")
+    plot.mechanism(robot, ax=axes)
+    names = {text.get_text(): text for text in axes.texts}
+    assert {*LEGS, "O"} <= set(names)
+    for leg in LEGS:
+        assert to_hex(names[leg].get_bbox_patch().get_facecolor()) == "#ffffff"  # a plate below may be dark
+    marks = [one for one in axes.lines if one.get_marker() not in ("", "None", None)]
+    (point,) = [
+        one for one in marks if np.ravel(one.get_data_3d()) == pytest.approx(robot.configuration.internal_point)
+    ]
+    assert point.get_marker() == "D"
+    assert to_hex(point.get_markerfacecolor()) == style.INK.lower()
 
 
 def test_bad_input_is_named():
