@@ -57,7 +57,7 @@ def front(rows, name="leg_ratio", unit="", words="condition number"):
         table=lambda: rows,
         limit_name=name,
         unit=unit,
-        study=SimpleNamespace(words=words),
+        study=SimpleNamespace(words=words, unit="" if unit == "rad" else unit),
         limits=[one["limit"] for one in rows],
         objectives=[math.nan if one["objective"] is None else one["objective"] for one in rows],
         results=[SimpleNamespace(best=best[k > 3]) for k in range(len(rows))],
