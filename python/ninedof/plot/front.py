@@ -160,7 +160,7 @@ def _limits(panels: Sequence[Any], rows: Sequence[Row]) -> None:
 def _sketches(
     figure: Any, titles: Sequence[str], designs: Sequence[tuple[Floats, bool]], unit: str, share: float
 ) -> None:
-    """Draw plates from above in one row at one scale, with its bar; designs are joints and whether they are mirrored."""
+    """Draw plates from above in a row at one scale, with its bar; a design: joints and whether they are mirrored."""
     width = 0.895 / len(designs)
     words = "plates from above at one scale, base dark, platform light; joints:"
     figure.text(0.09, share - 0.02, words, size=style.SMALL_SIZE)

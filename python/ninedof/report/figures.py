@@ -14,8 +14,7 @@ CAPTIONS = {
     "poses": "Condition number at each pose that was imposed, numbered as in the sheet.",
     "convergence": "Convergence of single starts, with the smooth minimax form and with the plain objective.",
     "front": "The least objective for each value of the limit, and designs from above.",
-    "workspace": "Sections of the workspace, what limits it, the spread of the condition number, and how the volume "
-    "became known.",
+    "workspace": "Sections of the workspace, what ends it, and the spread of the condition number.",
     "certified_workspace": "What is proved of the workspace, each pixel at its middle, and the estimate on top.",
     "motion": "Leg lengths, condition number and margins along the path.",
     **{stem: f"{name}." for stem, name in FIGURES.items()},

@@ -158,6 +158,27 @@ def test_bad_input_is_named():
         plot.mechanisms([])
 
 
+# --- The body of a workspace ------------------------------------------------------------------------------------------
+
+
+def test_what_sticks_out_of_the_body_is_drawn_in_another_way():
+    limits = ([3.0] * 3 + [0.0] * 6, [6.0] * 3 + [99.0] * 6)
+    body = nd.workspace(G, ([-2, -2, 2], [2, 2, 6]), criteria={"leg_limits": limits}, home=STANDING)
+    lines = [np.array([[x, y, 4.0], [x + 4.0, y, 4.0]]) for x in (-2.5, 0.1) for y in (-0.3, 0.4)]
+    axes = plot.workspace_body(body.surface(20_000), lines=lines).axes[0]
+    drawn_lines = {colour: [] for colour in (style.INK, style.ALARM)}
+    for line in axes.lines:
+        drawn_lines[line.get_color()].append(np.transpose(line.get_data_3d()))
+    for colour, inside in ((style.INK, True), (style.ALARM, False)):
+        middles = np.concatenate([0.5 * (part[1:] + part[:-1]) for part in drawn_lines[colour]])
+        assert len(middles) > 20
+        at = nd.leg_lengths(G, nd.Configuration(middles, np.eye(3), middles - [0, 0, 1.6]))[:, :3]
+        keeps = ((at > 3.0) & (at < 6.0)).all(axis=1) & (np.abs(middles[:, :2]) < 2.0).all(axis=1)
+        assert np.mean(keeps == inside) > 0.97  # but for the coarseness of the surface
+    words = [text.get_text() for text in axes.figure.legends[0].get_texts()]
+    assert words == ["workspace", "region, inside", "region, outside"]
+
+
 # --- Ellipsoids -------------------------------------------------------------------------------------------------------
 
 

@@ -115,7 +115,6 @@ def space(percentiles=(), names=(), shares=None):
         unit="",
         percentiles=np.array(percentiles, dtype=float),
         limits=lambda: shares or {},
-        levels=np.empty((0, 4)),
     )
 
 
