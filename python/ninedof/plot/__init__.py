@@ -25,6 +25,7 @@ from ninedof.plot.front import front
 from ninedof.plot.landscape import DesignCurves, condition_curves
 from ninedof.plot.motion import motion
 from ninedof.plot.poses import poses
+from ninedof.plot.region_map import region_map
 from ninedof.plot.space.body import workspace_body
 from ninedof.plot.space.ellipsoid import ellipsoids
 from ninedof.plot.space.mechanism import Robot, mechanism, mechanisms
@@ -45,6 +46,7 @@ __all__ = [
     "mechanisms",
     "motion",
     "poses",
+    "region_map",
     "save",
     "sweep",
     "workspace",

@@ -10,7 +10,9 @@ from ninedof.tables.html import Html, joined, safe, tag
 
 CAPTIONS = {
     "mechanism": "The mechanism at its neutral pose.",
-    "condition": "Condition number along the height of O and along the twist, other variables as in the design.",
+    "condition": "Along the height of O and along the twist, other variables as in the design: what the study asks "
+    "for, at its poses or those that ruled its region; grey where a limit is passed there.",
+    "region": "The region of the study: the worst condition number at each place, and the least margin of its limits.",
     "poses": "Condition number at each pose that was imposed, numbered as in the sheet.",
     "convergence": "Convergence of single starts, with the smooth minimax form and with the plain objective.",
     "front": "The least objective for each value of the limit, and designs from above.",
