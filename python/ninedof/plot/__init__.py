@@ -20,6 +20,7 @@ if "matplotlib" not in _sys.modules and (_backend := _os.environ.pop("MPLBACKEND
 
 from ninedof.plot.atlas import atlas
 from ninedof.plot.convergence import convergence
+from ninedof.plot.drawing import drawing
 from ninedof.plot.files import save
 from ninedof.plot.front import front
 from ninedof.plot.landscape import DesignCurves, condition_curves
@@ -40,6 +41,7 @@ __all__ = [
     "certified_workspace",
     "condition_curves",
     "convergence",
+    "drawing",
     "ellipsoids",
     "front",
     "mechanism",

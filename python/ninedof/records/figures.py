@@ -76,6 +76,7 @@ def _figures(
         for name, g, c, kappa, _ in designs
     ]
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
+    files += plot.save(plot.drawing(*designs[-1][1:3], note), directory, "drawing")
     say("drawing the condition number along zs and theta_z")
     posed = not compared and len(result.solved.objective.poses) > 0
     curves = [_curves(*designs[0], **compared), *(_curves(*design) for design in designs[1:])]

@@ -158,6 +158,35 @@ def test_bad_input_is_named():
         plot.mechanisms([])
 
 
+# --- The drawing ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("geometry", ["coupled", "hexagonal", "inner joints"])
+def test_the_drawing_has_every_dimension_of_the_plates_and_the_heights(geometry):
+    g = GEOMETRIES[geometry]
+    base, platform, front = plot.drawing(g, STANDING, "mm").axes
+    words = [{text.get_text() for text in axes.texts} for axes in (base, platform, front)]
+    for (external, internal), sides, here in zip(
+        ((g.base_external, g.base_internal), (g.platform_external, g.platform_internal)),
+        (("a1", "a2"), ("b1", "b2")),
+        words,
+        strict=False,
+    ):
+        for triple in (external, internal):
+            assert f"R {np.linalg.norm(triple[0, :2]):.5g} mm" in here
+        lengths = np.linalg.norm(external[0] - internal[0]), np.linalg.norm(external[0] - internal[2])
+        named = {f"{name} = {length:.5g} mm" for name, length in zip(sides, lengths, strict=True) if length > 1e-9}
+        assert (named <= here) is (geometry != "inner joints")
+        first, second = sorted(
+            np.unique(np.degrees(np.arctan2(*np.vstack([external, internal]).T[1::-1])).round(6) % 360.0)
+        )[:2]
+        assert {f"{angle:.4g}°" for angle in (first, second - first) if angle > 1e-6} <= here
+        assert {"E1", "E2", "E3", "I1", "I2", "I3"} <= set(" ".join(here).split())
+    assert {"zp = 3.9828 mm", "zs = 2.3745 mm", "O", *LEGS} <= words[2]
+    for axes in (base, platform, front):
+        assert axes.get_aspect() == 1.0
+
+
 # --- The body of a workspace ------------------------------------------------------------------------------------------
 
 

@@ -32,10 +32,10 @@ def test_the_convergence_is_drawn_only_where_asked(tmp_path, monkeypatch):
     monkeypatch.setattr("ninedof.plot.save", lambda figure, folder, stem: [folder / stem])
     result, said = nd.optimize(STUDY, starts=4), []
     default = figures_of(result, said.append)(tmp_path)
-    assert [path.name for path in default] == ["mechanism", "condition"]
+    assert [path.name for path in default] == ["mechanism", "drawing", "condition"]
     assert not any("convergence" in words for words in said)
     asked = figures_of(result, said.append, convergence=True)(tmp_path)
-    assert [path.name for path in asked] == ["mechanism", "condition", "convergence"]
+    assert [path.name for path in asked] == ["mechanism", "drawing", "condition", "convergence"]
     assert any(words.startswith("tracing the starts") for words in said)
 
 
@@ -65,7 +65,7 @@ def test_a_region_study_is_drawn_over_its_region(tmp_path, monkeypatch):
     limits = {"radius_ratio": (None, 2.0), "stroke_ratio": (None, 1.4)}
     result = nd.optimize(nd.Study("symmetric", constraints=limits, objective={"region": region}, starts=2))
     figures_of(result, silent)(tmp_path)
-    assert list(made) == ["mechanism", "condition", "region"]
+    assert list(made) == ["mechanism", "drawing", "condition", "region"]
     worst = f"{result.objective:.4f}"
     count = len(result.region.poses)
     words = [text.get_text() for text in made["condition"].legends[0].get_texts()]

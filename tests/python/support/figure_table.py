@@ -156,6 +156,8 @@ FIGURES = {
     "mechanism": lambda: plot.mechanisms([plot.Robot("optimum", APART, HOME, 3.9, "a note", [EDGES])], "mm"),
     "mechanisms": lambda: plot.mechanisms([plot.Robot("a", G, HOME, 3.9), plot.Robot("b", APART, AWAY)], "l_c"),
     "a small platform": lambda: plot.mechanisms([plot.Robot("a", FLAT, nd.Configuration.neutral(16.0, 15.0))]),
+    "drawing": lambda: plot.drawing(G, HOME, "mm"),
+    "drawing, joints apart": lambda: plot.drawing(APART, AWAY, "m"),
     "condition": lambda: plot.condition_curves([curves(**COMPARED), curves()], "mm"),
     "objective over poses": lambda: plot.condition_curves([curves(**OVER_POSES)], "mm"),
     "region": lambda: plot.region_map(region()),
