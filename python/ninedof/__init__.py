@@ -53,6 +53,7 @@ from ninedof.motion import Followed, LimitBreak, Trajectory, follow
 from ninedof.optimize.bounds import LowerBound, applicable_bounds
 from ninedof.optimize.check import check
 from ninedof.optimize.optimize import Trace, optimize, trace
+from ninedof.optimize.region_map import RegionMap, region_map
 from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.paper.sweeps import sweep_figure
 from ninedof.pareto import Front, pareto
@@ -159,6 +160,7 @@ __all__ = [
     "Pose",
     "PositionStatus",
     "Region",
+    "RegionMap",
     "Result",
     "Sheet",
     "Singularity",
@@ -226,6 +228,7 @@ __all__ = [
     "path_limits",
     "prove_optimum",
     "reciprocal_condition_number",
+    "region_map",
     "report",
     "save",
     "self_stress",

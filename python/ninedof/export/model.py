@@ -106,6 +106,27 @@ class Model:
         return {**joints, P: p, O: self.configuration.internal_point}
 
     @cached_property
+    def cone_axes(self) -> dict[str, Floats]:
+        """The axis of the cone of each joint in the frame of its plate, of length 1, by name.
+
+        That of a limit of the study where it has one, else the direction of the leg at the neutral pose, from the
+        joint along the leg.
+        """
+        p, q, s = self.configuration.position, self.configuration.rotation, self.configuration.internal_point
+        axes: dict[str, Floats] = {}
+        for name, at in self.own_frame.items():
+            body, kind, number = name.split("_")
+            other = self.own_frame[f"{'platform' if body == 'base' else 'base'}_{kind}_{number}"]
+            in_base = body == "base"
+            end = s if kind == "internal" else p + q @ other if in_base else other
+            axis = end - at if in_base else q.T @ (end - p) - at
+            for limit in () if self.study is None else self.study.limits:
+                if limit.axis and limit.name in (f"{body}_cone", f"{body}_cone_{kind}"):
+                    axis = np.array(limit.axis)
+            axes[name] = axis / max(float(np.linalg.norm(axis)), 1e-300)
+        return axes
+
+    @cached_property
     def neutral_lengths(self) -> Floats:
         """The nine leg lengths at the neutral configuration, shape (9,)."""
         return leg_lengths(self.geometry, self.configuration)

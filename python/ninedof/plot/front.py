@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
 from ninedof.plot import style
@@ -42,7 +43,8 @@ def front(front: Front, sketches: int = 4, figure: Figure | None = None) -> Figu
     """Return a figure of a front.
 
     Top: the objective at each limit; limits without a design are crosses on a grey background. Below: the price of each
-    limit, and the plates of a few designs from above. Limits on angles are drawn in degrees.
+    limit, and the plates of a few designs from above, all at one scale. A design that is the mirror image of one like
+    its neighbour is drawn mirrored, and its title says so. Limits on angles are drawn in degrees.
 
     Parameters
     ----------
@@ -80,7 +82,7 @@ def front(front: Front, sketches: int = 4, figure: Figure | None = None) -> Figu
         _limits((upper, lower), rows)
         if designs:
             titles = [f"at {amount(f'{scale * front.limits[k]:.4g}', unit)}" for k in designs]
-            _sketches(figure, dict(zip(titles, designs.values(), strict=True)), share)
+            _sketches(figure, titles, _alike([_joints(one) for one in designs.values()]), front.study.unit, share)
     return figure
 
 
@@ -104,7 +106,7 @@ def _objective(axes: Any, rows: Sequence[Row], objective: str) -> None:
         axes.plot(row["limit"], row["objective"], **mark, ms=5, mew=1.1, zorder=4)
         used |= {kind} | ({list(FOUND)[1]} if row["dominated"] else set())
     axes.set_title(fill(f"{objective}: the least for each limit", MOST_LETTERS))
-    axes.set_ylabel(fill(objective, 34) if len(objective) < 70 else "objective")
+    axes.set_ylabel(fill(objective if len(objective) < 70 else objective.split(" over ")[0], 34))
     if len(y):
         room = 0.08 * max(float(np.ptp(y)), 0.02 * float(y.max()))
         axes.set_ylim(float(y.min()) - room, float(y.max()) + 1.6 * room)
@@ -155,25 +157,53 @@ def _limits(panels: Sequence[Any], rows: Sequence[Row]) -> None:
             axes.axvspan(view[0], last, color=style.GRID, lw=0, zorder=0)
 
 
-def _sketches(figure: Any, designs: Mapping[str, Candidate], share: float) -> None:
-    """Draw plates from above in one row."""
+def _sketches(
+    figure: Any, titles: Sequence[str], designs: Sequence[tuple[Floats, bool]], unit: str, share: float
+) -> None:
+    """Draw plates from above in a row at one scale, with its bar; a design: joints and whether they are mirrored."""
     width = 0.895 / len(designs)
-    words = "plates from above, each at its own scale, base dark, platform light; joints:"
+    words = "plates from above at one scale, base dark, platform light; joints:"
     figure.text(0.09, share - 0.02, words, size=style.SMALL_SIZE)
     keys = [style.key(**mark, label=kind) for kind, mark in JOINTS.items()]
     figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.085, share - 0.02), ncols=4, columnspacing=1.0)
-    for k, (title, design) in enumerate(designs.items()):
-        joints = _joints(design)
-        reach = 1.12 * float(np.abs(joints).max())
+    reach = 1.12 * max(float(np.abs(joints).max()) for joints, _ in designs)
+    for k, (title, (joints, mirrored)) in enumerate(zip(titles, designs, strict=True)):
         axes = figure.add_axes((0.09 + k * width, 0.005, width, share - 0.095))
         axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
         axes.set_axis_off()
-        axes.set_title(title, size=style.SMALL_SIZE, loc="center", pad=2, weight="normal")
+        axes.set_title(title + ", mirrored" * mirrored, size=style.SMALL_SIZE, loc="center", pad=2, weight="normal")
         for body, colour, alpha in ((joints[:6], style.BASE, 0.88), (joints[6:], style.PLATFORM, 0.62)):
             for outline in outlines(np.column_stack([body, np.zeros(6)])):
                 axes.add_patch(Polygon(outline[:, :2], fc=colour, ec=style.INK, lw=0.8, alpha=alpha))
         for mark, three in zip(JOINTS.values(), np.split(joints, 4), strict=True):
             axes.plot(*three.T, **mark)
+    bar = style.round_to(0.5 * reach, 25.0 * 0.5 * reach)
+    right, y = 0.985, share - 0.014
+    inch = float(style.inches(figure)[0])
+    long = bar / (2.0 * reach) * min(width * inch, (share - 0.095) * float(style.inches(figure)[1])) / inch
+    line = Line2D([right - long, right], [y, y], color=style.INK, lw=1.2, marker="|", ms=4, label="scale")
+    figure.add_artist(line)
+    words = amount(f"{bar:g}", unit)
+    figure.text(right - long - 0.008, y, words, size=style.SMALL_SIZE, ha="right", va="center")
+
+
+def _alike(designs: Sequence[Floats]) -> list[tuple[Floats, bool]]:
+    """Return joints (12, 2), mirrored in x or y where that is closer to the design before, and whether they are."""
+    out: list[tuple[Floats, bool]] = []
+    for joints in designs:
+        images = [joints * [1.0, 1.0], joints * [1.0, -1.0], joints * [-1.0, 1.0]]
+        apart = [_apart(image, out[-1][0]) if out else 0.0 for image in images]
+        best = int(np.argmin(apart))
+        clear = apart[best] < 0.5 * apart[0]
+        out.append((images[best if clear else 0], clear))
+    return out
+
+
+def _apart(a: Floats, b: Floats) -> float:
+    """Return how far the four triples of two designs are apart, each joint from the nearest of the other design."""
+    pairs = zip(np.split(a / np.abs(a).max(), 4), np.split(b / np.abs(b).max(), 4), strict=True)
+    gaps = [np.linalg.norm(one[:, None] - other, axis=-1) for one, other in pairs]
+    return float(sum(gap.min(axis=0).sum() + gap.min(axis=1).sum() for gap in gaps))
 
 
 def _joints(design: Candidate) -> Floats:

@@ -8,15 +8,20 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import ConnectionPatch, Rectangle
+from matplotlib.patches import ConnectionPatch, Patch, Rectangle
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
 
+NEUTRAL: dict[str, Any] = {"color": style.MUTED, "lw": 0.9, "ls": (0, (4, 2))}
+
 
 @dataclass(frozen=True, eq=False)
 class DesignCurves:
-    """Condition number of one design along zs and along theta_z. Lengths in one unit, angles in radians."""
+    """Condition number, or the objective of a study, of one design along zs and theta_z.
+
+    Lengths in one unit, angles in radians.
+    """
 
     name: str
     zs: ArrayLike
@@ -37,6 +42,12 @@ class DesignCurves:
     """The zs at which the condition number is `level`."""
     least: tuple[float, float] | None = None
     """The minimum between the crossings: zs and condition number."""
+    index: str = "condition number"
+    """Name of what the curves are, for the axes."""
+    neutral: tuple[ArrayLike, ArrayLike] | None = None
+    """Condition number at the neutral pose along both, where the curves are the worst over several poses."""
+    passed: tuple[ArrayLike, ArrayLike] | None = None
+    """Along both, whether a limit of the study is passed there."""
 
 
 def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Figure | None = None) -> Figure:
@@ -75,19 +86,23 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Fi
             _curve(left, design.zs, design.along_zs, (zs, kappa), colour, number)
             degrees = np.degrees(np.asarray(design.theta_z, dtype=np.float64))
             _curve(right, degrees, design.along_theta_z, (float(np.degrees(theta)), kappa), colour, number)
+            if design.neutral is not None:
+                for axes, x, y in zip((left, right), (design.zs, degrees), design.neutral, strict=True):
+                    axes.plot(x, style.without_infinite(y), **NEUTRAL)
         left.set_title("along zs")
-        left.set(xlabel=style.with_unit("zs, height of O", unit), ylabel="condition number")
+        left.set(xlabel=style.with_unit("zs, height of O", unit), ylabel=designs[0].index)
         right.set_title("along theta_z")
-        right.set(xlabel="theta_z, twist of the platform (deg)", ylabel="condition number")
+        right.set(xlabel="theta_z, twist of the platform (deg)", ylabel=designs[0].index)
         _crop(left, 1.35, [d.point[2] for d in designs])
         _crop(right, 1.2, [d.point[2] for d in designs])
+        ground = [_passed(axes, d, k) for d in designs for k, axes in enumerate((left, right))]
         for design in designs:
             if design.slope is not None:
                 _tangent(right, design, design.slope)
         if compared:
             box = figure.add_axes((0.085, 0.185, 0.415, 0.165), label="magnified")
             _magnify(left, box, *compared)
-        keys = [
+        keys: list[Any] = [
             style.key(
                 colour,
                 ls=style.DASHES[number],
@@ -98,6 +113,8 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Fi
             )
             for number, (colour, d) in enumerate(pairs)
         ]
+        keys += [style.key(**NEUTRAL, label="at the neutral pose")] * any(d.neutral is not None for d in designs)
+        keys += [Patch(color=style.GRID, label="a limit is passed")] * any(ground)
         figure.legend(handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.01), ncols=4, handlelength=3.2)
     return figure
 
@@ -105,6 +122,17 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Fi
 def _curve(axes: Any, x: ArrayLike, y: ArrayLike, own: tuple[float, float], colour: str, number: int) -> None:
     axes.plot(x, style.without_infinite(y), color=colour, ls=style.DASHES[number])
     axes.plot(*own, style.MARKS[number], color=colour, ms=5.5, mec="white", mew=0.9, zorder=5)
+
+
+def _passed(axes: Any, design: DesignCurves, k: int) -> bool:
+    """Draw a grey ground where a limit is passed along one of the two; return whether it is in the picture."""
+    if design.passed is None:
+        return False
+    x = np.asarray((design.zs, np.degrees(np.asarray(design.theta_z, dtype=np.float64)))[k], dtype=np.float64)
+    passed, (low, high) = np.asarray(design.passed[k], dtype=bool), axes.get_xlim()
+    axes.fill_between(x, 0, 1, where=passed, transform=axes.get_xaxis_transform(), color=style.GRID, lw=0, zorder=0)
+    axes.set_xlim(low, high)
+    return bool(passed[(x >= low) & (x <= high)].any())
 
 
 def _crop(axes: Any, factor: float, own: Sequence[float]) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,10 +24,11 @@ PANELS = 6  # slices shown of a sweep over three coordinates
 MOST_CURVES = 9
 FINEST = 600  # values along an axis that a map can show
 MAP = "viridis"
+NOTE, LINE = (58, 110), 0.14  # letters of a line of the note in one column and in two, and its height in inches
 SMOOTH = 8  # values each way from which a map without gaps is drawn as bands between contours, else as cells
 
 
-def sweep(result: SweepResult, name: str = "", figure: Figure | None = None) -> Figure:
+def sweep(result: SweepResult, name: str = "", note: str = "", figure: Figure | None = None) -> Figure:
     """Return a figure of one index of a sweep.
 
     One coordinate gives a curve for each component of the index. Two give a map for each component, with the first
@@ -37,6 +39,8 @@ def sweep(result: SweepResult, name: str = "", figure: Figure | None = None) -> 
     result : SweepResult
     name : str
         Of the index; the first by default.
+    note : str
+        Words above the figure, such as where the design is evaluated.
     figure : matplotlib.figure.Figure or SubFigure, optional
         To draw in, with a constrained layout for maps; a new one by default.
 
@@ -56,29 +60,37 @@ def sweep(result: SweepResult, name: str = "", figure: Figure | None = None) -> 
     labels = result.coords[dims[-1]] if values.shape and result.coords[dims[-1]].dtype.kind == "U" else None
     swept = dims if labels is None else dims[:-1]
     if len(swept) == 1:
-        return _curves(result, name, swept[0], np.atleast_2d(np.asarray(values).T), labels, figure)
+        return _curves(result, name, swept[0], np.atleast_2d(np.asarray(values).T), labels, note, figure)
     if len(swept) == 2:
         slices = values[None] if labels is None else np.moveaxis(values, -1, 0)[:MOST_CURVES]
         titles = [_words(name)] if labels is None else [str(x) for x in labels]
-        return _maps(result, name, swept, slices, titles, figure)
+        return _maps(result, name, swept, dict(zip(titles, slices, strict=True)), note, figure)
     if labels is not None:
         values, name = values[..., 0], f"{name}, {labels[0]}"
     picks = np.unique(np.linspace(0, len(values) - 1, min(PANELS, len(values))).round().astype(int))
     first, unit = _values(result, swept[0])
     titles = [f"{plain_name(swept[0])} = {amount(style.signed(first[k]), unit)}" for k in picks]
-    return _maps(result, name, swept[1:], values[picks], titles, figure)
+    return _maps(result, name, swept[1:], dict(zip(titles, values[picks], strict=True)), note, figure)
 
 
-def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any, figure: Figure | None) -> Figure:
+def _curves(
+    result: SweepResult, name: str, dim: str, rows: Floats, labels: Any, note: str, figure: Figure | None
+) -> Figure:
     names = [] if labels is None else [str(label) for label in labels[:MOST_CURVES]]
     of_legs = len(names) == 9 and [label[0] for label in names] == list("lllqqqrrr")
-    size = (style.TWO_COLUMNS, 2.3) if of_legs else (style.ONE_COLUMN, 2.5)
-    with style.page(figure, *size) as figure:
+    words = fill(note, NOTE[of_legs])
+    above = LINE * len(words.splitlines())
+    width, tall = (style.TWO_COLUMNS, 2.3) if of_legs else (style.ONE_COLUMN, 2.5)
+    with style.page(figure, width, tall + above) as figure:
+        share = tall / (tall + above)  # for the panels, below the note
         if of_legs:
-            place: dict[str, float] = {"left": 0.085, "right": 0.985, "bottom": 0.19, "top": 0.83}
+            place: dict[str, float] = {"left": 0.085, "right": 0.985, "bottom": 0.19 * share, "top": 0.83 * share}
             panels: Any = figure.add_gridspec(1, 3, wspace=0.36, **place).subplots()
         else:
-            panels = [figure.add_axes((0.155, 0.16, 0.8, 0.74 if len(names) > 1 else 0.8))]
+            high = 0.74 if len(names) > 1 or note else 0.8
+            panels = [figure.add_axes((0.155, 0.16 * share, 0.8, high * share))]
+        if note:
+            figure.text(0.02, 0.99, words, size=style.SMALL_SIZE, va="top")
         x, _ = _values(result, dim)
         for k, row in enumerate(rows[:MOST_CURVES]):
             axes = panels[k // 3 if of_legs else 0]
@@ -113,11 +125,12 @@ def _maps(
     result: SweepResult,
     name: str,
     dims: tuple[str, ...],
-    slices: Floats,
-    titles: Sequence[str],
+    panels: Mapping[str, Floats],
+    note: str,
     figure: Figure | None,
 ) -> Figure:
-    """Draw maps over two coordinates with a common colour scale."""
+    """Draw maps over two coordinates, by title, with a common colour scale."""
+    slices = np.stack(list(panels.values()))
     columns = min(3, len(slices))
     rows = -(-len(slices) // 3)
     single = columns == 1
@@ -131,7 +144,9 @@ def _maps(
     with style.page(figure, *size, layout="constrained") as figure:
         grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
         image = None
-        for axes, title, part in zip(grid.flat, titles, slices, strict=False):
+        if note:
+            figure.suptitle(fill(note, NOTE[not single]), size=style.SMALL_SIZE, x=0.02, ha="left")
+        for axes, title, part in zip(grid.flat, panels, slices, strict=False):
             values = np.ma.masked_invalid(part.T)
             if min(part.shape) >= SMOOTH and np.isfinite(part).all():
                 clipped = np.clip(values, levels[0], None if beyond else levels[-1])

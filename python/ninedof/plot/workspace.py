@@ -1,4 +1,4 @@
-"""A workspace: sections, its limits, the condition number in it, the convergence of the volume; what is certified."""
+"""A workspace: sections, what ends it, the condition number in it; what is certified."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from matplotlib.ticker import NullLocator
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
+from ninedof.robot.leg_names import LEGS
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 
@@ -70,7 +71,7 @@ class Section(Generic[Plane]):
 
 
 def workspace(found: WorkspaceMap, sections: Sequence[Section[WorkspaceSlice]], figure: Figure | None = None) -> Figure:
-    """Return a figure of a workspace: sections above, the limits, the condition number and the volume below.
+    """Return a figure of a workspace: sections above, what ends it and the spread of the condition number below.
 
     Colours are bands between contours at round values, the same in all sections. Where the condition number goes on
     beyond the last, the colour bar has an arrow and names the largest. Angles are drawn in degrees.
@@ -118,10 +119,9 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section[WorkspaceSlice]], 
             bar.set_label("condition number" + more)
             bar.outline.set_linewidth(0.5)
         _legend(figure, _keys_of_limits(sections, kinds), sections, style.INK, 4)
-        left, middle, right = below.subplots(1, 3)
+        left, right = below.subplots(1, 2)
         _shares(left, found.limits())
-        _distribution(middle, found.percentiles)
-        _levels(right, found.levels)
+        _distribution(right, found.percentiles)
     return figure
 
 
@@ -307,20 +307,27 @@ def _legend(figure: Any, keys: list[Any], sections: Sequence[Section[Plane]], re
 
 def _shares(axes: Any, shares: Mapping[str, float]) -> None:
     top = list(shares.items())[:MOST_SHARES]
-    axes.set_title("limits of the boundary")
+    axes.set_title("what ends the workspace")
     if not top:
         axes.set_axis_off()
         return
     colours = [KINDS[kind_of(name)][1] for name, _ in top]
     axes.barh(range(len(top)), [100.0 * share for _, share in top], color=colours, height=0.7)
-    axes.set_yticks(range(len(top)), [name.replace("_", " ") for name, _ in top])
+    axes.set_yticks(range(len(top)), [_limit_words(name) for name, _ in top])
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("% of the boundary")
 
 
+def _limit_words(name: str) -> str:
+    """Return a limit in words: "l1 at its longest" for "l1 high"."""
+    leg, _, side = name.partition(" ")
+    words = {"low": "at its shortest", "high": "at its longest"}.get(side) if leg in LEGS else None
+    return f"{leg} {words}" if words else name.replace("_", " ")
+
+
 def _distribution(axes: Any, percentiles: Floats) -> None:
-    axes.set_title("condition number in it")
+    axes.set_title("condition number within it")
     finite = percentiles[np.isfinite(percentiles)]
     if not finite.size:
         axes.set_axis_off()
@@ -330,17 +337,3 @@ def _distribution(axes: Any, percentiles: Floats) -> None:
     if finite.max() > 10.0 * finite.min():
         axes.set_xscale("log")
         style.one_two_five(axes.xaxis)
-
-
-def _levels(axes: Any, levels: Floats) -> None:
-    axes.set_title("error of the volume")
-    with_error = levels[levels[:, 3] > 0.0]
-    if len(with_error) == 0:
-        axes.set_axis_off()
-        return
-    axes.loglog(with_error[:, 1], with_error[:, 3] / levels[-1, 2], "o-", color=style.SERIES[0], ms=3.5)
-    axes.set_xlim(10.0 ** np.floor(np.log10(with_error[0, 1])), 1.3 * 10.0 ** np.ceil(np.log10(with_error[-1, 1])))
-    axes.xaxis.set_major_formatter(style.power_of_ten)
-    axes.yaxis.set_major_formatter(style.power_of_ten)
-    axes.minorticks_off()
-    axes.set(xlabel="poses evaluated", ylabel="share of the volume")

@@ -1,4 +1,4 @@
-"""The figures of a study's run: mechanisms, condition number about it and at each pose; convergence if asked."""
+"""The figures of a study's run: mechanisms, condition number about it and over its region; convergence if asked."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from ninedof.design.duty import Tool
 from ninedof.design.pose import Pose
 from ninedof.design.region_outline import region_lines
 from ninedof.optimize.optimize import trace
+from ninedof.optimize.region_map import region_map
 from ninedof.optimize.result import Result
 from ninedof.paper import published
 from ninedof.paper.comparison import Comparison
@@ -30,6 +31,7 @@ Named = tuple[str, Geometry, Configuration, float, float]
 """A design to draw: name, geometry, neutral configuration, condition number there, characteristic length."""
 
 TRACED_STARTS = 200  # runs shown in the convergence figure, at one pose
+POINTS = 161  # of a curve over several poses
 FEWEST_TRACED = 10  # however many poses each run evaluates
 
 
@@ -61,22 +63,38 @@ def figures_of(run: Result | Comparison, say: Say, convergence: bool = False) ->
 def _figures(
     designs: list[Named], result: Result, directory: Path, say: Say, convergence: bool, **compared: Any
 ) -> list[Path]:
-    """Draw the designs in space, their condition number along zs and theta_z and at poses, and the convergence."""
+    """Draw the designs in space, their condition number along zs and theta_z and over poses, and the convergence."""
     say("drawing the mechanisms")
     from ninedof import plot
 
     unit = "l_c" if compared else result.study.unit  # the paper's unit; a study keeps its own
     note = "" if compared else unit
     region, tool = None if compared else result.study.objective.region, result.study.tool
+    where = "" if compared else "the region" if region is not None else "the poses" * bool(result.study.objective.poses)
+    worst = f"{result.study.words.split(' over ')[0]} over {where} {result.objective:.4f}; " if where else ""
     panels = [
-        plot.Robot(name, g, c, kappa, _heights(tool.plate(c), note), () if region is None else region_lines(region, c))
+        plot.Robot(
+            name,
+            g,
+            c,
+            kappa,
+            worst + _heights(tool.plate(c), note),
+            () if region is None else region_lines(region, c),
+        )
         for name, g, c, kappa, _ in designs
     ]
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
+    files += plot.save(
+        plot.drawing(tool.plates(designs[-1][1]), tool.plate(designs[-1][2]), note), directory, "drawing"
+    )
     say("drawing the condition number along zs and theta_z")
+    posed = not compared and len(result.solved.objective.poses) > 0
     curves = [_curves(tool, designs[0], **compared), *(_curves(tool, design) for design in designs[1:])]
-    files += plot.save(plot.condition_curves(curves, unit), directory, "condition")
-    if result.best is not None and len(result.best.conditions) > 1:
+    files += plot.save(plot.condition_curves(_over_poses(result) if posed else curves, unit), directory, "condition")
+    if not compared and (of_region := region_map(result)) is not None:
+        say("drawing the map of the region")
+        files += plot.save(plot.region_map(of_region), directory, "region")
+    elif result.best is not None and len(result.best.conditions) > 1:
         say("drawing the condition number at each pose")
         names = _pose_names(result, len(result.best.conditions))
         of_unit = f", in {unit}" if unit and any(p.unit != "zp" for p in result.solved.objective.poses) else ""
@@ -142,6 +160,41 @@ def _curves(tool: Tool, design: Named, level: float | None = None, crossings: tu
         crossings=crossings,
         least=(zs, kappa) if compared else None,
     )
+
+
+def _over_poses(result: Result) -> list[DesignCurves]:
+    """Return the objective of a study over its poses, or those that ruled its region, and its limits."""
+    from ninedof.plot import DesignCurves
+
+    best, study = result.best, result.solved
+    assert best is not None
+    home = study.tool.plate(best.configuration)
+    zp, own = float(home.position[2]), float(home.internal_point[2])
+    turns = [n for n in ("theta_z", "platform_external_angle", "platform_internal_angle") if n in study.variables]
+    twist = float(np.arctan2(home.rotation[1, 0], home.rotation[0, 0]))
+    heights, away = np.linspace(0.02, 0.98, POINTS) * zp, np.radians(np.linspace(-60.0, 60.0, POINTS))
+    along = [
+        [study.evaluate(best.variables | {"zs": float(z)}) for z in heights],
+        [study.evaluate(best.variables | {n: best.variables[n] + float(a) for n in turns}) for a in away],
+    ]
+    is_condition = study.objective.index == "condition_number"
+    index, _, over = study.words.partition(" over ")
+    if result.region is not None:
+        over = f"the {len(result.region.poses)} poses that ruled the region"
+    kappa = [[point.condition_number for point in points] for points in along]
+    passed = [[min(point.margins.values(), default=0.0) < -1e-6 for point in points] for points in along]
+    curves = DesignCurves(
+        name=f"{index} over {over}",
+        zs=heights,
+        along_zs=[point.objective for point in along[0]],
+        theta_z=twist + away,
+        along_theta_z=[point.objective for point in along[1]],
+        point=(own, twist, best.objective),
+        index="condition number" if is_condition else index,
+        neutral=(kappa[0], kappa[1]) if is_condition else None,
+        passed=(passed[0], passed[1]),
+    )
+    return [curves]
 
 
 def _traces(result: Result, formulation: str) -> list[tuple[float, ...]]:

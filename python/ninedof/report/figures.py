@@ -9,17 +9,21 @@ from ninedof.paper.published import FIGURES
 from ninedof.tables.html import Html, joined, safe, tag
 
 CAPTIONS = {
+    "drawing": "Dimensions. E1 to E3 are joints of external legs (circles), I1 to I3 of internal legs (squares); all "
+    "coordinates are in the sheet. Each view has its own scale.",
     "mechanism": "The mechanism at its neutral pose.",
-    "condition": "Condition number along the height of O and along the twist, other variables as in the design.",
+    "condition": "Along the height of O and along the twist, other variables as in the design: what the study asks "
+    "for, at its poses or those that ruled its region; grey where a limit is passed there.",
+    "region": "The region of the study: the worst condition number at each place, and the least margin of its limits.",
     "poses": "Condition number at each pose that was imposed, numbered as in the sheet.",
     "convergence": "Convergence of single starts, with the smooth minimax form and with the plain objective.",
     "front": "The least objective for each value of the limit, and designs from above.",
-    "workspace": "Sections of the workspace, what limits it, the spread of the condition number, and how the volume "
-    "became known.",
+    "workspace": "Sections of the workspace, what ends it, and the spread of the condition number.",
     "certified_workspace": "What is proved of the workspace, each pixel at its middle, and the estimate on top.",
     "motion": "Leg lengths, condition number and margins along the path.",
     **{stem: f"{name}." for stem, name in FIGURES.items()},
 }
+OWN = ("drawing", "region")  # figures that are sections of the page
 LARGEST = 20_000_000  # bytes of a figure
 KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
 
@@ -32,7 +36,12 @@ def stems(folder: Path) -> list[str]:
 
 def figures(folder: Path) -> Html:
     """Return the figures of a folder with their captions."""
-    return joined(*(tag("figure", image(folder, stem), tag("figcaption", _caption(stem))) for stem in stems(folder)))
+    return joined(*(figure(folder, stem) for stem in stems(folder) if stem not in OWN))
+
+
+def figure(folder: Path, stem: str) -> Html:
+    """Return a figure with its caption; its class is its name, as print leaves one out."""
+    return tag("figure", image(folder, stem), tag("figcaption", _caption(stem)), class_=f"of-{safe(stem)}")
 
 
 def image(folder: Path, stem: str) -> Html:

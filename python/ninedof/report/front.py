@@ -52,4 +52,6 @@ def of_front(front: Front, record: Any) -> Page:
     ]
     headline = f"{front.study.words[:1].upper()}{front.study.words[1:]} against {limit}"
     view = scene.scene(machines, front.study.unit, start) if machines else None
-    return Page("trade-off", headline, figures, sections, view, bool(values) and not front.interrupted)
+    shown = None if first is None else front.results[first.number - 1].best
+    machine = None if shown is None else (shown.geometry, shown.configuration)
+    return Page("trade-off", headline, figures, sections, view, bool(values) and not front.interrupted, machine)

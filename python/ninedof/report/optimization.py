@@ -49,7 +49,9 @@ def of_result(
     sections["again"] = again or origin.of_study(study, "ninedof optimize study.toml", record)
     words = f"{study.words}: no design" if sheet is None else result.words
     headline = words[:1].upper() + words[1:]
-    return Page("optimization", headline, _key_figures(result, sheet), sections, view, result.status == Status.OPTIMAL)
+    machine = None if best is None or view is None else (best.geometry, best.configuration)
+    good, figures = result.status == Status.OPTIMAL, _key_figures(result, sheet)
+    return Page("optimization", headline, figures, sections, view, good, machine)
 
 
 def sheet_html(sheet: Sheet) -> Html:

@@ -11,8 +11,11 @@ from importlib.resources import files
 from string import Template
 from typing import Any
 
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
 from ninedof.tables.html import Html, facts, joined, safe, tag
 
+BLANK = "\N{EM DASH}"
 SCRIPTS = ("camera.js", "paint.js", "scene.js")
 # Nothing is loaded; style and script are the ones written here, known by their hashes, and no text becomes code.
 POLICY = (
@@ -22,6 +25,8 @@ TITLES = {
     "question": "Question",
     "answer": "Answer",
     "machine": "Machine",
+    "drawing": "Drawing",
+    "region": "Region",
     "sheet": "Engineering sheet",
     "figures": "Figures",
     "proof": "What is proved, and what is searched",
@@ -42,13 +47,30 @@ class Page:
     shown: Mapping[str, Any] | None = None
     """The contents of the view; None without a machine."""
     good: bool = True
+    machine: tuple[Geometry, Configuration] | None = None
+    """The machine of the drawing."""
 
 
-def page(contents: Page, name: str, created: str, figures: Html, still: Html) -> str:
-    """Return the HTML of a page of a run; `still` stands for the view where scripts are off."""
-    bodies = {**contents.sections, "figures": figures}
+def title_block(study: Any, name: str, created: str) -> Html:
+    """Return the block of a drawing: project, author and revision of a study, lines to write on where it has none."""
+    about = getattr(study, "about", None)
+    rows = [(word, getattr(about, word, "") or BLANK) for word in ("project", "author", "revision")]
+    if rows[0][1] == BLANK:
+        rows[0] = ("project", name)
+    unit = getattr(study, "unit", "")
+    return facts([*rows, ("date", created[:10]), ("run", name), *([("lengths in", unit)] if unit else [])])
+
+
+def page(contents: Page, name: str, created: str, drawn: Mapping[str, Html], study: Any = None) -> str:
+    """Return the HTML of a page of a run.
+
+    `drawn` has the sections made of figures, and as "still" what stands for the view where scripts are off.
+    """
+    bodies = {**contents.sections, **drawn}
     sections = {key: bodies[key] for key in TITLES if bodies.get(key) or key in contents.sections}
-    view = joined(Html(_file("view.html")), tag("noscript", tag("figure", still))) if contents.shown else Html()
+    view = (
+        joined(Html(_file("view.html")), tag("noscript", tag("figure", drawn["still"]))) if contents.shown else Html()
+    )
     parts = [
         tag("section", tag("h2", TITLES[key]), view if key == "machine" else Html(), body, id=key)
         for key, body in sections.items()
@@ -63,6 +85,7 @@ def page(contents: Page, name: str, created: str, figures: Html, still: Html) ->
         name=safe(name),
         created=safe(created.replace("T", " ").replace("+00:00", " UTC")),
         headline=safe(contents.headline),
+        block=title_block(study, name, created),
         state="good" if contents.good else "poor",
         key_figures=facts(contents.figures),
         links=joined(*(tag("a", TITLES[key], href=f"#{key}") for key in sections)),

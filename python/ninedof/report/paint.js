@@ -51,11 +51,11 @@ function paint(context, size, camera, data, machine, pose, shown, colours) {
   floor(data.floor, project, line, colours);
   if (overBase) base();
   if (!overPlatform) platform();
-  between_plates(context, data.radius, shown.region ? machine.region : [], robot, view, colours, line, disc);
+  between_plates(context, data.radius, shown.region ? machine.region : [], robot, view, colours, line);
   if (overPlatform) platform();
   if (!overBase) base();
   if (machine.body && shown.body) body(context, size, machine.body, view, colours);
-  if (shown.labels) labels(context, robot, project, colours);
+  if (shown.labels) labels(context, robot, project, colours, line, machine.basePlate.map((face) => face.map(project)));
   axes(context, view, height, colours, line);
 }
 
@@ -75,7 +75,7 @@ function floor({ step, count }, project, line, colours) {
 }
 
 // Legs with a rim where one crosses another, the region, and O; sorted by depth.
-function between_plates(context, radius, region, robot, view, colours, line, disc) {
+function between_plates(context, radius, region, robot, view, colours, line) {
   const items = [];
   for (const [kind, , a, b] of robot.legs) {
     for (let k = 0; k < PARTS; k++) {
@@ -96,7 +96,12 @@ function between_plates(context, radius, region, robot, view, colours, line, dis
     }
   }
   const o = view.project(robot.o);
-  items.push([o[2] + 0.02 * radius, () => disc(o, 5, colours.surface, colours.ink, 2)]);
+  // A diamond: a ring beside the letter O would be read as a second one.
+  items.push([o[2] + 0.02 * radius, () => {
+    const corners = [[5.5, 0], [0, 5.5], [-5.5, 0], [0, -5.5]].map(([x, y]) => [o[0] + x, o[1] + y]);
+    polygon(context, corners, colours.ink);
+    line([...corners, corners[0]], colours.surface, 1);
+  }]);
   items.sort((a, b) => a[0] - b[0]).forEach((item) => item[1]());
 }
 
@@ -124,20 +129,27 @@ function body(context, [width, height], { vertices, faces }, view, colours) {
   context.globalAlpha = 1;
 }
 
-// The number of each leg beside it, where it covers no other one.
-function labels(context, robot, project, colours) {
+// The name of each leg beside it on light ground, off the base where there is room, else at the end of a thin line.
+function labels(context, robot, project, colours, line, dark) {
   const taken = [];
-  Object.assign(context, { font: "600 12px system-ui, sans-serif", textAlign: "center", textBaseline: "middle" });
-  const write = (text, colour, places) => {
-    const free = places.find(([x, y]) => taken.every(([a, b]) => Math.abs(a - x) > 17 || Math.abs(b - y) > 14));
-    if (!free) return; // too small a picture: the number comes with zooming
-    taken.push(free);
-    Object.assign(context, { strokeStyle: colours.surface, fillStyle: colour, lineWidth: 4 });
-    context.strokeText(text, free[0], free[1]);
-    context.fillText(text, free[0], free[1]);
+  Object.assign(context, { textAlign: "center", textBaseline: "middle" });
+  const free = ([x, y]) => taken.every(([a, b]) => Math.abs(a - x) > 17 || Math.abs(b - y) > 14);
+  const light = ([x, y]) => !dark.some((face) => within(face, x, y));
+  const write = (text, colour, places, font = "600 12px system-ui, sans-serif") => {
+    const [x, y] = places[0], around = [26, 40, 56, 76].flatMap((r) =>
+      [...Array(16).keys()].map((k) => [x + r * Math.cos(k * Math.PI / 8), y + r * Math.sin(k * Math.PI / 8)]));
+    const at = places.find((p) => free(p) && light(p)) || places.find(free) || around.find(free) || places[0];
+    if (around.includes(at)) line([[x, y], at], colour, 0.8);
+    taken.push(at);
+    Object.assign(context, { font, fillStyle: colours.surface });
+    context.globalAlpha = 0.85;
+    context.fillRect(at[0] - 9, at[1] - 8, 18, 16);
+    context.globalAlpha = 1;
+    context.fillStyle = colour;
+    context.fillText(text, at[0], at[1]);
   };
   const o = project(robot.o);
-  write("O", colours.ink, [[o[0] - 15, o[1] - 3], [o[0] + 15, o[1] - 3], [o[0], o[1] + 17]]);
+  write("O", colours.ink, [[o[0] - 17, o[1] - 3], [o[0] + 17, o[1] - 3], [o[0], o[1] + 18]], "italic 600 13px system-ui, sans-serif");
   for (const [kind, i, a, b] of [...robot.legs.slice(3), ...robot.legs.slice(0, 3)]) { // the short ones first
     const [from, to] = [a, b].map(project), long = Math.hypot(to[0] - from[0], to[1] - from[1]) || 1;
     const aside = long < 90 ? [12, -12, 22, -22] : [0]; // in pixels; beside a leg that its number would hide
@@ -148,6 +160,15 @@ function labels(context, robot, project, colours) {
     });
     write(`${kind}${i + 1}`, colours[kind], places);
   }
+}
+
+function within(face, x, y) {
+  let inside = false;
+  face.forEach(([a, b], k) => {
+    const [c, d] = face[(k + 1) % face.length];
+    if (b > y !== d > y && x < a + (y - b) / (d - b) * (c - a)) inside = !inside;
+  });
+  return inside;
 }
 
 function axes(context, view, height, colours, line) {

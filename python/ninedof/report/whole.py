@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from ninedof.design.study import Study
+from ninedof.optimize.region_map import region_map
 from ninedof.optimize.result import Result
 from ninedof.paper.comparison import comparison_table
 from ninedof.pareto import Front
@@ -16,14 +19,12 @@ from ninedof.records.certificate import certificate_file, load_certificate
 from ninedof.records.load import load
 from ninedof.records.record import Record, load_record
 from ninedof.report import origin
-from ninedof.report.figures import figures, image, stems
+from ninedof.report.figures import OWN, figure, figures, image, stems
 from ninedof.report.front import of_front
 from ninedof.report.optimization import of_result
 from ninedof.report.page import Page, page
 from ninedof.report.recorded import FROM_RECORD, of_recorded
 from ninedof.report.workspace import of_workspace
-from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
 from ninedof.tables.html import Html, html_of, joined
 from ninedof.workspace import WorkspaceMap
 
@@ -33,7 +34,8 @@ STILL = "mechanism"
 def page_of_result(run: Result | Front, name: str) -> str:
     """Return the page of a result in memory."""
     record = Record("front" if isinstance(run, Front) else "optimization", run.study, {})
-    return _text(_page_of(run, record, name), record, None, name)
+    result = run if isinstance(run, Result) else None
+    return _text(_page_of(run, record, name), record, None, name, result)
 
 
 def page_of_path(place: Path, point: str, run: str | os.PathLike[str]) -> str:
@@ -45,7 +47,8 @@ def page_of_path(place: Path, point: str, run: str | os.PathLike[str]) -> str:
     whole = load(place) if point else None
     certificate = _certificate_of(contents, run) if isinstance(contents, Result) else None
     contents_page = _page_of(contents, record, name, point, whole, certificate)
-    return _text(contents_page, record, None if point else folder, name)
+    result = contents if isinstance(contents, Result) else None
+    return _text(contents_page, record, None if point else folder, name, result)
 
 
 def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCertificate | None:
@@ -85,22 +88,34 @@ def _page_of(
     return replace(page_, sections={**page_.sections, "answer": joined(published, page_.sections["answer"])})
 
 
-def _text(contents: Page, record: Record, folder: Path | None, name: str) -> str:
+def _text(page_: Page, record: Record, folder: Path | None, name: str, result: Result | None = None) -> str:
+    study = record.question if isinstance(record.question, Study) else None
     with TemporaryDirectory() as spare:
-        still = Html()
-        if contents.shown is not None:
-            has_still = folder is not None and STILL in stems(folder)
-            still = image(folder if folder and has_still else _drawn(contents.shown, Path(spare)), STILL)
-        return page(contents, name, record.created, Html() if folder is None else figures(folder), still)
+        have = {} if folder is None else dict.fromkeys(stems(folder), folder)
+        have = _drawn(page_, result, study, have, Path(spare)) | have
+        drawn = {stem: figure(have[stem], stem) for stem in OWN if stem in have and page_.machine is not None}
+        drawn["still"] = image(have[STILL], STILL) if STILL in have else Html()
+        drawn["figures"] = Html() if folder is None else figures(folder)
+        return page(page_, name, record.created, drawn, study)
 
 
-def _drawn(scene: Any, folder: Path) -> Path:
-    """Draw the machine shown first, at its first pose; return the folder of the figure."""
+def _drawn(
+    page_: Page, result: Result | None, study: Study | None, have: Mapping[str, Path], folder: Path
+) -> dict[str, Path]:
+    """Draw what the page shows and the folder of its run does not have; return the folder of each figure."""
     from ninedof import plot
 
-    one = scene["machines"][scene["start"]]
-    pose = one["poses"][0]
-    g = Geometry(*(one[body][k : k + 3] for body in ("base", "platform") for k in (0, 3)))
-    c = Configuration(pose["p"], pose["q"], pose["s"])
-    plot.save(plot.mechanisms([plot.Robot(one["name"], g, c)], scene["unit"]), folder, STILL)
-    return folder
+    if page_.machine is None:
+        return {}
+    g, c = page_.machine
+    unit = page_.shown["unit"] if page_.shown else ""
+    new: dict[str, Any] = {}
+    if STILL not in have:
+        new[STILL] = plot.mechanisms([plot.Robot("neutral pose", g, c)], unit)
+    if "drawing" not in have:
+        new["drawing"] = plot.drawing(g, c, unit)
+    if "region" not in have and result is not None and (of_region := region_map(result)) is not None:
+        new["region"] = plot.region_map(of_region)
+    for stem, one in new.items():
+        plot.save(one, folder, stem)
+    return dict.fromkeys(new, folder)

@@ -41,12 +41,17 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
         ("worst condition number", f"{workspace.worst_condition_number:.4f}"),
     ]
     headline = f"Workspace: {workspace.archetype.replace('_', ' ')}"
-    return Page("workspace", headline, figures, sections, view, workspace.status in ("converged", "limited"))
+    good = workspace.status in ("converged", "limited")
+    return Page("workspace", headline, figures, sections, view, good, None if view is None else _machine(question))
+
+
+def _machine(question: Any) -> tuple[Geometry, Configuration]:
+    g = Geometry(**{key: np.array(value) for key, value in question["geometry"].items()})
+    return g, Configuration(**{key: np.array(value) for key, value in question["home"].items()})
 
 
 def _scene(workspace: WorkspaceMap, question: Any) -> dict[str, Any]:
-    g = Geometry(**{key: np.array(value) for key, value in question["geometry"].items()})
-    home = Configuration(**{key: np.array(value) for key, value in question["home"].items()})
+    g, home = _machine(question)
     box = [] if workspace.of_angles else box_lines(workspace.low, workspace.high)
     length = float(question.get("characteristic_length", 1.0))
     return scene.scene(

@@ -49,7 +49,8 @@ def table_html(table: Table) -> Html:
     bodies = (tag("tbody", *(tag("tr", *_cells(row, kinds)) for row in group)) for group in table.texts() if group)
     caption = [tag("caption", table.title)] if table.title else []
     head = [tag("thead", tag("tr", *heads))] if table.has_head else []
-    return joined(tag("table", *caption, *head, *bodies), paragraphs(table.notes, class_="note"))
+    notes = tag("div", paragraphs(table.notes, class_="note"), class_="notes") if any(table.notes) else Html()
+    return joined(tag("table", *caption, *head, *bodies), notes)
 
 
 def _cells(row: list[str], kinds: list[str]) -> Iterable[Html]:

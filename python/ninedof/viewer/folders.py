@@ -13,14 +13,16 @@ from ninedof.export.export import export, formats
 from ninedof.motion.follow import follow
 from ninedof.motion.trajectory import Trajectory
 from ninedof.plot.files import picture
+from ninedof.plot.style import REGION
 from ninedof.records.design_file import save_design
 from ninedof.records.motion import legs_csv
 from ninedof.redundancy.rules import RULES, WORDS
 from ninedof.support.extras import MissingExtra
 from ninedof.support.units import amount, with_unit
-from ninedof.viewer.html import limits_html, number, numbers_html, words_html
+from ninedof.viewer.html import legend_html, limits_html, number, numbers_html, words_html
 from ninedof.viewer.machine import Variable
 from ninedof.viewer.panel import Panel, Slider
+from ninedof.viewer.scene import PATH_COLOUR
 from ninedof.viewer.state import ELLIPSOIDS, State
 
 TURN = 60.0  # degrees: end of the sliders of the rotation
@@ -41,6 +43,7 @@ IN_METRES = ("mjcf", "urdf", "sdf")
 def build(panel: Panel) -> None:
     """Build all folders, the three of most use open."""
     panel.text("numbers", lambda: numbers_html(panel.numbers, panel.unit, panel.state.note))
+    panel.text("legend", lambda: legend_html(lines_shown(panel.state)))
     family = panel.state.machine.family.replace("_", " ")
     design = f"Design: {family}" if family else "Design"
     for title, folder in {"Platform": _platform, "Internal point O": _internal_point, "Limits": _limits}.items():
@@ -50,6 +53,16 @@ def build(panel: Panel) -> None:
     for title, folder in ({design: _design} | closed).items():
         with panel.gui.add_folder(title, expand_by_default=False):
             folder(panel)
+
+
+def lines_shown(state: State) -> dict[str, str]:
+    """Return the colours of the lines in the scene by what they are: the region and the path, if they are there."""
+    lines = {}
+    if state.machine.region is not None and "region" not in state.display.hidden:
+        lines["region of the study"] = REGION
+    if state.player is not None:
+        lines[f"path {state.player.name}" if state.player.name != "path" else "path"] = PATH_COLOUR
+    return lines
 
 
 def _coordinate(panel: Panel, k: int, label: str, reach: float, hint: str) -> None:
@@ -159,9 +172,14 @@ def _path(panel: Panel) -> None:
     upload = gui.add_upload_button("Open CSV", icon="upload", mime_type=".csv", hint="Columns t, x, y, z and turns")
     upload.on_upload(lambda _: viewer.submit("path", lambda: open_path(state, upload.value)))
     panel.text("path", lambda: words_html(path_words(state)))
-    play = panel.button("Play", "player-play", state.toggle)
+    play = panel.widgets["play"] = panel.button("Play", "player-play", state.toggle)
+
+    def playing() -> bool:
+        return state.player is not None and state.player.playing
+
     panel.follow(play, "disabled", lambda: state.player is None)
-    panel.follow(play, "label", lambda: "Pause" if state.player is not None and state.player.playing else "Play")
+    panel.follow(play, "label", lambda: "Pause" if playing() else "Play")
+    panel.follow(play, "icon", lambda: "player-pause" if playing() else "player-play")
     panel.slider("speed", (0.1, 5.0), lambda: state.speed, lambda x: setattr(state, "speed", x), "Times the path's own")
     folder = gui.add_folder("Time")
     opened, time = state.player, None

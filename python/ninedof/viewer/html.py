@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from html import escape
 
 from ninedof.plot.style import LEG_COLOURS
@@ -35,6 +36,16 @@ def numbers_html(numbers: Numbers, unit: str, note: str) -> str:
         _legs(numbers, unit),
         f'<div id="ninedof-note" style="color:{RED};font-weight:600">{escape(note)}</div>' if note else "",
     )
+
+
+def legend_html(lines: Mapping[str, str]) -> str:
+    """Return a key for lines in the scene, their colours by what they are; "" without lines."""
+    line = "display:inline-block;width:1.6em;height:0;vertical-align:middle;border-top:3px solid"
+    keys = (
+        f'<span style="margin-right:1.2em"><span style="{line} {colour}"></span> {escape(words)}</span>'
+        for words, colour in lines.items()
+    )
+    return _wrapped(f'<div style="overflow-wrap:anywhere">{"".join(keys)}</div>') if lines else ""
 
 
 def limits_html(numbers: Numbers, unit: str) -> str:

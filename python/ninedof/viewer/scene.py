@@ -24,7 +24,8 @@ from ninedof.viewer.state import State
 STARTS, ENDS = [0, 1, 2, 9, 10, 11, 3, 4, 5], [6, 7, 8, 12, 12, 12, 12, 12, 12]  # of legs, in `machine_points`
 EXTENT = 4.0  # of any machine in the scene, whose lights and clipping planes are made for such sizes
 GROUND, CELL = 8.0, 0.5  # sides of the ground
-GIZMO = 0.62
+GIZMOS = {"platform": 0.62, "O": 0.37}  # lengths of the arrows of the handles
+LEAST = 0.12  # of handles that would be on each other
 SLEEVE = 0.42  # share of a leg that is the wider cylinder
 RADIUS = {"l": 0.030, "q": 0.023, "r": 0.023}  # of a rod
 LABEL_AT = {"l": 0.5, "q": 0.4, "r": 0.5}  # of the length of a leg
@@ -69,6 +70,10 @@ class Scene:
         points = self.scale * machine_points(g, c)
         for name in {"/O gizmo", "/O", "/labels/O"} - held:
             self._set(name, position=points[12])
+        apart = float(np.linalg.norm(self.scale * c.position - points[12]))
+        for name, size in GIZMOS.items():  # apart from each other, so that either can be taken
+            if f"/{name} gizmo" not in held:
+                self._set(f"/{name} gizmo", scale=max(size * min(1.0, apart / sum(GIZMOS.values())), LEAST))
         self._legs(points, numbers.legs_out)
         self._joints(points[:12], numbers.cones_passed)
         self._ellipsoid(state.ellipsoid(), c)
@@ -119,7 +124,7 @@ class Scene:
             nodes[f"/{name} axes"] = api.add_frame(
                 f"/{name} axes", axes_length=size, axes_radius=thin, origin_radius=1.5 * thin
             )
-        for name, size in (("platform", GIZMO), ("O", 0.6 * GIZMO)):
+        for name, size in GIZMOS.items():
             nodes[f"/{name} gizmo"] = api.add_transform_controls(
                 f"/{name} gizmo",
                 scale=size,

@@ -37,7 +37,7 @@ def test_main_job(run, tmp_path):
     ):
         assert figure in out
     names = {path.name for path in (tmp_path / "run").iterdir()}
-    stems = ("mechanism", "condition")
+    stems = ("mechanism", "drawing", "condition")
     drawn = {f"{stem}.{kind}" for stem in stems for kind in ("png", "svg", "pdf")}
     kept = {"question.json", "pieces"}
     assert names == {"record.json", "report.html"} | kept | drawn

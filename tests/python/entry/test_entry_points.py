@@ -55,17 +55,9 @@ RESULTS = {
         "Ellipsoid",
     ),
     *("ErrorBounds", "Followed", "Front", "InternalPoint", "InternalPointMap", "LegForces", "LimitBreak", "LimitProof"),
-    *("LowerBound", "MachineCertificate", "MapAudit", "NearestSingularity", "OptimumProof", "PathLimits", "Result"),
-    *(
-        "Failure",
-        "Sheet",
-        "Singularity",
-        "SingularityDistance",
-        "SingularityMargins",
-        "SweepResult",
-        "Trace",
-        "Tracked",
-    ),
+    *("LowerBound", "MachineCertificate", "MapAudit", "NearestSingularity", "OptimumProof", "PathLimits", "RegionMap"),
+    *("Failure", "Result", "Sheet", "Singularity", "SingularityDistance", "SingularityMargins", "SweepResult"),
+    *("Trace", "Tracked"),
     *("VelocityMatrices", "WorkspaceCells", "WorkspaceMap", "WorkspaceSlice"),
 }
 
@@ -133,7 +125,7 @@ RETURNING = (
     *("forward_position", "track", "velocity_matrices", "condition_number_bounds", "determinant_bounds"),
     *("velocity_ellipsoid", "error_bounds", "leg_forces", "best_internal_point", "best_internal_map"),
     *("singularity", "singularity_margins", "distance_to_singularity", "nearest_singularity"),
-    *("follow", "path_limits", "failure", "sheet", "sweep", "trace", "Study.evaluate", "check"),
+    *("follow", "path_limits", "failure", "region_map", "sheet", "sweep", "trace", "Study.evaluate", "check"),
     *("applicable_bounds", "WorkspaceMap.slice"),
 )
 

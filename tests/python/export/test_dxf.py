@@ -12,9 +12,11 @@ from written_designs import HEXAGON, PAPER, general, text_of
 
 import ninedof as nd
 from ninedof.export import dxf
-from ninedof.export.dxf import plates_of
+from ninedof.export.model import model_of
+from ninedof.robot.plate_plan import plates_of
 from ninedof.support.extras import MissingExtra
 
+ANGULAR = 5  # kind of a dimension
 THREEFOLD = nd.Geometry.symmetric(
     base_external=(500.0, 0.0, 0.0),
     base_internal=(300.0, 2.6, 0.0),
@@ -95,6 +97,8 @@ def test_the_outline_goes_around_all_joints(name):
 def dimensions(name):
     result = {}
     for one in on(drawn(name), "DIMENSIONS", "DIMENSION"):
+        if one.dimtype == ANGULAR:
+            continue
         result.setdefault(one.dxf.text.partition(" =")[0], []).append(one.get_measurement())
     return result
 
@@ -120,6 +124,109 @@ def test_a_dimension_shows_what_it_measures():
     for one in on(document, "DIMENSIONS", "DIMENSION"):
         shown += [text.text for text in document.blocks.get(one.dxf.geometry).query("MTEXT")]
     assert any("a2 = 480.000" in words for words in shown)
+
+
+def box(centre, width, height, angle):
+    """Corners of a rectangle, from its definition."""
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    corners = 0.5 * np.array([[-width, -height], [width, -height], [width, height], [-width, height]])
+    return corners @ turn.T + centre
+
+
+def separate(one, other):
+    """Whether a line through an edge of one has the other outline on its far side."""
+    for a, b in ((one, other), (other, one)):
+        for k, corner in enumerate(a):
+            x, y = a[(k + 1) % len(a)] - corner
+            sides = (b - corner) @ [y, -x]
+            own = (a - corner) @ [y, -x]
+            if sides.min() >= own.max() - 1e-12 or sides.max() <= own.min() + 1e-12:
+                return True
+    return False
+
+
+DIGIT = 0.62  # advance of letters in heights of capitals, narrower than any that programs use
+
+
+def texts(document):
+    """Words of dimensions and of names with their rectangles, those of tables too."""
+    found = []
+    for one in on(document, "DIMENSIONS", "DIMENSION"):
+        for text in document.blocks.get(one.dxf.geometry).query("MTEXT"):
+            words, height = text.plain_text(), text.dxf.char_height
+            angle = np.radians(text.get_rotation())
+            found.append((words, box(np.array(text.dxf.insert)[:2], DIGIT * height * len(words), height, angle)))
+    for text in on(document, "TEXT", "TEXT"):
+        words, height = text.dxf.text, text.dxf.height
+        width = DIGIT * height * len(words)
+        align, first, _ = text.get_placement()
+        left = {"LEFT": 0.5, "RIGHT": -0.5, "MIDDLE_CENTER": 0.0}[align.name]
+        up = 0.0 if align.name == "MIDDLE_CENTER" else 0.5
+        found.append((words, box(np.array([first[0] + left * width, first[1] + up * height]), width, height, 0.0)))
+    return found
+
+
+SMALL = nd.Geometry.symmetric((1440.0, 0.0, 0.0), (344.7, 0.19, 0.0), (90.0, 1.19, 0.0), (121.7, -0.046, 0.0))
+CROWDED = {"small platform": nd.Design(SMALL, nd.Configuration.neutral(557.0, 310.0), 1.0, "mm")}
+
+
+@pytest.mark.parametrize("name", [*CASES, *CROWDED])
+def test_no_words_cross_and_no_line_of_a_dimension_crosses_a_name(name):
+    document = drawing(CROWDED[name]) if name in CROWDED else drawn(name)
+    found = texts(document)
+    assert len(found) > 50
+    for k, (words, one) in enumerate(found):
+        for other_words, other in found[:k]:
+            assert separate(one, other), (words, other_words)
+    names = [(words, one) for words, one in found if re.fullmatch(r"([EI][123] ?)+|[xy]", words)]
+    assert len(names) >= 8
+    for dimension in on(document, "DIMENSIONS", "DIMENSION"):
+        for line in document.blocks.get(dimension.dxf.geometry).query("LINE"):
+            ends = np.array([line.dxf.start, line.dxf.end])[:, :2]
+            for words, one in names:
+                assert separate(one, ends), (words, dimension.dxf.text)
+
+
+@pytest.mark.parametrize("name", ["paper", "hexagon", "general", "threefold"])
+def test_cone_axes_are_drawn_and_listed_along_the_legs(name):
+    document, design = drawn(name), CASES[name][0]
+    g, c = design.geometry, design.configuration
+    up = g.platform_external @ c.rotation.T + c.position, g.platform_internal @ c.rotation.T + c.position
+    legs = [
+        up[0] - g.base_external,
+        c.internal_point - g.base_internal,
+        g.base_external - up[0],
+        c.internal_point - up[1],
+    ]
+    axes = np.vstack(legs) / np.linalg.norm(np.vstack(legs), axis=1)[:, None]
+    axes[6:] = axes[6:] @ c.rotation  # in the frame of the platform
+    words = [text.dxf.text for text in on(document, "TEXT", "TEXT")]
+    rows = [words[k + 6 : k + 9] for k, word in enumerate(words) if re.fullmatch(r"[EI]\d  (ex|in)ternal \d", word)]
+    listed = np.array(rows, dtype=float)
+    assert listed == pytest.approx(axes, abs=2e-5)
+    for line in on(document, "CONES", "LINE"):
+        way = np.array(line.dxf.end - line.dxf.start)[:2]
+        cosines = axes[:, :2] @ way / np.linalg.norm(axes[:, :2], axis=1) / np.linalg.norm(way)
+        assert cosines.max() == pytest.approx(1.0, abs=1e-9)
+
+
+def test_the_axis_of_a_limit_is_drawn_in_the_place_of_the_leg():
+    limits = {"base_cone": {"max_deg": 60, "axis": [0.0, 0.6, 0.8]}, "radius_ratio": {"max": 2.0}}
+    model = model_of(nd.optimize(nd.Study(constraints=limits), starts=2))
+    for joint, axis in model.cone_axes.items():
+        assert joint.startswith("platform") or axis == pytest.approx([0.0, 0.6, 0.8])
+        assert np.linalg.norm(axis) == pytest.approx(1.0)
+
+
+def test_angles_are_dimensioned_and_listed():
+    document = drawn("threefold")
+    angles = [one.get_measurement() for one in on(document, "DIMENSIONS", "DIMENSION") if one.dimtype == ANGULAR]
+    base = sorted(np.degrees(np.array([0.0, 2.6])) % 120.0)
+    platform = sorted(np.degrees(np.array([-0.75, 0.25])) % 120.0)
+    assert angles == pytest.approx([base[1], platform[0], platform[1] - platform[0]], rel=1e-9)
+    words = [text.dxf.text for text in on(document, "TEXT", "TEXT")]
+    assert f"{np.degrees(2.6):.4f}" in words
+    assert f"{np.degrees(-0.75):.4f}" in words
 
 
 def test_a_plate_on_edge_has_no_outline():

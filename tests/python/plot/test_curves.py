@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from figure_table import BOTH, COMPARED, DOWN, LONG, POSES, G, curves, followed, made
+from figure_table import BOTH, COMPARED, DOWN, LONG, POSES, G, curves, followed, made, region
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_hex
 
@@ -38,6 +38,34 @@ def test_condition_curves_mark_points_and_crossings():
     assert len(plot.condition_curves([curves()]).axes) == 2
     with pytest.raises(ValueError, match=r"^designs: got 0"):
         plot.condition_curves([])
+
+
+def test_curves_over_poses_have_the_neutral_one_beside_and_a_ground_where_a_limit_is_passed():
+    figure = made("objective over poses")
+    words = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert words == ["published: 3.9110", "at the neutral pose", "a limit is passed"]
+    for axes, ends in zip(figure.axes, ((1.5, 1.5 + 2.0 * 169 / 399), (-20.0 + 0.5 * 51, 20.0)), strict=True):
+        (ground,) = [one for one in axes.collections if to_hex(one.get_facecolor()[0]) == style.GRID.lower()]
+        spans = ground.get_paths()[0].vertices[:, 0]
+        assert [spans.min(), spans.max()] == pytest.approx(ends, abs=1e-9)
+    (dashed,) = [line for line in figure.axes[0].lines if line.get_color() == style.MUTED]
+    assert set(dashed.get_ydata()) == {3.8}
+
+
+def test_a_map_of_a_region_says_what_it_is_over_and_has_one_scale():
+    figure, asked = made("region"), region()
+    left, right = figure.axes[:2]
+    assert left.get_title(loc="left") == "worst condition number\nover all heights and tilts"
+    assert right.get_title(loc="left") == "least margin of the limits at a pose\nover all heights and tilts"
+    for axes in (left, right):
+        assert (axes.get_xlabel(), axes.get_ylabel()) == ("x (mm)", "y (mm)")
+        assert axes.get_aspect() == 1.0
+    words = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert words == [f"region of the study, worst {asked.worst:.4f}", "poses that ruled", "neutral pose"]
+    outline, ruled = (line.get_xydata() for line in left.lines[:2])
+    assert np.ptp(outline, axis=0) == pytest.approx([80.0, 60.0])
+    assert len(ruled) == len(asked.ruled)
+    assert made("region of turns").axes[0].get_xlabel() == "tilt about x (deg)"
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """The figure of a front: points, marks, legend, plates."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from figure_table import front, made, row
 from matplotlib.colors import to_hex
 from matplotlib.patches import Polygon
 
+import ninedof as nd
 from ninedof import plot
 from ninedof.plot import style
 
@@ -61,14 +63,44 @@ def test_wide_ranges_are_logarithmic_and_carry_the_unit():
 def test_plates_are_drawn_in_the_order_of_their_limits():
     first, second = made("front with plates").axes[2:]
     assert [axes.get_title() for axes in (first, second)] == ["at 1.3 m", "at 3 m"]
-    for axes in (first, second):
-        reach = max(np.abs(p.get_xy()).max() for p in axes.patches if isinstance(p, Polygon))
+    reach = max(np.abs(p.get_xy()).max() for axes in (first, second) for p in axes.patches if isinstance(p, Polygon))
+    for axes in (first, second):  # one scale
         assert reach < axes.get_xlim()[1] < 1.2 * reach
+        assert axes.get_xlim() == first.get_xlim()
+        assert axes.get_position().size == pytest.approx(first.get_position().size)
     corners = [len(p.get_xy()) - 1 for axes in (first, second) for p in axes.patches if isinstance(p, Polygon)]
     assert corners == [6, 6, 3, 3]
     base, platform = (p.get_xy()[:-1] for p in second.patches)
     assert np.linalg.norm(base, axis=1) == pytest.approx([6.0 / math.sqrt(3.0)] * 3)
     assert np.linalg.norm(platform, axis=1) == pytest.approx([3.0 / math.sqrt(3.0)] * 3)
+
+
+def test_a_bar_has_the_length_that_it_names():
+    figure = made("front with plates")
+    (bar,) = [one for one in figure.get_children() if one.get_label() == "scale"]
+    (words,) = [text.get_text() for text in figure.texts if text.get_text().endswith(" m")]
+    axes = figure.axes[-1]
+    ends = axes.transData.inverted().transform(bar.get_transform().transform(bar.get_xydata()))
+    assert np.ptp(ends[:, 0]) == pytest.approx(float(words.removesuffix(" m")), rel=1e-6)
+
+
+def test_mirror_images_are_drawn_alike_and_named():
+    rows = [row(k, "optimal", 4.0 - 0.1 * k, 0.1) for k in (1.0, 2.0)]
+    sides = {"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0}
+    twin = {"a1": 6.0, "a2": 0.0, "b1": 0.0, "b2": 3.0}  # the sides of one changed for those of the other
+    for one, mirrored in ((twin, True), (sides, False)):
+        seen = front(rows, "leg_ratio", "m", words="worst condition number over " + "a long region, " * 6)
+        for result, design in zip(seen.results, (sides, one), strict=True):
+            result.best = SimpleNamespace(
+                geometry=nd.Geometry.hexagonal(**design), configuration=nd.Configuration.neutral(4.0, 2.0)
+            )
+        figure = plot.front(seen)
+        first, second = figure.axes[2:]
+        assert second.get_title() == "at 2 m" + ", mirrored" * mirrored
+        for a, b in zip(first.patches, second.patches, strict=True):
+            gaps = np.linalg.norm(a.get_xy()[:, None] - b.get_xy(), axis=-1)
+            assert gaps.min(axis=0).max() == pytest.approx(0.0, abs=1e-9)
+        assert figure.axes[0].get_ylabel() == "worst condition number"
 
 
 def test_a_front_against_an_angle_is_drawn_in_degrees():

@@ -15,6 +15,7 @@ import ninedof as nd
 from ninedof import plot
 from ninedof.plot import style
 from ninedof.plot.space.ellipsoid import VIEW
+from ninedof.robot.leg_names import LEGS
 from ninedof.robot.plates import distinct, outlines
 
 STANDING = nd.Configuration.neutral(zp=3.9828, zs=2.3745)
@@ -51,7 +52,8 @@ def legs(axes):
     letters = {colour.lower(): letter for letter, colour in style.LEG_COLOURS.items()}
     ends = {"l": [], "q": [], "r": []}
     for line in axes.lines:
-        if letter := letters.get(to_hex(line.get_color())):
+        letter = letters.get(to_hex(line.get_color()))
+        if letter and line.get_linewidth() > 1.0:  # thin ones lead from a name to its leg
             ends[letter].append(np.transpose(line.get_data_3d()))
     return {letter: np.array(each) for letter, each in ends.items()}
 
@@ -130,11 +132,80 @@ def test_labels_carry_the_unit():
     assert drawn("coupled", legend=False).get_legend() is None
 
 
+FLAT_ONE = plot.Robot("", nd.Geometry.hexagonal(0.0, 44.0, 2.0, 0.0), nd.Configuration.neutral(16.0, 15.0))
+
+
+@pytest.mark.parametrize("robot", [*(plot.Robot("", g, TILTED) for g in GEOMETRIES.values()), FLAT_ONE])
+def test_every_leg_is_named_on_light_ground_and_o_is_no_second_ring(robot):
+    axes = Figure().add_subplot(projection="3d")
+    plot.mechanism(robot, ax=axes)
+    names = {text.get_text(): text for text in axes.texts}
+    assert {*LEGS, "O"} <= set(names)
+    for leg in LEGS:
+        assert to_hex(names[leg].get_bbox_patch().get_facecolor()) == "#ffffff"  # a plate below may be dark
+    marks = [one for one in axes.lines if one.get_marker() not in ("", "None", None)]
+    (point,) = [
+        one for one in marks if np.ravel(one.get_data_3d()) == pytest.approx(robot.configuration.internal_point)
+    ]
+    assert point.get_marker() == "D"
+    assert to_hex(point.get_markerfacecolor()) == style.INK.lower()
+
+
 def test_bad_input_is_named():
     with pytest.raises(ValueError, match=r"^configuration: got a stack of shape \(2,\)"):
         plot.mechanisms([plot.Robot("", G, nd.Configuration.neutral(4.0, [2.0, 2.5]))])
     with pytest.raises(ValueError, match=r"^robots: got 0"):
         plot.mechanisms([])
+
+
+# --- The drawing ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("geometry", ["coupled", "hexagonal", "inner joints"])
+def test_the_drawing_has_every_dimension_of_the_plates_and_the_heights(geometry):
+    g = GEOMETRIES[geometry]
+    base, platform, front = plot.drawing(g, STANDING, "mm").axes
+    words = [{text.get_text() for text in axes.texts} for axes in (base, platform, front)]
+    for (external, internal), sides, here in zip(
+        ((g.base_external, g.base_internal), (g.platform_external, g.platform_internal)),
+        (("a1", "a2"), ("b1", "b2")),
+        words,
+        strict=False,
+    ):
+        for triple in (external, internal):
+            assert f"R {np.linalg.norm(triple[0, :2]):.5g} mm" in here
+        lengths = np.linalg.norm(external[0] - internal[0]), np.linalg.norm(external[0] - internal[2])
+        named = {f"{name} = {length:.5g} mm" for name, length in zip(sides, lengths, strict=True) if length > 1e-9}
+        assert (named <= here) is (geometry != "inner joints")
+        first, second = sorted(
+            np.unique(np.degrees(np.arctan2(*np.vstack([external, internal]).T[1::-1])).round(6) % 360.0)
+        )[:2]
+        assert {f"{angle:.4g}°" for angle in (first, second - first) if angle > 1e-6} <= here
+        assert {"E1", "E2", "E3", "I1", "I2", "I3"} <= set(" ".join(here).split())
+    assert {"zp = 3.9828 mm", "zs = 2.3745 mm", "O", *LEGS} <= words[2]
+    for axes in (base, platform, front):
+        assert axes.get_aspect() == 1.0
+
+
+# --- The body of a workspace ------------------------------------------------------------------------------------------
+
+
+def test_what_sticks_out_of_the_body_is_drawn_in_another_way():
+    limits = ([3.0] * 3 + [0.0] * 6, [6.0] * 3 + [99.0] * 6)
+    body = nd.workspace(G, ([-2, -2, 2], [2, 2, 6]), criteria={"leg_limits": limits}, home=STANDING)
+    lines = [np.array([[x, y, 4.0], [x + 4.0, y, 4.0]]) for x in (-2.5, 0.1) for y in (-0.3, 0.4)]
+    axes = plot.workspace_body(body.surface(20_000), lines=lines).axes[0]
+    drawn_lines = {colour: [] for colour in (style.INK, style.ALARM)}
+    for line in axes.lines:
+        drawn_lines[line.get_color()].append(np.transpose(line.get_data_3d()))
+    for colour, inside in ((style.INK, True), (style.ALARM, False)):
+        middles = np.concatenate([0.5 * (part[1:] + part[:-1]) for part in drawn_lines[colour]])
+        assert len(middles) > 20
+        at = nd.leg_lengths(G, nd.Configuration(middles, np.eye(3), middles - [0, 0, 1.6]))[:, :3]
+        keeps = ((at > 3.0) & (at < 6.0)).all(axis=1) & (np.abs(middles[:, :2]) < 2.0).all(axis=1)
+        assert np.mean(keeps == inside) > 0.97  # but for the coarseness of the surface
+    words = [text.get_text() for text in axes.figure.legends[0].get_texts()]
+    assert words == ["workspace", "region, inside", "region, outside"]
 
 
 # --- Ellipsoids -------------------------------------------------------------------------------------------------------

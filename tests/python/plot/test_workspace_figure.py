@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from figure_table import section, space
+from figure_table import made, section, space
 from matplotlib.colors import to_hex
 
 import ninedof as nd
@@ -32,6 +32,9 @@ def test_sections_share_round_bands_and_an_arrow_says_what_is_beyond(worst, top,
     figure.draw_without_rendering()
     with pytest.raises(ValueError, match=r"^sections: got 4, expected 1 to 3"):
         plot.workspace(space(percentiles), [section(near)] * 4)
+
+
+LOWER = "condition number within it"
 
 
 def test_bounds_are_drawn_in_the_style_of_their_limits():
@@ -90,3 +93,13 @@ def test_levels_are_round_and_hold_the_range(low, high, levels):
 )
 def test_planes_are_at_round_values(value, span, round_one):
     assert style.round_to(value, span) == round_one
+
+
+def test_the_lower_panels_are_for_a_designer():
+    figure = made("workspace")
+    below = [axes for axes in figure.axes if axes.get_title(loc="left") in ("what ends the workspace", LOWER)]
+    assert len(below) == 2
+    names = [text.get_text() for text in below[0].get_yticklabels()]
+    assert "l1 at its longest" in names
+    assert not any(name.endswith((" high", " low")) for name in names)
+    assert not [axes for axes in figure.axes if "error" in axes.get_title(loc="left")]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.records.figures import _curves, _pose_name, _pose_names, figures_of
+from ninedof.records.figures import _curves, _over_poses, _pose_name, _pose_names, figures_of
 from ninedof.records.record import write_run
 
 STUDY = nd.Study.load(Path(__file__).parents[3] / "examples" / "02_twist_and_legs.toml")
@@ -33,10 +33,10 @@ def test_the_convergence_is_drawn_only_where_asked(tmp_path, monkeypatch):
     monkeypatch.setattr("ninedof.plot.save", lambda figure, folder, stem: [folder / stem])
     result, said = nd.optimize(STUDY, starts=4), []
     default = figures_of(result, said.append)(tmp_path)
-    assert [path.name for path in default] == ["mechanism", "condition"]
+    assert [path.name for path in default] == ["mechanism", "drawing", "condition"]
     assert not any("convergence" in words for words in said)
     asked = figures_of(result, said.append, convergence=True)(tmp_path)
-    assert [path.name for path in asked] == ["mechanism", "condition", "convergence"]
+    assert [path.name for path in asked] == ["mechanism", "drawing", "condition", "convergence"]
     assert any(words.startswith("tracing the starts") for words in said)
 
 
@@ -54,6 +54,38 @@ def test_poses_have_the_numbers_of_the_sheet():
         shift = sheet.configurations[k].position - sheet.configurations[0].position
         said = [f"{axis} {x:+.3g}" for axis, x in zip("xyz", shift, strict=True) if abs(x) > 1e-12]
         assert name == (", ".join(said).replace("-", "\N{MINUS SIGN}") or "neutral")
+
+
+def test_a_region_study_is_drawn_over_its_region(tmp_path, monkeypatch):
+    """Curves, the map and the caption are of what the study asks for, not of the neutral pose alone."""
+    made = {}
+    monkeypatch.setattr(
+        "ninedof.plot.save", lambda figure, folder, stem: made.update({stem: figure}) or [folder / stem]
+    )
+    region = {"box": [0.3, 0.3, 0.2], "tilt_deg": 8}
+    limits = {"radius_ratio": (None, 2.0), "stroke_ratio": (None, 1.4)}
+    result = nd.optimize(nd.Study("symmetric", constraints=limits, objective={"region": region}, starts=2))
+    figures_of(result, silent)(tmp_path)
+    assert list(made) == ["mechanism", "drawing", "condition", "region"]
+    worst = f"{result.objective:.4f}"
+    count = len(result.region.poses)
+    words = [text.get_text() for text in made["condition"].legends[0].get_texts()]
+    assert words[0] == f"worst condition number over the {count} poses that ruled the region: {worst}"
+    assert words[1] == "at the neutral pose"
+    assert any(
+        text.get_text().startswith(f"worst condition number over the region {worst};")
+        for text in made["mechanism"].texts
+    )
+    (curves,) = _over_poses(result)
+    zs, theta_z, objective = curves.point
+    assert objective == result.best.objective > result.best.condition_number
+    assert np.interp(zs, curves.zs, curves.along_zs) == pytest.approx(objective, rel=1e-3)
+    assert np.interp(theta_z, curves.theta_z, curves.along_theta_z) == pytest.approx(objective, rel=1e-3)
+    assert np.interp(zs, curves.zs, curves.neutral[0]) == pytest.approx(result.best.condition_number, rel=1e-3)
+    turned = curves.theta_z[100]  # the same machine with its platform's frame turned
+    twisted = nd.Configuration.neutral(*result.best.configuration.position[2:], zs, turned)
+    kappa = nd.condition_number(result.best.geometry, twisted)
+    assert curves.neutral[1][100] == pytest.approx(float(kappa), rel=1e-9)
 
 
 def test_no_figures_without_an_optimum(tmp_path):

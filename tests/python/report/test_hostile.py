@@ -208,7 +208,7 @@ def test_every_control_works_under_the_policy(browser, page, tmp_path):
     browser.requests.clear()
     browser.open(page)
     assert browser.run("document.documentElement.dataset.scene") == "ready"
-    assert browser.run("getComputedStyle(document.body).maxWidth") == "1088px"  # the style is taken
+    assert browser.run("getComputedStyle(document.body).maxWidth") == "992px"  # the style is taken
     assert browser.run(USED) == []
     assert browser.messages == []
     assert {one.split(":")[0] for one in browser.requests} <= {"file", "data"}

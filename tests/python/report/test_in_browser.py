@@ -1,5 +1,6 @@
 """The pages in headless Chromium: nothing on the console, nothing wider than the screen or the paper, scripts run."""
 
+import re
 import shutil
 import subprocess
 
@@ -7,6 +8,7 @@ import chromium
 import pytest
 
 import ninedof as nd
+from ninedof.records.figures import figures_of
 from ninedof.records.record import write_run
 
 pytestmark = pytest.mark.skipif(chromium.PROGRAM is None, reason="needs the program chromium")
@@ -92,6 +94,53 @@ def test_tables_fit_the_paper(browser, pages, name):
     browser.open(pages[name], PAPER, 1000, media="print")
     assert browser.run(WIDE) == []
     assert browser.run(BROKEN) == 0
+
+
+TORN = """(() => {
+  const height = 1024; // pixels of A4 between the margins
+  return [...document.querySelectorAll("main table")].filter((t) => t.getBoundingClientRect().height > height)
+    .map((t) => t.caption?.innerText).concat([...document.querySelectorAll(".table, figure, .stage, tr")]
+    .filter((e) => getComputedStyle(e).breakInside !== "avoid").map((e) => e.className || e.tagName));
+})()"""
+ORDINARY = nd.Study(
+    variables={
+        "a1": 0.0,
+        "a2": (100.0, 850.0),
+        "b1": (50.0, 350.0),
+        "b2": 0.0,
+        "zp": (300.0, 700.0),
+        "zs": (50.0, 650.0),
+    },
+    constraints={
+        "stroke_ratio": (None, 1.4),
+        "base_cone": {"max_deg": 45},
+        "platform_cone": {"max_deg": 45},
+        "leg_clearance": {"min": 20.0},
+    },
+    objective={"region": {"box": [60.0, 60.0, 40.0], "tilt_deg": 10}},
+    starts=4,
+    unit="mm",
+    characteristic_length=150.0,
+)
+
+
+def test_an_ordinary_report_has_at_most_four_pages_without_a_torn_table(browser, tmp_path):
+    result = nd.optimize(ORDINARY)
+    write_run(result, tmp_path, figures_of(result, lambda _: None))
+    browser.open(nd.report(tmp_path), PAPER, 1000, media="print")
+    assert browser.run(TORN) == []
+    assert browser.run("getComputedStyle(document.querySelector('.of-mechanism')).display") == "none"  # shown already
+    browser.pdf(tmp_path / "it.pdf")
+    assert len(re.findall(rb"/Type\s*/Page\b", (tmp_path / "it.pdf").read_bytes())) <= 4
+
+
+def test_no_third_of_the_page_is_empty(browser, pages):
+    browser.open(pages["optimization"], 1280, 800)
+    right = "Math.max(...[...document.querySelectorAll('section .table, section figure, section p')].map("
+    ends = browser.run(
+        f"[{right}(e) => e.getBoundingClientRect().right)), document.body.getBoundingClientRect().right]"
+    )
+    assert ends[0] > ends[1] - 40.0
 
 
 @pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs the program pdftotext (Debian: poppler-utils)")

@@ -5,10 +5,11 @@ import math
 import re
 import shlex
 import tomllib
-from base64 import b64decode
+from base64 import b64decode, b64encode
 from dataclasses import replace
 from html import unescape
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -23,6 +24,7 @@ from ninedof.pareto import Front
 from ninedof.pareto.limits import without_degrees
 from ninedof.records.record import Record
 from ninedof.report import origin
+from ninedof.report.page import BLANK, title_block
 from ninedof.report.question import FAMILIES
 from ninedof.tables import Column, Table
 from ninedof.tables.html import Html, html_of, tag
@@ -72,10 +74,8 @@ def test_a_run_has_every_section_and_the_numbers_of_the_result(page, folder, res
     assert page == folder / "report.html"
     text, found, words = read(page)
     assert found.ids[0] == "question"
-    sections = [
-        name for name in found.ids if name in ("question", "answer", "machine", "sheet", "figures", "proof", "again")
-    ]
-    assert sections == ["question", "answer", "machine", "sheet", "figures", "proof", "again"]
+    expected = ["question", "answer", "machine", "drawing", "region", "sheet", "figures", "proof", "again"]
+    assert [name for name in found.ids if name in expected] == expected
     assert "<b>a&b" not in text
     assert "<b>a&b" in words
     assert f"{result.objective:.6f}" in words
@@ -97,9 +97,43 @@ def test_the_study_file_in_the_page_makes_the_same_study(page, result):
 
 def test_the_smaller_of_two_figures_is_embedded_and_the_view_has_a_still(page):
     text, _, _ = read(page)
-    assert text.count("data:image/svg+xml") == 2  # the figure, and without scripts
-    assert "data:image/png" not in text
+    figure = "<svg xmlns='http://www.w3.org/2000/svg'/>"  # that of the folder: in its place, and without scripts
+    assert text.count(f"data:image/svg+xml;base64,{b64encode(figure.encode()).decode()}") == 2
+    assert b64encode(b"\x89PNG" + bytes(200)).decode() not in text
     assert "<noscript><figure><img" in text
+
+
+@pytest.mark.parametrize(
+    ("about", "project", "others"),
+    [
+        (None, "<b>a&b", [BLANK, BLANK]),
+        (SimpleNamespace(project="", author="", revision=""), "<b>a&b", [BLANK, BLANK]),
+        (SimpleNamespace(project="Polishing <head>", author="M. N.", revision="B"), "Polishing <head>", ["M. N.", "B"]),
+    ],
+)
+def test_the_title_block_has_project_author_and_revision(about, project, others):
+    study = SimpleNamespace(unit="mm", **({} if about is None else {"about": about}))
+    page = Reader(title_block(study, "<b>a&b", "2026-01-02T03:04:05"))
+    words = [word for word in page.words if word.strip()]
+    names = ["project", "author", "revision", "date", "run", "lengths in"]
+    assert words == [
+        part for pair in zip(names, [project, *others, "2026-01-02", "<b>a&b", "mm"], strict=True) for part in pair
+    ]
+
+
+def test_the_page_has_a_drawing_and_the_map_of_the_region(page, folder):
+    text = read(page)[0]
+    for section, caption in (
+        ("drawing", "Dimensions. E1 to E3 are joints"),
+        ("region", "the worst condition number at each place"),
+    ):
+        part = text.partition(f'id="{section}"')[2].partition("</section>")[0]
+        assert f'<figure class="of-{section}"><img' in part
+        assert caption in part
+    assert '<div class="block">' in text
+    plain = nd.report(nd.optimize(nd.Study.paper(), starts=2), folder.parent / "plain.html").read_text()
+    assert 'id="drawing"' in plain
+    assert 'id="region"' not in plain
 
 
 def test_the_view_shows_the_machine_and_its_worst_poses(page, result):

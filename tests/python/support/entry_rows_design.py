@@ -314,6 +314,7 @@ row(
     }
 )
 row("Followed.to_dict", lambda: it.followed().to_dict())(dict)
+row("region_map")(lambda: {"result": it.region_result()})
 row("path_limits")(lambda: {"study": it.study(), "followed": it.followed(), "home": it.c()})
 row("PathLimits.worst", lambda: nd.path_limits(it.study(), it.followed(), it.c()).worst())(dict)
 row("sheet", few=3, huge=("samples",))(

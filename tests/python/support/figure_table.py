@@ -2,6 +2,7 @@
 
 import functools
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -28,7 +29,10 @@ TIME = np.linspace(0.0, 1.0, 40)
 LENGTHS = 3.0 + 0.1 * np.sin(TIME[:, None] + np.arange(9))
 DOWN, LATER = [math.inf, 10.0, 4.0, 4.0, 3.0], [8.0, 5.0, 3.5, 3.2, 3.1, 3.0]
 COMPARED = {"slope": -0.52, "level": 3.911, "crossings": (2.3745, 2.511), "least": (2.4435, 3.9071)}
+OVER_POSES = {"neutral": (np.full(400, 3.8), np.full(81, 3.9)), "passed": (np.arange(400) < 170, np.arange(81) > 50)}
+TURNS = {"over": "", "outline": np.array([[-60.0, -60.0], [60.0, -60.0], [60.0, 60.0], [-60.0, -60.0]]) / 600.0}
 LONG = "x +50, y +50, z +50, rotated "
+NOTE = "with O held, in one orientation, not over the region of the study"
 POSES = ["neutral", "x + 0.1 zp", "x - 0.1 zp", "tilted by 10 degrees"]
 BOTH = {"a": [4.0, 4.2, 4.1, 4.3], "b": [3.8, 5.1, 4.4, 7.0]}
 
@@ -57,7 +61,7 @@ def front(rows, name="leg_ratio", unit="", words="condition number"):
         table=lambda: rows,
         limit_name=name,
         unit=unit,
-        study=SimpleNamespace(words=words),
+        study=SimpleNamespace(words=words, unit="" if unit == "rad" else unit),
         limits=[one["limit"] for one in rows],
         objectives=[math.nan if one["objective"] is None else one["objective"] for one in rows],
         results=[SimpleNamespace(best=best[k > 3]) for k in range(len(rows))],
@@ -115,7 +119,6 @@ def space(percentiles=(), names=(), shares=None):
         unit="",
         percentiles=np.array(percentiles, dtype=float),
         limits=lambda: shares or {},
-        levels=np.empty((0, 4)),
     )
 
 
@@ -124,6 +127,15 @@ def curves(**compared):
     along_zs = nd.condition_number(G, nd.Configuration.neutral(3.9828, zs))
     along_theta = nd.condition_number(G, nd.Configuration.neutral(3.9828, 2.3745, theta))
     return plot.DesignCurves("published", zs, along_zs, theta, along_theta, point=(2.3745, 0.0, 3.9110), **compared)
+
+
+@functools.cache
+def region():
+    wanted = {"box": [40.0, 30.0, 20.0], "tilt_deg": 5.0}
+    free = {"a1": 0.0, "a2": 600.0, "b1": 300.0, "b2": 0.0, "zp": (300.0, 700.0), "zs": (50.0, 650.0)}
+    limits = {"base_cone": {"max_deg": 50.0}}
+    study = nd.Study(variables=free, constraints=limits, objective={"region": wanted}, unit="mm")
+    return nd.region_map(nd.optimize(replace(study, characteristic_length=100.0), starts=2))
 
 
 def sweep(index="condition_number", **over):
@@ -144,7 +156,13 @@ FIGURES = {
     "mechanism": lambda: plot.mechanisms([plot.Robot("optimum", APART, HOME, 3.9, "a note", [EDGES])], "mm"),
     "mechanisms": lambda: plot.mechanisms([plot.Robot("a", G, HOME, 3.9), plot.Robot("b", APART, AWAY)], "l_c"),
     "a small platform": lambda: plot.mechanisms([plot.Robot("a", FLAT, nd.Configuration.neutral(16.0, 15.0))]),
+    "drawing": lambda: plot.drawing(G, HOME, "mm"),
+    "drawing, joints apart": lambda: plot.drawing(APART, AWAY, "m"),
     "condition": lambda: plot.condition_curves([curves(**COMPARED), curves()], "mm"),
+    "objective over poses": lambda: plot.condition_curves([curves(**OVER_POSES)], "mm"),
+    "region": lambda: plot.region_map(region()),
+    "region without limits": lambda: plot.region_map(replace(region(), margin=None)),
+    "region of turns": lambda: plot.region_map(replace(region(), axes=("tilt about x", "tilt about y"), **TURNS)),
     "poses": lambda: plot.poses(BOTH, POSES),
     "named poses": lambda: plot.poses({"a": range(2, 11)}, [f"x +{k}, y -0.3" for k in range(9)]),
     "singular pose": lambda: plot.poses({"a": [4.0, math.inf, 900.0]}),
@@ -164,6 +182,8 @@ FIGURES = {
     "curve": lambda: sweep(x_p=(-1, 1, 21)),
     "legs": lambda: sweep("leg_lengths", x_p=(-1, 1, 21)),
     "map": lambda: sweep(x_p=(-1, 1, 9), y_p=(-1, 1, 9)),
+    "curve with a note": lambda: plot.sweep(nd.sweep(G, HOME, {"x_p": (-1, 1, 21)}), note=NOTE),
+    "map with a note": lambda: plot.sweep(nd.sweep(G, HOME, {"x_p": (-1, 1, 9), "y_p": (-1, 1, 9)}), note=NOTE),
     "maps": lambda: sweep(z_p=(-1, 1, 5), x_p=(-1, 1, 9), y_p=(-1, 1, 9)),
     "atlas": lambda: plot.atlas(nd.atlas(5_000), (2.0, 3.762659)),
     "workspace": lambda: plot.workspace(found(), sections()),

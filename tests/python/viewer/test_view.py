@@ -14,10 +14,12 @@ import pytest
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.design.region_outline import region_lines
+from ninedof.plot import style
 from ninedof.support.extras import MissingExtra
 from ninedof.viewer import shapes
 from ninedof.viewer.body import Body
 from ninedof.viewer.folders import open_path
+from ninedof.viewer.scene import LEAST, PATH_COLOUR
 from ninedof.viewer.state import ELLIPSOIDS
 
 LABELLED = "[...document.querySelectorAll('{}')].find(one => one.textContent.trim() === '{}')"
@@ -245,6 +247,42 @@ def test_a_path_is_played_and_every_control_works(tmp_path, capfd):
         viewer.submit("path", lambda: open_path(viewer.state, bad))
         until(lambda: viewer.state.note.startswith("mine.csv"))
     assert capfd.readouterr() == ("", "")
+
+
+def test_the_button_shows_pause_while_a_path_is_played_and_lines_have_a_key():
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    study = nd.Study(objective={"region": {"box": [0.3, 0.2, 0.1]}}, variables={"a1": 0.0, "b2": 0.0})
+    with nd.view(nd.optimize(study, starts=1), port=0) as viewer, viewer.lock:
+        play, legend = (viewer.panel.widgets[name] for name in ("play", "legend"))
+        viewer.update()
+        assert (play.label, play.icon) == ("Play", "player-play")
+        assert "region of the study" in legend.content
+        assert style.REGION in legend.content
+        assert PATH_COLOUR not in legend.content
+        home = viewer.state.variant.home
+        viewer.state.open_path("<b>.csv", nd.Trajectory.line(home, [0.1, 0.0, 0.0], duration=5.0, points=11))
+        for icon in ("player-pause", "player-play"):
+            if viewer.state.player.playing == (icon == "player-play"):
+                viewer.state.toggle()
+            viewer.update()
+            assert play.icon == icon
+        assert PATH_COLOUR in legend.content
+        assert "<b>" not in legend.content
+        viewer.state.display.show("region", False)
+        viewer.update()
+        assert "region of the study" not in legend.content
+
+
+@pytest.mark.parametrize("zs", [0.3, 2.4, 3.6, 3.97])
+def test_handles_are_apart(zs):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0), nd.Configuration.neutral(3.98, zs)
+    with nd.view(nd.Design(g, home), port=0) as viewer, viewer.lock:
+        viewer.update()
+        nodes, scale = viewer.scene.nodes, viewer.scene.scale
+        sizes = [nodes[f"/{name} gizmo"].scale for name in ("platform", "O")]
+        assert sum(sizes) <= scale * (3.98 - zs) + 1e-9 or min(sizes) == LEAST
+        assert min(sizes) >= LEAST
 
 
 def test_the_mode_shown_is_the_one_chosen():

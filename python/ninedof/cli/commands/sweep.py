@@ -96,7 +96,7 @@ class Sweep(Job):
 def sweep(job: Sweep) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
     thread_argument(job.threads)
-    what = job.what
+    what, note = job.what, ""
     if what in FIGURES:
         _expect_none(f"with {what}", job, NONE_WITH_FIGURES)
         call: Callable[..., SweepResult] = partial(sweep_figure, what.removeprefix("figure-"), job.points)
@@ -106,17 +106,28 @@ def sweep(job: Sweep) -> None:
         title = f"over {', '.join(grid)}"
         if all(plain_name(name) in COORDINATES for name in grid):
             title += "" if job.absolute else ", from the neutral pose"
+            note = _note(what, f"with O {job.internal_point or 'held'}, in one orientation")
             call = _over_poses(what, job, grid)
         else:
             _expect_none("in a sweep over designs", job, OF_POSES)
+            note = _note(what, "at the neutral pose alone")
             design, own = swept_design(what, job.sides, job.theta_z_deg, grid, job.lc)
             own["chunk"] = job.chunk
             call = partial(sweep_designs, design, grid, job.index or "condition_number", **own)
     result, folder = job.compute(call, title)
+    title += f"; {note}" * bool(note)
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
     table = summary_table(summary, title, result.units)
     data = json_data(result, summary)
-    job.write(result, folder, data, table, lambda: _figures(result, what))
+    job.write(result, folder, data, table, lambda: _figures(result, what, note))
+
+
+def _note(what: str | None, where: str) -> str:
+    """Return where a sweep evaluates a design whose study is about a region or poses; "" for other designs."""
+    study = None if what is None else named_design(what).study
+    if study is None or not (study.objective.poses or study.objective.region):
+        return ""
+    return f"{where}, not over the {'region' if study.objective.region else 'poses'} of the study"
 
 
 def _over_poses(what: str | None, job: Sweep, grid: Mapping[str, Values]) -> Callable[..., SweepResult]:
@@ -184,7 +195,7 @@ def parse_over(text: str) -> tuple[str, Values]:
         raise ValueError(f"--over: got {text!r}, expected {expected}") from None
 
 
-def _figures(result: SweepResult, what: str | None) -> Iterator[tuple[str, Any]]:
+def _figures(result: SweepResult, what: str | None, note: str) -> Iterator[tuple[str, Any]]:
     """Yield the name of each figure with the figure: one for each index."""
     from ninedof import plot
     from ninedof.paper import figures
@@ -194,4 +205,4 @@ def _figures(result: SweepResult, what: str | None) -> Iterator[tuple[str, Any]]
         return
     names = list(result)
     for name in names:
-        yield ("sweep" if len(names) == 1 else f"sweep_{name}"), plot.sweep(result, name)
+        yield ("sweep" if len(names) == 1 else f"sweep_{name}"), plot.sweep(result, name, note)

@@ -1,51 +1,84 @@
-"""The names of legs beside them, where they cover nothing."""
+"""The names of the nine legs and of O: each beside its leg, or at the end of a thin line where there is no room."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.path import Path
 
 from ninedof.plot import style
 from ninedof.plot.space.scene import HALO, VIEW
 from ninedof.support.arrays import Floats
 
-LEAST = 1.2  # least distance of two names, in their distance from the legs
-ALONG = np.linspace(0.2, 0.8, 25)  # where a name may stand on its leg
+LEAST = 1.2  # least distance of two names, in the distance of a name from its leg
+ALONG = np.linspace(0.2, 0.8, 13)  # where a name may stand on its leg
+AROUND = np.linspace(0.0, 2.0 * np.pi, 17)[:-1]
+REACH = np.array([2.0, 3.0, 4.0, 5.5, 7.0])  # of names with a line to their leg, in the same distance
+CHIP: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.9}
+"""The ground of a name: a plate behind it may be dark."""
 
 Leg = tuple[str, Floats, Floats]
-"""Its kind and its ends."""
+"""Its name and its ends."""
 
 
-def write_names(axes: Any, legs: list[Leg], o: Floats, away: float, clear_of: Sequence[Floats] = ()) -> None:
-    """Write l1 to r3 beside the legs and O beside its point, `away` to one side, clear of further lines (2, 3)."""
-    options: dict[str, Any] = {"path_effects": HALO, "zorder": 30, "ha": "center", "va": "center"}
-    left = -VIEW.right
+def write_names(
+    axes: Any, legs: Sequence[Leg], o: Floats, away: float, dark: Sequence[Floats] = (), clear_of: Sequence[Floats] = ()
+) -> None:
+    """Write the name of each leg, `away` to one side, and O beside its point.
+
+    Names keep off other legs, further lines (2, 3), and dark faces (n, 3) where there is another place.
+    """
     lines = [VIEW.seen(np.stack([start, end])) for _, start, end in legs] + [VIEW.seen(line) for line in clear_of]
-    turn = np.linspace(0.0, 2.0 * np.pi, 25)[:-1, None]
-    around = o + 1.4 * away * (np.cos(turn) * left + np.sin(turn) * VIEW.up)
-    room = np.min([_distance(VIEW.seen(around), line) for line in lines] or [np.ones(len(around))], axis=0)
-    beside = around[int(np.argmax(np.round(room / away, 1)))]
-    taken = [VIEW.seen(beside)]
-    axes.text(*beside, "O", size=style.TITLE_SIZE, weight="bold", color=style.INK, **options)
-    count: Counter[str] = Counter()
-    for k, (kind, start, end) in enumerate(legs):
-        count[kind] += 1
-        places = start + ALONG[:, None] * (end - start)
-        spots = np.concatenate([places + side * away * left for side in (-1.0, 1.0)])
+    faces = [Path(VIEW.seen(face)) for face in dark]
+    beside = o + 1.4 * away * _ring(AROUND)
+    room = np.min([_distance(VIEW.seen(beside), line) for line in lines] or [np.ones(len(beside))], axis=0)
+    spot = beside[int(np.argmax(np.round(np.minimum(room / away, 1.6), 1) - 0.5 * _within(VIEW.seen(beside), faces)))]
+    taken = [VIEW.seen(spot)]
+    options: dict[str, Any] = {"zorder": 30, "ha": "center", "va": "center"}
+    look = {"size": style.TITLE_SIZE, "weight": "bold", "style": "italic", "color": style.INK, "path_effects": HALO}
+    axes.text(*spot, "O", **look, **options)
+    short_first = np.argsort([np.linalg.norm(np.diff(line, axis=0)) for line in lines[: len(legs)]], kind="stable")
+    for k in short_first.tolist():
+        name, start, end = legs[k]
+        on_leg, spots, apart = _places(start, end, away)
         flat = VIEW.seen(spots)
         others = [_distance(flat, line) for j, line in enumerate(lines) if j != k]
-        room = np.min([*(2.0 * d for d in others), _distance(flat, lines[k]) * 1.6], axis=0)
-        names = np.min([np.linalg.norm(flat - spot, axis=1) for spot in taken], axis=0)
-        centred = np.tile(np.abs(ALONG - 0.5), 2)
-        best = int(np.argmax(np.minimum(np.minimum(room / away, names / (1.6 * away)), 1.6) - 0.3 * centred))
-        if names[best] < LEAST * away:  # no room in the picture
-            continue
+        room = np.min([*(2.0 * d for d in others), 1.6 * _distance(flat, lines[k])], axis=0) / away
+        names = np.min([np.linalg.norm(flat - one, axis=1) for one in taken], axis=0) / away
+        crossed = np.sum([_crosses(VIEW.seen(on_leg), flat, line) for j, line in enumerate(lines) if j != k], axis=0)
+        centred = np.tile(np.abs(ALONG - 0.5), len(spots) // len(ALONG))
+        worth = np.minimum(np.minimum(room, names / 1.6), 1.6) - 0.3 * centred - 0.6 * _within(flat, faces)
+        worth -= 0.7 * (apart > 1.0) + 0.15 * (apart - 1.0) + 0.25 * crossed + 2.0 * (names < LEAST)
+        best = int(np.argmax(np.round(worth, 6)))
         taken.append(flat[best])
-        colour = style.LEG_COLOURS[kind]
-        axes.text(*spots[best], f"{kind}{count[kind]}", size=style.SMALL_SIZE, color=colour, **options)
+        colour = style.LEG_COLOURS[name[0]]
+        if apart[best] > 1.0:
+            tip = spots[best] - 0.5 * away / (apart[best] * away) * (spots[best] - on_leg[best])
+            axes.plot(*np.column_stack([on_leg[best], tip]), color=colour, lw=0.5, zorder=29)
+        axes.text(*spots[best], name, size=style.SMALL_SIZE, color=colour, bbox=CHIP, **options)
+
+
+def _ring(turn: Floats) -> Floats:
+    """Return unit vectors in the plane of the picture, shape (n, 3)."""
+    return np.asarray(np.cos(turn)[:, None] * -VIEW.right + np.sin(turn)[:, None] * VIEW.up)
+
+
+def _places(start: Floats, end: Floats, away: float) -> tuple[Floats, Floats, Floats]:
+    """Return points on a leg, places for its name and their distances in `away`: beside it, then with a line to it."""
+    on_leg = start + ALONG[:, None] * (end - start)
+    along = VIEW.seen(end - start) / max(float(np.linalg.norm(VIEW.seen(end - start))), 1e-300)
+    beside = along[1] * VIEW.right - along[0] * VIEW.up
+    steps = [(side * beside, 1.0) for side in (1.0, -1.0)]
+    steps += [(way, reach) for reach in REACH.tolist() for way in _ring(AROUND)]
+    spots = np.concatenate([on_leg + apart * away * way for way, apart in steps])
+    return np.tile(on_leg, (len(steps), 1)), spots, np.repeat([apart for _, apart in steps], len(ALONG))
+
+
+def _within(points: Floats, faces: Sequence[Path]) -> Floats:
+    """Return 1 for the points (n, 2) on one of some faces, else 0."""
+    return np.asarray(np.any([face.contains_points(points) for face in faces] or [np.zeros(len(points))], axis=0) * 1.0)
 
 
 def _distance(points: Floats, line: Floats) -> Floats:
@@ -53,3 +86,14 @@ def _distance(points: Floats, line: Floats) -> Floats:
     start, along = line[0], line[1] - line[0]
     share = np.clip((points - start) @ along / max(float(along @ along), 1e-300), 0.0, 1.0)
     return np.asarray(np.linalg.norm(points - start - share[:, None] * along, axis=1))
+
+
+def _crosses(starts: Floats, ends: Floats, line: Floats) -> Floats:
+    """Return whether each segment from (n, 2) to (n, 2) crosses one segment (2, 2)."""
+    a, b = line
+
+    def side(p: Floats, q: Floats, r: Floats) -> Floats:
+        return (q - p)[..., 0] * (r - p)[..., 1] - (q - p)[..., 1] * (r - p)[..., 0]
+
+    apart = side(a, b, starts) * side(a, b, ends) < 0.0
+    return np.asarray(apart & (side(starts, ends, a) * side(starts, ends, b) < 0.0))

@@ -17,12 +17,14 @@ from ninedof.plot.space import scene
 from ninedof.plot.space.leg_names import Leg, write_names
 from ninedof.robot.configuration import Configuration, require_single
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.leg_names import LEGS
 from ninedof.robot.plates import distinct, outlines
 from ninedof.support.arrays import Floats
 
 DASHES: dict[str, Any] = {"l": "-", "q": (0, (4.5, 0.9)), "r": (0, (1.6, 0.7))}  # told apart without colours
 WIDTHS = {"l": 2.0, "q": 1.6, "r": 1.6}
-POINT_O: dict[str, Any] = {"marker": "o", "color": "white", "ms": 4.6, "mec": style.INK, "mew": 1.1, "ls": ""}
+POINT_O: dict[str, Any] = {"marker": "D", "color": style.INK, "ms": 4.2, "mec": "white", "mew": 0.7, "ls": ""}
+"""A diamond: a ring beside the letter O would be read as a second one."""
 _LEGEND: dict[str, Any] = {"handlelength": 1.5, "columnspacing": 1.2}
 
 
@@ -157,11 +159,11 @@ def draw(axes: Any, robot: Robot, clear_of: Sequence[Floats] = (), names: bool =
     _plate(axes, base, style.BASE, alpha=0.88, zorder=1)
     for line in robot.lines:
         axes.plot(*np.asarray(line, dtype=np.float64).T, color=style.REGION, lw=0.8, zorder=2)  # behind legs, platform
-    legs: list[Leg] = [("l", *ends) for ends in zip(base[:3], platform[:3], strict=True)]
-    legs += [("q", o, end) for end in platform[3:]]
-    legs += [("r", start, o) for start in base[3:]]
+    starts, ends = [*base[:3], o, o, o, *base[3:]], [*platform, o, o, o]
+    legs: list[Leg] = list(zip(LEGS, starts, ends, strict=True))
     # From the back to the front, with a white rim where one crosses another.
-    for order, (kind, start, end) in enumerate(sorted(legs, key=lambda leg: float((leg[1] + leg[2]) @ scene.VIEW.eye))):
+    for order, (name, start, end) in enumerate(sorted(legs, key=lambda leg: float((leg[1] + leg[2]) @ scene.VIEW.eye))):
+        kind = name[0]
         options = {"color": style.LEG_COLOURS[kind], "ls": DASHES[kind], "lw": WIDTHS[kind], "dash_capstyle": "butt"}
         rim = [style.rim(WIDTHS[kind] + 1.2)]
         axes.plot(*np.column_stack([start, end]), zorder=3 + order, path_effects=rim, **options)
@@ -169,7 +171,8 @@ def draw(axes: Any, robot: Robot, clear_of: Sequence[Floats] = (), names: bool =
     joints = np.vstack([distinct(base), distinct(platform)])
     axes.plot(*joints.T, "o", color=style.INK, ms=3.2, mec="white", mew=0.5, zorder=21)
     axes.plot(*o[:, None], **POINT_O, zorder=22)
-    write_names(axes, legs if names else [], o, 0.05 * float(np.ptp(axes.get_xlim())), clear_of)
+    away = 0.05 * float(np.ptp(axes.get_xlim()))
+    write_names(axes, legs if names else [], o, away, outlines(base), clear_of)
 
 
 def _keys() -> list[Any]:

@@ -1,0 +1,208 @@
+"""The dimensioned drawing of a machine: both plates in plan and the machine from the front, each at its own scale."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Arc, Polygon
+
+from ninedof.plot import style
+from ninedof.plot.space.mechanism import DASHES, POINT_O, Robot
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.robot.leg_names import LEGS
+from ninedof.robot.plate_plan import Plate, free_angles, plates_of
+from ninedof.robot.plates import outlines
+from ninedof.support.arrays import Floats
+from ninedof.support.placing import Placing, rectangle
+from ninedof.support.units import amount
+
+HEIGHT = 2.75  # inches
+REACH = 1.5  # half a panel of a plan, in sizes of its plate
+LETTER, LINE = 4.3, 8.5  # points, of a letter and a line of the smallest words
+JOINTS: dict[str, dict[str, Any]] = {
+    "E": {"marker": "o", "ms": 5.5, "color": style.EXTERNAL, "mec": "white", "mew": 0.5, "ls": ""},
+    "I": {"marker": "s", "ms": 3.4, "color": style.LOWER, "mec": "white", "mew": 0.5, "ls": ""},
+}
+CHIP: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+CENTRE: dict[str, Any] = {"color": style.MUTED, "lw": 0.5, "ls": (0, (8, 2, 2, 2))}
+
+
+def drawing(geometry: Geometry, configuration: Configuration, unit: str = "", figure: Figure | None = None) -> Figure:
+    """Return a figure with the dimensions of a machine: base and platform from +z of their frames, and from the front.
+
+    As in the DXF file, circles about the origin have their radii, hexagons of the paper their sides, and the first
+    joints their angles from +x; E1 to E3 are external joints, I1 to I3 internal ones. The front is seen along +y of the
+    base at the neutral pose, with the heights of p and O.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        The neutral one, a single one.
+    unit : str
+        Of the lengths.
+    figure : matplotlib.figure.Figure or SubFigure, optional
+        To draw in; a new one by default.
+
+    Raises
+    ------
+    ValueError
+        If the configuration is a stack.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=850.0, b1=293.0, b2=0.0)
+    >>> figure = nd.plot.drawing(g, nd.Configuration.neutral(483.0, 319.0), unit="mm")
+
+    """
+    robot = Robot("", geometry, configuration)
+    points = robot.points()
+    with style.page(figure, style.TWO_COLUMNS, HEIGHT) as figure:
+        for k, plate in enumerate(plates_of(geometry)):
+            panel = _Panel(figure, (k / 3.0, REACH * plate.size, np.zeros(2)))
+            panel.title(f"{plate.title}, from +z")
+            panel.plate(plate, unit)
+        low, high = points[:, [0, 2]].min(axis=0), points[:, [0, 2]].max(axis=0)
+        low[1] = min(low[1], 0.0)
+        panel = _Panel(figure, (2.0 / 3.0, 0.8 * float((high - low).max()), 0.5 * (low + high)))
+        panel.title("Front, along +y, neutral pose")
+        panel.front(points[:, [0, 2]], configuration, unit)
+    return figure
+
+
+class _Panel:
+    """One view at one scale, its words placed where they cover least."""
+
+    def __init__(self, figure: Any, place: tuple[float, float, Floats]) -> None:
+        """Begin with the left end in the figure, half the side and the middle of the view."""
+        left, half, middle = place
+        self.axes = figure.add_axes((left, 0.0, 1.0 / 3.0, 0.9))
+        width, height = style.inches(figure) * [1.0 / 3.0, 0.9]
+        scale = 2.0 * half / min(width, height)
+        self.point = scale / 72.0
+        """A point of print in the lengths of the view."""
+        spans = 0.5 * scale * np.array([width, height])
+        low, high = middle - spans, middle + spans
+        self.axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
+        self.axes.set_axis_off()
+        self.places = Placing()
+        corners = np.array([low, [high[0], low[1]], high, [low[0], high[1]], low])
+        self.places.words += [np.array(side) for side in pairwise(corners)]  # stay inside
+
+    def title(self, words: str) -> None:
+        self.axes.set_title(words, loc="center", size=style.TEXT_SIZE)
+
+    def write(self, words: str, centres: Floats, colour: str = style.INK) -> None:
+        """Write words at the one of some centres, shape (n, 2), where they cover least."""
+        at = self.places.put(LETTER * self.point * len(words), LINE * self.point, centres)
+        self.axes.text(*at, words, size=style.SMALL_SIZE, color=colour, ha="center", va="center", zorder=8, bbox=CHIP)
+
+    def line(self, points: Floats, **look: Any) -> None:
+        self.axes.plot(*points.T, **look)
+        self.places.add_path(points)
+
+    def beside(self, at: Floats, words: str, out: Floats, first: float = 4.0) -> Floats:
+        """Return centres for words about a point, the first in a direction."""
+        turn = math.atan2(out[1], out[0]) + np.array([k * s for k in range(9) for s in (1.0, -1.0)]) * np.pi / 9.0
+        way = np.column_stack([np.cos(turn), np.sin(turn)])
+        reach = first + np.abs(way) @ [0.5 * LETTER * len(words), 0.5 * LINE]
+        return np.concatenate([at + self.point * (reach + more)[:, None] * way for more in (0.0, 6.0, 14.0, 24.0)])
+
+    def plate(self, plate: Plate, unit: str) -> None:
+        """Draw a plate in plan with its dimensions."""
+        if len(plate.outline):
+            self.axes.add_patch(Polygon(plate.outline, fc=style.GRID, ec=style.INK, lw=1.0, zorder=1))
+            self.places.add_path(np.vstack([plate.outline, plate.outline[:1]]))
+        turn = np.linspace(0.0, 2.0 * np.pi, 121)
+        for radius in plate.radii:
+            self.axes.plot(radius * np.cos(turn), radius * np.sin(turn), **CENTRE)
+        for axis in np.eye(2):
+            self.line(np.array([-0.06 * plate.size * axis, 0.24 * plate.size * axis]), color=style.MUTED, lw=0.8)
+        for at, names in plate.centres().items():
+            self.places.words.append(rectangle(np.array(at[:2]), 6.0 * self.point, 6.0 * self.point))
+            for kind in sorted({name[0] for name in names}):
+                self.axes.plot(*at[:2], zorder=6 + (kind == "I"), **JOINTS[kind])
+        for name, (start, end) in plate.sides.items():
+            self._side(name, start[:2], end[:2], unit)
+        for radius, angle in zip(plate.radii, free_angles(plate), strict=False):
+            self._radius(radius, angle, unit)
+        for k, (first, last) in enumerate(plate.angles):
+            self._angle((0.42 + 0.2 * k) * min(plate.radii), first, last)
+        for axis, name in zip(np.eye(2), "xy", strict=True):
+            self.write(name, self.beside(0.24 * plate.size * axis, name, axis, 1.0), style.MUTED)
+        for at, names in plate.centres().items():
+            words = " ".join(names)
+            self.write(words, self.beside(np.array(at[:2]), words, np.array(at[:2])))
+
+    def _arrow(self, start: Floats, end: Floats, ends: str = "<|-|>") -> None:
+        self.axes.annotate("", tuple(end), tuple(start), arrowprops=style.arrow(style.INK, 0.6, ends), zorder=5)
+        self.places.add_path(np.array([start, end]))
+
+    def _side(self, name: str, start: Floats, end: Floats, unit: str) -> None:
+        along, middle = end - start, 0.5 * (start + end)
+        out = np.array([along[1], -along[0]]) / np.linalg.norm(along)
+        out *= math.copysign(1.0, float(out @ middle)) * 13.0 * self.point
+        for point in (start, end):
+            self.line(np.array([point + 0.35 * out, point + 1.25 * out]), color=style.INK, lw=0.5)
+        self._arrow(start + out, end + out)
+        words = f"{name} = {amount(f'{np.linalg.norm(along):.5g}', unit)}"
+        self.write(words, self.beside(middle + out, words, out, 1.0))
+
+    def _radius(self, radius: float, angle: float, unit: str) -> None:
+        way = np.array([math.cos(angle), math.sin(angle)])
+        self._arrow(np.zeros(2), radius * way, "-|>")
+        words = f"R {amount(f'{radius:.5g}', unit)}"
+        self.write(words, self.beside(radius * way, words, way, 1.0))
+
+    def _angle(self, radius: float, start: float, end: float) -> None:
+        ends = [math.degrees(start), math.degrees(end)]
+        self.axes.add_patch(Arc((0.0, 0.0), 2.0 * radius, 2.0 * radius, theta1=ends[0], theta2=ends[1], lw=0.7))
+        turn = np.linspace(start, end, 25)
+        self.places.add_path(radius * np.column_stack([np.cos(turn), np.sin(turn)]))
+        for one in (start, end):
+            self.line(
+                np.outer([0.25, 1.08], radius * np.array([math.cos(one), math.sin(one)])), color=style.INK, lw=0.5
+            )
+        way = np.array([math.cos(0.5 * (start + end)), math.sin(0.5 * (start + end))])
+        words = f"{ends[1] - ends[0]:.4g}°"
+        self.write(words, np.concatenate([self.beside(radius * way, words, s * way, 1.5) for s in (1.0, -1.0)]))
+
+    def front(self, points: Floats, c: Configuration, unit: str) -> None:
+        """Draw the machine from the front with the heights of p and O."""
+        base, platform, o = points[:6], points[6:12], points[12]
+        for body, colour in ((base, style.BASE), (platform, style.PLATFORM)):
+            flat = np.column_stack([body, np.zeros(6)])
+            faces = outlines(flat) if np.ptp(body, axis=0).min() > 1e-6 * np.ptp(body) else []
+            for face in faces:
+                self.axes.add_patch(Polygon(face[:, :2], fc=colour, ec=style.INK, lw=0.9, alpha=0.8))
+            ends = body[[int(body[:, 0].argmin()), int(body[:, 0].argmax())]]
+            self.line(ends, color=colour, lw=0.5 if faces else 3.0, solid_capstyle="butt", zorder=1)
+        pairs = zip([*base[:3], o, o, o, *base[3:]], [*platform, o, o, o], strict=True)
+        legs = dict(zip(LEGS, pairs, strict=True))
+        for name, leg in legs.items():
+            self.line(np.array(leg), color=style.LEG_COLOURS[name[0]], lw=1.3, ls=DASHES[name[0]])
+        self.axes.plot(*np.vstack([base, platform]).T, "o", color=style.INK, ms=3.0, mec="white", mew=0.5, zorder=6)
+        self.axes.plot(*o, **POINT_O, zorder=7)
+        self.places.words.append(rectangle(o, 7.0 * self.point, 7.0 * self.point))
+        edges = float(points[:, 0].min()), float(points[:, 0].max())
+        for side, edge, name, at in zip((-1.0, 1.0), edges, ("zs", "zp"), (o, c.position[[0, 2]]), strict=True):
+            x = edge + side * 12.0 * self.point
+            for start in (np.array([edge, 0.0]), at):
+                tip = np.array([x + side * 3.0 * self.point, start[1]])
+                self.line(np.array([start, tip]), color=style.INK, lw=0.4, zorder=0)
+            self._arrow(np.array([x, 0.0]), np.array([x, at[1]]))
+            words = f"{name} = {amount(f'{at[1]:.5g}', unit)}"
+            self.write(words, self.beside(np.array([x, at[1]]), words, np.array([0.0, 1.0]), 3.0))
+        self.write("O", self.beside(o, "O", np.array([-1.0, 0.3])))
+        for name, (start, end) in legs.items():
+            share = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8])[:, None]
+            normal = np.array([end[1] - start[1], start[0] - end[0]]) / max(float(np.linalg.norm(end - start)), 1e-300)
+            away = 6.5 * self.point * normal
+            spots = [start + share * (end - start) + side * away for side in (1.0, -1.0, 2.0, -2.0)]
+            self.write(name, np.concatenate(spots), style.LEG_COLOURS[name[0]])
