@@ -95,6 +95,7 @@ from ninedof.singularity.singularity_distance import (
     nearest_singularity,
 )
 from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_map, error_samples
+from ninedof.statics.dynamics import InverseDynamics, inverse_dynamics
 from ninedof.statics.statics import (
     Ellipsoid,
     LegForces,
@@ -140,6 +141,7 @@ __all__ = [
     "InternalPoint",
     "InternalPointMap",
     "InternalPointStatus",
+    "InverseDynamics",
     "LegForces",
     "LimitBreak",
     "LimitProof",
@@ -204,6 +206,7 @@ __all__ = [
     "hexagonal_condition_number_bounds",
     "internal_velocity",
     "inverse_acceleration",
+    "inverse_dynamics",
     "inverse_velocity",
     "isotropy_residual",
     "jacobian",

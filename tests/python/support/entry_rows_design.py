@@ -303,6 +303,8 @@ row(
         "limits": (np.full(9, 0.5), np.full(9, 9.0)),
         "characteristic_length": 1.0,
         "load": ([0.0, 0.0, -1.0], [0.0, 0.0, 0.5]),
+        "masses": nd.Masses(**DUTY["masses"]),
+        "gravity": [0.0, 0.0, -9.81],
     }
 )
 row("Followed.to_dict", lambda: it.followed().to_dict())(dict)

@@ -17,7 +17,7 @@ from ninedof.cli.posed import rule_option
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.design.study import Study
 from ninedof.motion import Followed, Trajectory, follow
-from ninedof.motion.tables import legs_table, limits_table, motion_words
+from ninedof.motion.tables import drives_table, legs_table, limits_table, motion_words
 from ninedof.records.folder import run_folder
 from ninedof.records.motion import plain, write_motion
 from ninedof.robot.configuration import arrays_of
@@ -122,7 +122,12 @@ def path(options: PathOptions) -> None:
         result = follow(g, trajectory, home, **how, characteristic_length=length, load=load)
     of_study = path_limits(study, result, home) if study else None
     motion = plain(result, of_study)
-    parts: list[Any] = [legs_table(motion), *([limits_table(motion)] if motion.get("limits") else [])]
+    drives = drives_table(motion)
+    parts: list[Any] = [
+        legs_table(motion),
+        *([] if drives is None else [drives]),
+        *([limits_table(motion)] if motion.get("limits") else []),
+    ]
     parts += [bold(*words) for words in motion_words(result, motion)]
 
     def write(draw: Any) -> Path:
