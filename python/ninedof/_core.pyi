@@ -301,6 +301,7 @@ class Region:
     shifted: bool
     placed: bool
     in_zp: bool
+    tool_height: float
     def __init__(self, **attributes: Any) -> None: ...
     @property
     def reach(self) -> list[float]: ...
@@ -313,6 +314,8 @@ class Problem:
         limits: Sequence[Limit],
         characteristic_length: float | str | tuple[float, float],
         objective: Objective,
+        tool_position: Sequence[float] = ...,
+        tool_rotation: Sequence[float] = ...,
     ) -> None: ...
     @property
     def names(self) -> list[str]: ...

@@ -9,13 +9,6 @@
 namespace ninedof::python {
 namespace {
 
-/// The family's part of a full set of variables.
-std::span<const double> own(const Problem& problem, const std::vector<double>& x) {
-  if (x.size() < problem.variables.size())
-    throw InvalidArgument("variables", std::to_string(x.size()) + " values", std::to_string(problem.variables.size()));
-  return {x.data(), problem.variables.size()};
-}
-
 /// The rows of a table as (name, kind, sides, units, options, default low side).
 py::tuple rows_of(const std::vector<ConstraintInfo>& table) {
   py::list out;
@@ -75,6 +68,8 @@ void bind_requests(py::module_& m) {
       .def_readwrite("shifted", &Region::shifted, "Whether s moves with p, or is held.")
       .def_readwrite("placed", &Region::placed, "Whether s is placed anew at every pose.")
       .def_readwrite("in_zp", &Region::in_zp, "Whether positions are in fractions of zp.")
+      .def_readwrite("tool_height", &Region::tool_height,
+                     "Of p above the plate at home: zp is the height of p less it.")
       .def_property_readonly(
           "reach", [](const Region& r) { return array_from(r.reach()).attr("tolist")(); },
           "Greatest moduli of the six coordinates of a pose.");
@@ -136,18 +131,21 @@ void bind_problem(py::module_& m) {
 
   py::class_<Problem>(m, "Problem", "A design problem as the core takes it; made by `Study`.")
       .def(py::init([](std::string family, const std::vector<std::pair<double, double>>& bounds,
-                       std::vector<Limit> limits, const py::object& characteristic_length, const Objective& objective) {
+                       std::vector<Limit> limits, const py::object& characteristic_length, const Objective& objective,
+                       const Vec3& tool_position, const Vec3& tool_rotation) {
              Problem p;
              p.family = std::move(family);
              for (const auto& [low, high] : bounds) p.variables.push_back({low, high});
              p.limits = std::move(limits);
              p.characteristic_length = length_from(characteristic_length);
              p.objective = objective;
+             p.tool = {tool_position, tool_rotation};
              p.validate();
              return p;
            }),
            py::arg("family"), py::arg("bounds"), py::arg("limits"), py::arg("characteristic_length"),
-           py::arg("objective"))
+           py::arg("objective"), py::arg("tool_position") = Vec3(0.0, 0.0, 0.0),
+           py::arg("tool_rotation") = Vec3(0.0, 0.0, 0.0))
       .def_property_readonly("names", &Problem::names)
       .def("with_limits",
            [](Problem p, const std::vector<Limit>& limits, double condition_limit, double neutral_condition_limit) {
@@ -156,8 +154,7 @@ void bind_problem(py::module_& m) {
              p.objective.neutral_condition_limit = neutral_condition_limit;
              return p;
            })
-      .def("geometry",
-           [](const Problem& p, const std::vector<double>& x) { return design_family(p.family).geometry(own(p, x)); })
+      .def("geometry", [](const Problem& p, const std::vector<double>& x) { return geometry(p, vector_from(x)); })
       .def("configurations", &configurations_at)
       .def("characteristic_length",
            [](const Problem& p, const std::vector<double>& x) { return characteristic_length(p, vector_from(x)); })

@@ -79,8 +79,10 @@ void bind_machine(py::module_& m) {
   m.def("limits_over_poses",
         [](const PosedRobot& machine, const Problem& problem, double tolerance, int threads, double seconds) {
           require_sound_arithmetic();
+          PosedRobot robot = machine;
+          robot.tool = problem.tool;
           return interruptible(py::none(), [&](const Control& control) {
-            return limits_over_poses(machine, problem.limits, exempt_pairs(problem), tolerance,
+            return limits_over_poses(robot, problem.limits, exempt_pairs(problem), tolerance,
                                      {.threads = threads, .seconds = seconds}, control);
           });
         });

@@ -23,10 +23,10 @@ py::dict numbers_at(const SheetQuestion& question, const ConfigurationStack& c) 
 /// What gives every thread its own way to place O.
 std::function<PlacedAt()> placing_from(const PlacedDesign& design, const Region& region, const Configuration& neutral) {
   return [=] {
-    return [place = placer(design.problem, region, design.variables, design.goal(), design.known), region,
-            neutral](const Vec6& at) {
+    return [place = placer(design.problem, region, design.variables, design.goal(), design.known), region, neutral,
+            zp = neutral.position[2] - design.problem.tool.position.z()](const Vec6& at) {
       Configuration out = region.configuration(at, neutral);
-      out.internal_point = neutral.internal_point + neutral.position[2] * place(at).placed.shift;
+      out.internal_point = neutral.internal_point + zp * place(at).placed.shift;
       return out;
     };
   };

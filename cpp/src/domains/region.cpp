@@ -124,9 +124,9 @@ std::pair<double, double> Region::straight(double first) const {
 
 Configuration Region::configuration(const Vec6& at, const Configuration& neutral) const {
   const Pose p = pose(at);
-  const double unit = p.in_zp ? neutral.position[2] : 1.0;
-  return {neutral.position + unit * p.position, exp_rotation(p.rotation) * neutral.rotation,
-          neutral.internal_point + unit * p.internal};
+  const double by = unit(neutral);
+  return {neutral.position + by * p.position, exp_rotation(p.rotation) * neutral.rotation,
+          neutral.internal_point + by * p.internal};
 }
 
 void Region::validate() const {
@@ -138,6 +138,7 @@ void Region::validate() const {
     require(name, angle >= 0.0 && angle <= std::numbers::pi, angle, "an angle from 0 to pi");
   if (shape == Shape::path && corners.size() < 2)
     throw InvalidArgument("objective.region.path", std::to_string(corners.size()) + " corners", "at least two");
+  require("tool_height", std::isfinite(tool_height), tool_height, "a finite number");
   for (const Vec3& corner : corners)
     if (!corner.allFinite()) throw InvalidArgument("objective.region.path", "a number that is not finite", "positions");
 }

@@ -40,12 +40,16 @@ std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coor
   return specs;
 }
 
-void DesignState::set(const DesignFamily& family, const Coordinates& c, const StudyLength& study_length,
+void DesignState::set(const DesignFamily& family, const Problem& problem, const Coordinates& c,
                       const std::vector<PoseSpec>& specs, int objective_poses, const Eigen::VectorXd& y) {
   x = c.variables(y);
   slopes_ = c.slopes(x);
   const std::size_t own = family.variables().size();
   family.blueprint({x.data(), own}, blueprint);
+  tool = problem.tool;
+  tool_axes_ = tool.axes();
+  tool_arm_ = blueprint.theta_z == 0.0 ? tool.position : rotation_about_z(blueprint.theta_z) * tool.position;
+  tool_arm_by_theta_z_ = Vec3::UnitZ().cross(tool_arm_);
   columns_ = c.size();
   if (column_.size() != own) {
     column_.resize(own);
@@ -61,7 +65,7 @@ void DesignState::set(const DesignFamily& family, const Coordinates& c, const St
   poses.resize(specs.size());
   set_poses(specs);
   const bool as_variable = c.length_variable() >= 0;
-  set_length(study_length, as_variable ? c.coordinate(c.length_variable()) : -1);
+  set_length(problem.characteristic_length, as_variable ? c.coordinate(c.length_variable()) : -1);
   if (as_variable) characteristic_length = x[c.length_variable()];
 }
 
@@ -84,7 +88,7 @@ void DesignState::place(const PoseSpec& spec, PoseState& out) const {
   Vec3 offset = Vec3::Zero();  // of s, in zp
   for (int axis = 0; axis < 3; ++axis)
     if (spec.offset[at_index(axis)] >= 0) offset[axis] = f * x[spec.offset[at_index(axis)]];
-  const Vec3 p = Vec3(0.0, 0.0, blueprint.zp) + (f * size) * pose.position;
+  const Vec3 p = Vec3(0.0, 0.0, blueprint.zp) + tool_arm_ + (f * size) * pose.position;
   const Vec3 s = Vec3(0.0, 0.0, blueprint.zs) + (f * size) * pose.internal + blueprint.zp * offset;
   out.p_by_zp = Vec3::UnitZ();
   out.s_by_zp = offset;
@@ -93,10 +97,11 @@ void DesignState::place(const PoseSpec& spec, PoseState& out) const {
     out.s_by_zp += f * pose.internal;
   }
   const Mat3 turn = pose.rotation.isZero(0.0) ? Mat3::Identity() : exp_rotation(f * pose.rotation);
-  out.rotation = blueprint.theta_z == 0.0 ? turn : Mat3(turn * rotation_about_z(blueprint.theta_z));
+  out.plate = blueprint.theta_z == 0.0 ? turn : Mat3(turn * rotation_about_z(blueprint.theta_z));
+  out.rotation = tool.turned() ? Mat3(out.plate * tool_axes_) : out.plate;
   out.twist_axis = turn.col(2);
   for (std::size_t i = 0; i < 6; ++i) out.at[i] = blueprint.joint[i];
-  for (std::size_t i = 6; i < 12; ++i) out.at[i] = p + out.rotation * blueprint.joint[i];
+  for (std::size_t i = 6; i < 12; ++i) out.at[i] = p + out.plate * (blueprint.joint[i] - tool.position);
   out.at[point_p] = p;
   out.at[point_s] = s;
   out.legs = nine_legs(out.at);
@@ -142,8 +147,7 @@ void DesignState::set_length(const StudyLength& study_length, int coordinate) {
     for (int k = point_u + 1; k < 12 && length_joint < 0; ++k)
       if (joint_distance(k) > joint_distance(farthest)) farthest = k;
     characteristic_length = joint_distance(farthest);
-    if (characteristic_length > 0.0)
-      add_joint(farthest, blueprint.joint[at_index(farthest)] / characteristic_length, length_gradient);
+    if (characteristic_length > 0.0) add_joint(farthest, joint_arm(farthest) / characteristic_length, length_gradient);
     else characteristic_length = trial_length();  // a platform of no size is singular under any length
     return;
   }
@@ -200,9 +204,10 @@ void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
   }
   if (point < 6) return add_joint(point, g, out);
   add_zp(g.dot(v.p_by_zp), out);
+  add_jet(g.dot(tool_arm_by_theta_z_), row_theta_z, out);
   if (v.moves) add_at(g, v.by_at.position, out);
   if (point == point_p) return;
-  add_joint(point, v.rotation.transpose() * g, out);
+  add_joint(point, v.plate.transpose() * g, out);
   add_turn(k, (v.at[at_index(point)] - v.at[point_p]).cross(g), out);
 }
 

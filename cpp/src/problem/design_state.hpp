@@ -31,6 +31,7 @@ std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coor
 
 /// One design at one pose.
 struct PoseState : PosedPoints {
+  Mat3 plate;          ///< the rotation of the platform's own frame; `rotation` is that of the tool
   Vec3 twist_axis;     ///< the platform turns about it as theta_z grows
   Vec3 p_by_zp, s_by_zp;
   double fraction;
@@ -47,8 +48,8 @@ struct LegExtreme {
 class DesignState {
  public:
   /// `objective_poses`: how many of the specs, from the second on, belong to the objective.
-  void set(const DesignFamily& family, const Coordinates& c, const StudyLength& length,
-           const std::vector<PoseSpec>& specs, int objective_poses, const Eigen::VectorXd& y);
+  void set(const DesignFamily& family, const Problem& problem, const Coordinates& c, const std::vector<PoseSpec>& specs,
+           int objective_poses, const Eigen::VectorXd& y);
 
   /// The same design at other poses, as many as before. Those of the neutral configuration must come first.
   void set_poses(const std::vector<PoseSpec>& specs);
@@ -56,7 +57,8 @@ class DesignState {
   void set_pose(int k, const PoseSpec& spec);
 
   Eigen::VectorXd x;  ///< full variables
-  Blueprint blueprint;
+  Blueprint blueprint;  ///< in the frames of the plates
+  Tool tool;
   double unit = 1.0;  ///< Problem::unit; lengths are divided by it before a logarithm is taken
   double characteristic_length = 1.0;
   Eigen::RowVectorXd length_gradient;  ///< of the characteristic length; empty where it is a number
@@ -73,12 +75,15 @@ class DesignState {
   /// Over the evaluated poses: of all legs, and the pose where each is longest and shortest.
   LegExtreme longest, shortest;
   std::array<int, 9> longest_of{}, shortest_of{};
-  /// Distance of a joint from the origin of its body's frame.
-  double joint_distance(int joint) const { return blueprint.joint[at_index(joint)].norm(); }
+  /// A joint from the origin of its body's frame, that of the platform being the tool's point; axes of the plates.
+  Vec3 joint_arm(int joint) const {
+    return joint < point_u ? blueprint.joint[at_index(joint)] : Vec3(blueprint.joint[at_index(joint)] - tool.position);
+  }
+  double joint_distance(int joint) const { return joint_arm(joint).norm(); }
   double length(const LegExtreme& l) const { return pose(l.pose).legs.length[l.leg]; }
 
   // Chain rule: each adds to the row `out` of a number the effect of its derivative `g` with respect to ...
-  void add_joint(int joint, const Vec3& g, Row out) const;  ///< a joint in its body's frame
+  void add_joint(int joint, const Vec3& g, Row out) const;  ///< a joint in its plate's frame
   void add_zp(double g, Row out) const { add_jet(g, row_zp, out); }
   void add_zs(double g, Row out) const { add_jet(g, row_zs, out); }
   void add_point(int pose, int point, const Vec3& g, Row out) const;  ///< a point in the base frame
@@ -100,6 +105,8 @@ class DesignState {
   }
   void set_extremes();
 
+  Mat3 tool_axes_ = Mat3::Identity();
+  Vec3 tool_arm_ = Vec3::Zero(), tool_arm_by_theta_z_ = Vec3::Zero();  ///< from the plate's origin at home, base axes
   Rows jet_;  ///< Blueprint::gradient by free coordinate, up to the last that the family depends on
   Eigen::Index columns_ = 0;  ///< the free coordinates; those of internal points, of which there may be many, are last
   bool moves_ = false;  ///< whether a pose has slopes

@@ -23,8 +23,8 @@ bool optimizes_internal_point(const Pose& pose) {
 
 bool on_axis(const Problem& problem, const Pose& pose) {
   const auto along_z = [](const Vec3& v) { return v.x() == 0.0 && v.y() == 0.0; };
-  return design_family(problem.family).symmetric() && along_z(pose.position) && along_z(pose.rotation) &&
-         along_z(pose.internal);
+  return design_family(problem.family).symmetric() && problem.tool.on_axis() && along_z(pose.position) &&
+         along_z(pose.rotation) && along_z(pose.internal);
 }
 
 std::vector<Variable> full_variables(const Problem& problem) {

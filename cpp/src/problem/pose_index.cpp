@@ -99,6 +99,7 @@ void closed_spectrum(const DesignFamily& family, const DesignState& v, const Pos
   (pose.in_zp ? shift.p_in_zp : shift.p) = pose.position.z();
   (pose.in_zp ? shift.s_in_zp : shift.s) = pose.internal.z();
   shift.turn = pose.rotation.z();
+  shift.tool = v.tool.position.z();
   if (spec.offset[2] >= 0) shift.s_in_zp += v.x[spec.offset[2]];
   AxisPoint point;
   const std::size_t own = family.variables().size();

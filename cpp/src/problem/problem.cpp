@@ -24,7 +24,7 @@ DesignState state_of(const Problem& problem, const Eigen::VectorXd& variables) {
   require_full("variables", problem, variables);
   const Coordinates coordinates = Coordinates::plain(problem);
   DesignState state;
-  state.set(design_family(problem.family), coordinates, problem.characteristic_length, pose_specs(problem, coordinates),
+  state.set(design_family(problem.family), problem, coordinates, pose_specs(problem, coordinates),
             static_cast<int>(problem.objective.poses.size()), variables);
   return state;
 }
@@ -75,8 +75,12 @@ void Problem::validate() const {
         throw InvalidArgument(limits[k].label(), "two limits", "one, with one number of steps");
   }
   objective.validate();
+  tool.validate();
   if (objective.index == Index::six_legged && !f.symmetric())
     throw InvalidArgument("objective.index", "\"six_legged\"", "a family symmetric about z with it, not " + family);
+  if (objective.index == Index::six_legged && !tool.on_axis())
+    throw InvalidArgument("objective.index", "\"six_legged\" and a tool beside the axis of the platform",
+                          "[tool] position = [0, 0, z] with it");
   // Some design within the bounds must be a robot: throws where both sides of a plate are fixed at zero.
   std::vector<double> ordinary;
   for (std::size_t k = 0; k < info.size(); ++k) {
@@ -88,6 +92,13 @@ void Problem::validate() const {
 
 double characteristic_length(const Problem& problem, const Eigen::VectorXd& variables) {
   return state_of(problem, variables).characteristic_length;
+}
+
+Geometry geometry(const Problem& problem, const Eigen::VectorXd& variables) {
+  if (variables.size() < std::ssize(problem.variables))
+    throw InvalidArgument("variables", std::to_string(variables.size()) + " values",
+                          std::to_string(problem.variables.size()));
+  return problem.tool.seen(design_family(problem.family).geometry({variables.data(), problem.variables.size()}));
 }
 
 std::vector<Configuration> configurations(const Problem& problem, const Eigen::VectorXd& variables) {

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
@@ -28,17 +29,23 @@ class Chosen(NamedTuple):
     configuration: Configuration
     characteristic_length: float | str
     unit: str = ""
+    tool: Tool = Tool()
     result: Result | None = None
 
     @property
     def design(self) -> Design:
         """The design alone."""
-        return Design(self.geometry, self.configuration, self.characteristic_length, self.unit)
+        return Design(*self[:5])
 
     @property
     def study(self) -> Study | None:
         """The study that it is from."""
         return None if self.result is None else self.result.study
+
+    @property
+    def duty(self) -> Study:
+        """The study that says what the machine is for; one of the tool alone without a study."""
+        return self.study or Study(tool=self.tool)
 
     @property
     def leg_ranges(self) -> tuple[tuple[float, float], ...]:
@@ -50,7 +57,7 @@ class Chosen(NamedTuple):
         """Return the least and greatest length of each leg, of the study and of its ranges; None without a study."""
         if self.study is None:
             return None
-        low, high = leg_limits_of(self.study, float(self.configuration.position[2]))
+        low, high = leg_limits_of(self.study, self.configuration)
         if self.leg_ranges:
             least, most = np.transpose(self.leg_ranges)
             low, high = np.maximum(low, least), np.minimum(high, most)
@@ -71,7 +78,8 @@ def named_design(name: str | None) -> Chosen:
     best = run.best
     if best is None:
         raise ValueError(f"{name}: the record holds no design: {run.reason}")
-    return Chosen(best.geometry, best.configuration, best.characteristic_length, run.study.unit, run)
+    study = run.study
+    return Chosen(best.geometry, best.configuration, best.characteristic_length, study.unit, study.tool, run)
 
 
 def chosen_design(name: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Chosen:

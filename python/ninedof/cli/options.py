@@ -37,9 +37,11 @@ Report = Annotated[bool, typer.Option("--report/--no-report", help="Write the re
 Scheduler = Annotated[
     str | None, typer.Option(help="Address of a Dask scheduler, as tcp://host:8786; its workers compute the chunks.")
 ]
-LOAD = typer.Option(help='A load "mx my mz fx fy fz" on the platform: moment about p and force. May be repeated.')
-LEG_ERROR = typer.Option(help="Tolerance of the leg lengths.")
-JOINT_ERROR = typer.Option(help="Tolerance of the joint centres, a radius.")
+LOAD = typer.Option(
+    help='A load "mx my mz fx fy fz" on the platform: moment about p and force; of the study. Repeatable.'
+)
+LEG_ERROR = typer.Option(help="Tolerance of the leg lengths; of the study.")
+JOINT_ERROR = typer.Option(help="Tolerance of the joint centres, a radius; of the study.")
 LEG_STIFFNESS = typer.Option(help="Stiffness of each leg, force/length.")
 LegLimits = Annotated[
     Two | None, typer.Option(metavar="LOW HIGH", help="Limits of all nine legs; those of the run's study by default.")

@@ -45,6 +45,10 @@ def _of_named(
         raise ValueError(f"sweep: got {name} and sides or heights of another design, expected one of the two")
     chosen = with_length(named_design(name), lc)
     length = chosen.characteristic_length
+    if chosen.tool:
+        raise ValueError(
+            f"--over: got variables of {name}, which has a [tool], expected coordinates of the configuration"
+        )
     if chosen.result is not None and chosen.result.best is not None and chosen.study is not None:
         family = chosen.study.family
         if set(over) <= set(FAMILIES[family]):

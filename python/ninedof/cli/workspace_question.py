@@ -221,7 +221,7 @@ def _place(options: WorkspaceOptions, chosen: Chosen, region: Region | None) -> 
         return {"position": home.position if options.position is None else options.position, "rotation": home.rotation}
     if options.position is not None:
         raise ValueError(f"--position: got {options.position}, expected none but for --archetype orientation")
-    low, high = box_around(home) if region is None else box_about(region, home)
+    low, high = box_around(home, chosen.duty.tool) if region is None else box_about(region, home)
     around = [(low[k], high[k]) if end is None else end for k, end in enumerate(ends)]
     rotation = {"rotation": home.rotation} if options.archetype == "constant_orientation" else {}
     return rotation | {"box": tuple(zip(*around, strict=True))}

@@ -8,8 +8,12 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.arguments import Vector, finite, instance, items, shown, text, vector
+from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.schema import Table, entry, read
 from ninedof.support.short import short_repr
 
@@ -41,7 +45,7 @@ def _inertia(name: str, value: Any) -> Six:
     return six
 
 
-def _matrix(six: Six) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _matrix(six: Six) -> Floats:
     xx, yy, zz, xy, xz, yz = six
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
@@ -96,8 +100,12 @@ class Tool(Table):
     position: Vector = entry(vector, (0.0, 0.0, 0.0))
     rotation: Vector = entry(vector, (0.0, 0.0, 0.0), angle=True)
 
+    def __bool__(self) -> bool:
+        """Whether it is another frame than the plate's."""
+        return any(self.position) or any(self.rotation)
+
     @property
-    def axes(self) -> np.ndarray[Any, np.dtype[np.float64]]:
+    def axes(self) -> Floats:
         """The tool's axes in the platform's frame: the columns of a rotation."""
         angle = float(np.linalg.norm(self.rotation))
         if angle == 0.0:
@@ -110,6 +118,44 @@ class Tool(Table):
         """Return a point of the platform's frame in the tool's frame."""
         x, y, z = (self.axes.T @ np.subtract(vector("point", point), self.position)).tolist()
         return x, y, z
+
+    def turned(self, direction: Vector) -> Vector:
+        """Return a direction of the platform's frame in the tool's frame."""
+        x, y, z = (self.axes.T @ np.array(vector("direction", direction))).tolist()
+        return x, y, z
+
+    def own(self, points: ArrayLike) -> Floats:
+        """Return points of the tool's frame, shape (..., 3), in the platform's frame."""
+        own = as_floats("points", points, (3,))
+        if not np.isfinite(own).all():
+            raise ValueError(f"points: got {shown(points)}, expected finite coordinates")
+        return np.asarray(own @ self.axes.T + np.array(self.position))
+
+    def robot(self, geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Configuration]:
+        """Return a robot in the frame of its plate, and configurations of the plate, as the tool sees them."""
+        c = instance("configuration", configuration, Configuration)
+        own, seen = triples(instance("geometry", geometry, Geometry)), {}
+        if not self:
+            return geometry, c
+        for name in TRIPLES:
+            moves = name.startswith("platform")
+            seen[name] = (own[name] - np.array(self.position)) @ self.axes if moves else own[name]
+        at = c.position + c.rotation @ np.array(self.position)
+        return Geometry(**seen), Configuration(at, c.rotation @ self.axes, c.internal_point)
+
+    def plates(self, geometry: Geometry) -> Geometry:
+        """Return a robot as the tool sees it with each joint in the frame of its plate."""
+        joints = triples(instance("geometry", geometry, Geometry))
+        if not self:
+            return geometry
+        moved = {name: self.own(joints[name]) for name in TRIPLES if name.startswith("platform")}
+        return Geometry(**(joints | moved))
+
+    def plate(self, configuration: Configuration) -> Configuration:
+        """Return where the plate's own frame is for configurations of the tool's; O as it is."""
+        c = instance("configuration", configuration, Configuration)
+        rotation = c.rotation @ self.axes.T if any(self.rotation) else c.rotation
+        return Configuration(c.position - rotation @ np.array(self.position), rotation, c.internal_point)
 
 
 @short_repr

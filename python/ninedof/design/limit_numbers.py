@@ -77,17 +77,18 @@ def apart(g: Geometry, study: Study | None = None) -> list[int]:
     return [k for k, meet in enumerate(exempt_pairs(g, study)) if not meet]
 
 
-def leg_limits_of(study: Study, zp: float) -> tuple[Floats, Floats]:
+def leg_limits_of(study: Study, neutral: Configuration) -> tuple[Floats, Floats]:
     """Return the least and greatest length of each leg in a study, shapes (9,); 0 and infinity where it has none.
 
     Parameters
     ----------
     study : Study
-    zp : float
-        Height of the platform, for limits in units of it.
+    neutral : Configuration
+        A single one, for limits in units of zp.
 
     """
     low, high = np.zeros(9), np.full(9, math.inf)
+    zp = study.zp(neutral)
     for limit in study.limits:
         if limit.name in LEGS and limit.at == "poses":
             unit, legs = zp if limit.of == "zp" else 1.0, LEGS[limit.name]

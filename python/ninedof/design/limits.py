@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof import _core
+from ninedof.design.duty import Tool
 from ninedof.support.angles import angle_entry, degrees_of, half_turn, in_radians
 from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
 from ninedof.support.schema import Check, plain, within
@@ -103,9 +104,14 @@ class Limit:
         entries = (angle_entry(*item) if item[0] in angles else item for item in self.entries.items())
         return {name: plain(value) for name, value in entries}
 
-    def for_core(self) -> _core.Limit:
-        """Return the limit as the core takes it: the axis of unit length."""
-        return _core.Limit(**vars(self) | {"axis": _unit(self.axis) if self.axis else (0.0, 0.0, 0.0)})
+    def axis_in(self, tool: Tool) -> Vector | tuple[()]:
+        """Return the axis in the frame of geometries: that of a cone of the platform is seen from the tool's frame."""
+        return tool.turned(self.axis) if self.axis and self.name.startswith("platform_cone") and tool else self.axis
+
+    def for_core(self, tool: Tool) -> _core.Limit:
+        """Return the limit as the core takes it: the axis of unit length, in the frame of geometries."""
+        axis = self.axis_in(tool)
+        return _core.Limit(**vars(self) | {"axis": _unit(axis) if axis else (0.0, 0.0, 0.0)})
 
 
 def parse(name: str, value: Any) -> tuple[Limit, ...]:

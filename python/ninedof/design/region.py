@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 from ninedof import _core
 from ninedof.redundancy.rules import STUDY_RULES
+from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import exact_degrees, half_turn
-from ninedof.support.arguments import Vector, choice, finite, pair, text, vector, vectors
+from ninedof.support.arguments import Vector, choice, finite, instance, pair, text, vector, vectors
 from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount, scale
@@ -82,6 +83,8 @@ class Region(Table):
     yaw: float = entry(partial(finite, least=0.0), 0.0, angle=True)
     internal_point: str = entry(partial(choice, known=STUDY_RULES), "shifted")
     unit: str = entry(scale, "length")
+    tool_height: float = field(default=0.0, init=False, compare=False, repr=False)
+    """Of the tool's point above the plate at home in the study that has the region: zp is the height of p less this."""
 
     def __post_init__(self) -> None:
         """Check every entry, and that they go together."""
@@ -120,6 +123,11 @@ class Region(Table):
         """Greatest moduli of the six coordinates of a pose: shift of p, tilt about x and y, yaw."""
         return tuple(self.for_core().reach)
 
+    def size_at(self, home: Configuration) -> float:
+        """Return the scale of positions for a design: zp, or 1."""
+        c = instance("home", home, Configuration)
+        return float(c.position[2]) - self.tool_height if self.unit == "zp" else 1.0
+
     def for_core(self) -> _core.Region:
         """Return the region as the core takes it; one of turns alone is an empty box."""
         shape, size = "box" if self.path is None else "path", self.box or (0.0, 0.0, 0.0)
@@ -136,6 +144,7 @@ class Region(Table):
             shifted=self.internal_point == "shifted",
             placed=self.internal_point == "best",
             in_zp=self.unit == "zp",
+            tool_height=self.tool_height,
         )
 
 

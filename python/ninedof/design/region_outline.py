@@ -16,7 +16,7 @@ def region_lines(region: Region, home: Configuration) -> list[Floats]:
 
     Nothing for a region of turns alone.
     """
-    unit = float(home.position[2]) if region.unit == "zp" else 1.0
+    unit = region.size_at(home)
     if region.path is not None:
         return [np.asarray(home.position + unit * np.array(region.path))]
     low, high = extent(region, home)
@@ -46,7 +46,7 @@ def section_outline(region: Region, home: Configuration, fixed: int, at: float) 
     Points (n, 2) in the two other coordinates, in their order.
     """
     axes = [k for k in range(3) if k != fixed]
-    unit = float(home.position[2]) if region.unit == "zp" else 1.0
+    unit = region.size_at(home)
     if region.path is not None:
         return np.asarray((home.position + unit * np.array(region.path))[:, axes])
     low, high = extent(region, home)
@@ -68,7 +68,7 @@ def section_outline(region: Region, home: Configuration, fixed: int, at: float) 
 
 def extent(region: Region, home: Configuration) -> tuple[Floats, Floats]:
     """Return the least and the greatest coordinates of a region's positions, in base axes."""
-    unit = float(home.position[2]) if region.unit == "zp" else 1.0
+    unit = region.size_at(home)
     if region.path is not None:
         corners = np.array(region.path)
         return home.position + unit * corners.min(axis=0), home.position + unit * corners.max(axis=0)

@@ -36,7 +36,7 @@ class Placing:
         region: Region = self.study.objective.region  # type: ignore[assignment]
         near, shift = _core.place_in_region(self.for_core(), region.for_core(), at, 0)
         there = configurations_at(region, self.neutral, near)[1]
-        zp = float(self.neutral.position[2])
+        zp = self.study.zp(self.neutral)
         size = 1.0 if region.unit == "zp" else zp
         rows = _core.region_poses(region.for_core(), near)
         poses = tuple(
@@ -89,7 +89,7 @@ def configurations_at(region: Region, neutral: Configuration, at: Floats) -> tup
     """
     rows = _core.region_poses(region.for_core(), np.ascontiguousarray(at))
     near, shift, turn, internal = np.split(rows, [6, 9, 12], axis=1)
-    unit = float(neutral.position[2]) if region.unit == "zp" else 1.0
+    unit = region.size_at(neutral)
     q = from_vectors(turn) @ neutral.rotation
     return near, Configuration(neutral.position + unit * shift, q, neutral.internal_point + unit * internal)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
@@ -16,12 +17,14 @@ from ninedof.design.design_point import DesignPoint, design_point
 from ninedof.design.duty import DUTIES, About, Loads, Masses, Speeds, Tolerances, Tool, duty
 from ninedof.design.limits import ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
+from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import DEG, angle_entry, degrees_of, in_radians
 from ninedof.support.arguments import (
     bound,
     choice,
     finite,
     flag,
+    instance,
     is_number,
     known_keys,
     number,
@@ -197,6 +200,11 @@ class Study:
             unit = length if isinstance(length, float) and kind in ("length", "coordinate") else 1.0
             low, high = (end * unit for end in ends)
             variables[name] = bound(name, named[name]) if name in named else low if low == high else (low, high)
+        region = self.objective.region
+        if region is not None and region.tool_height != self.tool.position[2]:
+            region = copy(region)
+            object.__setattr__(region, "tool_height", self.tool.position[2])
+            object.__setattr__(self, "objective", replace(self.objective, region=region))
         for name, value in {
             "variables": Fixed(variables),
             "length_assumed": assumed,
@@ -313,14 +321,21 @@ class Study:
         """Return the study as the core's problem, validated there; of a region, without it, or to be solved over it."""
         if flag("over_region", over_region) not in self._problems:
             bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
-            limits, objective = [limit.for_core() for limit in self.limits], self.objective.for_core(over_region)
-            problem = _core.Problem(self.family, bounds, limits, self.characteristic_length, objective)
+            limits = [limit.for_core(self.tool) for limit in self.limits]
+            objective, tool = self.objective.for_core(over_region), self.tool
+            problem = _core.Problem(
+                self.family, bounds, limits, self.characteristic_length, objective, tool.position, tool.rotation
+            )
             self._problems[over_region] = problem
         return self._problems[over_region]
 
     @cached_property
     def _problems(self) -> dict[bool, _core.Problem]:
         return {}
+
+    def zp(self, neutral: Configuration) -> float:
+        """Return the height zp of the plate of a design whose neutral configuration, that of the tool, is given."""
+        return float(instance("neutral", neutral, Configuration).position[2]) - self.tool.position[2]
 
     def evaluate(self, variables: Mapping[str, float]) -> DesignPoint:
         """Return objective, condition numbers, margins and exact gradients of one design.

@@ -79,6 +79,8 @@ class Bodies:
         self.platform = {name: x for name, x in own.items() if name.startswith("platform")}
         """Joints of the platform by name, platform frame."""
         self.position, self.rotation, self.internal_point = at[P], metric.configuration.rotation, at[O]
+        self.tool = metric.tool
+        """In metres, in the frame of the platform."""
         strokes = [None] * 9 if model.leg_ranges is None else in_metres(model.leg_ranges, model.unit)
         self.legs = [
             Leg(name, _site(root), _site(tip), at, stroke)

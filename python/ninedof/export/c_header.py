@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ninedof.export.model import Format, Model
+from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import triples
 from ninedof.support.arrays import Floats
 from ninedof.support.extras import versions
@@ -45,6 +46,9 @@ static inline void ninedof_leg_lengths(const ninedof_pose *pose, double lengths[
 }
 """
 
+TOOL = """
+   The platform frame is that of the tool: p is the tool's point, Q has its axes."""
+
 WITHIN = """\
 /* 0 if every leg is between its shortest and its longest length, else the number of the first that is not, from 1. */
 static inline int ninedof_first_out_of_range(const double lengths[9]) {
@@ -58,7 +62,8 @@ static inline int ninedof_first_out_of_range(const double lengths[9]) {
 
 def text(model: Model) -> str:
     """Return the file. Constants are the shortest decimals that read back to the same bits."""
-    parts = [_head(model), *(_matrix(name, rows) for name, rows in triples(model.geometry).items()), _neutral(model)]
+    g, c = model.tool.robot(model.geometry, model.configuration)
+    parts = [_head(model), *(_matrix(name, rows) for name, rows in triples(g).items()), _neutral(c)]
     parts.append(_row("neutral_lengths", model.neutral_lengths))
     if model.leg_ranges:
         shortest, longest = zip(*model.leg_ranges, strict=True)
@@ -72,7 +77,7 @@ def _head(model: Model) -> str:
         f"/* {model.name}: joints and inverse kinematics, written by ninedof {versions()['ninedof']}.\n"
         f"   Unit of lengths: {unit}. Joints 1, 2, 3 are rows: those of the base in the base frame, those of the\n"
         "   platform in the platform frame. Legs in the order l1 l2 l3 q1 q2 q3 r1 r2 r3: external, upper internal,\n"
-        "   lower internal. */\n"
+        f"   lower internal.{TOOL * bool(model.tool)} */\n"
         "#ifndef NINEDOF_ROBOT_H\n#define NINEDOF_ROBOT_H\n\n#include <math.h>\n\n"
         f'#define NINEDOF_NAME "{model.name}"\n#define NINEDOF_UNIT "{model.unit}"\n\n'
     )
@@ -83,8 +88,7 @@ def _matrix(name: str, rows: Floats) -> str:
     return f"static const double ninedof_{name}[3][3] = {{\n{lines}}};\n"
 
 
-def _neutral(model: Model) -> str:
-    c = model.configuration
+def _neutral(c: Configuration) -> str:
     rotation = ",\n   ".join(_braces(row) for row in c.rotation)
     return f"\n{NEUTRAL}  {_braces(c.position)},\n  {{{rotation}}},\n  {_braces(c.internal_point)}}};\n"
 

@@ -24,7 +24,7 @@ from ninedof.support.files import csv_rows, finite_or_nan
 from ninedof.support.units import unit_argument, with_unit
 
 AXES = ("x", "y", "z")
-JOINT, POSE, ROTATION, LEG, SETTING = SECTIONS = ("joint", "pose", "rotation", "leg", "setting")
+JOINT, POSE, ROTATION, LEG, TOOL, SETTING = SECTIONS = ("joint", "pose", "rotation", "leg", "tool", "setting")
 """First column of each section, which names it."""
 ROWS_OF_Q = ("row 1", "row 2", "row 3")
 LENGTH = "characteristic_length"
@@ -52,11 +52,20 @@ def text(model: Model) -> str:
         ],
         [(SETTING, "value"), (LENGTH, length if isinstance(length, str) else repr(float(length)))],
     ]
+    if model.tool:
+        sections.insert(-1, [(TOOL, *AXES), *_of_tool(model)])
     file = io.StringIO()
     for k, rows in enumerate(sections):
         file.write("\n" if k else "")
         csv.writer(file, lineterminator="\n").writerows(rows)
     return file.getvalue()
+
+
+def _of_tool(model: Model) -> Iterable[tuple[str, ...]]:
+    """Yield the point of the tool and its axes, in the frame of the platform."""
+    yield "point", *_texts(model.tool.position)
+    for name, axis in zip(AXES, model.tool.axes.T, strict=True):
+        yield f"axis {name}", *_texts(axis)
 
 
 def _texts(values: Iterable[float]) -> list[str]:

@@ -65,6 +65,11 @@ def _pose(model: Model) -> str:
     words |= {name: _joint_words(name) for name in JOINTS if name.startswith("platform")}
     labels = [*words.values(), *(rf"row {i} of $\mathbf{{Q}}$" for i in (1, 2, 3))]
     numbers = [*_columns([model.base_frame[name] for name in words]), *_columns(list(model.configuration.rotation))]
+    if tool := model.tool:
+        labels += ["point of the tool, in the frame of the platform"]
+        numbers += _columns([tool.position])
+        labels += [rf"its ${axis}$ axis" for axis in "xyz"] * any(tool.rotation)
+        numbers += _columns(list(tool.axes.T)) * any(tool.rotation)
     rows = [[label, *row] for label, row in zip(labels, numbers, strict=True)]
     return _tabular("Neutral pose in the base frame", "lrrr", [with_unit("point", model.unit), *AXES], rows, first=2)
 

@@ -84,7 +84,7 @@ def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSE
       <freejoint name="platform"/>
       <inertial pos="0 0 0" mass="{numbers(b.platform_mass)}" diaginertia="{numbers([across, across, normal])}"/>
       <geom name="platform" type="mesh" mesh="platform" rgba="{PLATE}"/>
-      <site name="platform" size="{numbers(0.2 * b.radius)}"/>
+      <site name="platform" size="{numbers(0.2 * b.radius)}"/>{_tool(b)}
       {_sites(b.platform)}{legs["platform"]}
     </body>
   </worldbody>
@@ -137,6 +137,14 @@ def _actuators(b: Bodies) -> str:
 
 def _sites(joints: dict[str, Floats]) -> str:
     return "\n    ".join(f'<site name="{name}" pos="{numbers(at)}"/>' for name, at in joints.items())
+
+
+def _tool(b: Bodies) -> str:
+    """Return the frame of the tool as a site of the platform; nothing without one."""
+    if not b.tool:
+        return ""
+    axes = numbers(b.tool.axes[:, :2].T.ravel())
+    return f'\n      <site name="tool" pos="{numbers(b.tool.position)}" xyaxes="{axes}"/>'
 
 
 def _plate(name: str, joints: dict[str, Floats], radius: float) -> str:

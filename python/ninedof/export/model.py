@@ -5,13 +5,14 @@ from __future__ import annotations
 import inspect
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
@@ -64,8 +65,9 @@ class Model:
     """One design as the writers of files see it. Lengths in the unit of the design, angles in radians."""
 
     geometry: Geometry
+    """Each joint in the frame of its plate."""
     configuration: Configuration
-    """The neutral one: a single configuration."""
+    """The neutral one of the plate: a single configuration."""
     characteristic_length: float | str = 1.0
     """A number, or a kind of `ninedof.characteristic_length`."""
     unit: str = ""
@@ -76,13 +78,16 @@ class Model:
     """The study that found the design."""
     source: Any = None
     """The argument of `model_of`: a Result, a Design, ..."""
+    tool: Tool = field(default_factory=Tool)
+    """Whose point and axes poses of the study are about, in the frame of the platform's plate."""
 
     def in_metres(self) -> Model:
         """Return geometry and neutral configuration in metres; as they are without a unit."""
         c, unit = self.configuration, self.unit
         geometry = Geometry(*(in_metres(points, unit) for points in triples(self.geometry).values()))
         p, s = in_metres(c.position, unit), in_metres(c.internal_point, unit)
-        return Model(geometry, Configuration(p, c.rotation, s))
+        x, y, z = in_metres(self.tool.position, unit).tolist()
+        return Model(geometry, Configuration(p, c.rotation, s), tool=Tool((x, y, z), self.tool.rotation))
 
     @cached_property
     def own_frame(self) -> dict[str, Floats]:
@@ -118,11 +123,11 @@ class Model:
         if study is not None and study.objective.region is not None and self.sheet is not None:
             return tuple((leg.shortest, leg.longest) for leg in self.sheet.legs)
         if poses is not None and len(poses) > 1:
-            lengths = leg_lengths(self.geometry, poses)
+            lengths = leg_lengths(self.source.geometry, poses)  # both as the tool sees them
             return tuple(zip(lengths.min(axis=0).tolist(), lengths.max(axis=0).tolist(), strict=True))
         if study is None:
             return None
-        limits = np.transpose(leg_limits_of(study, float(self.configuration.position[2]))).tolist()
+        limits = np.transpose(leg_limits_of(study, self.source.configuration)).tolist()
         return tuple((a, b) for a, b in limits) if all(0.0 < a < b < math.inf for a, b in limits) else None
 
 
@@ -160,5 +165,7 @@ def model_of(design: Any, name: str = "ninedof", unit: str | None = None) -> Mod
     unit = None if unit is None else unit_argument(unit)
     if own and unit and unit != own:
         raise ValueError(f"unit: got {unit}, expected {own}, the unit of the design")
+    tool = getattr(study or design, "tool", Tool())
+    plates = (tool.plates(g), tool.plate(c)) if tool else (g, c)
     clean = "".join(x if x.isascii() and (x.isalnum() or x in "_-") else "_" for x in name) or "ninedof"
-    return Model(g, c, length, unit_argument(own or unit or ""), clean, study, design)
+    return Model(*plates, length, unit_argument(own or unit or ""), clean, study, design, tool)

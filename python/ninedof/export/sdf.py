@@ -41,10 +41,18 @@ def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSE
       {_pose(b.internal_point)}
       {_inertial(LEVEL, b.point_mass, b.point_inertia)}
       {_visual("O", LEVEL, LEVEL, f"<sphere><radius>{numbers(2.0 * b.radius)}</radius></sphere>", COLOURS["joint"])}
-    </link>{"".join(_leg(b, leg) for leg in b.legs)}
+    </link>{_tool(b)}{"".join(_leg(b, leg) for leg in b.legs)}
   </model>
 </sdf>
 """
+
+
+def _tool(b: Bodies) -> str:
+    """Return the frame of the tool on the platform; nothing without one."""
+    if not b.tool:
+        return ""
+    pose = _pose(b.tool.position, angles(b.tool.axes))
+    return f'\n    <frame name="tool" attached_to="platform">\n      {pose}\n    </frame>'
 
 
 def _leg(b: Bodies, leg: Leg) -> str:

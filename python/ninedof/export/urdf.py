@@ -92,7 +92,15 @@ def _platform(b: Bodies) -> str:
 {_axis("platform_turn3", "platform_cross2", "plate", "0 0 1")}
 {_link("plate", _inertial(-first, b.platform_mass, b.platform_inertia), *_bars(b, joints))}
 {_joint("platform_frame", "fixed", "plate", "platform", f'<origin xyz="{numbers(-first)}"/>')}
-  <link name="platform"/>"""
+  <link name="platform"/>{_tool(b)}"""
+
+
+def _tool(b: Bodies) -> str:
+    """Return the frame of the tool on that of the platform; nothing without one."""
+    if not b.tool:
+        return ""
+    origin = f'<origin xyz="{numbers(b.tool.position)}" rpy="{numbers(angles(b.tool.axes))}"/>'
+    return f'\n{_joint("tool_frame", "fixed", "platform", "tool", origin)}\n  <link name="tool"/>'
 
 
 def _joint(name: str, kind: str, parent: str, child: str, *more: str) -> str:

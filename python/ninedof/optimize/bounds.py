@@ -160,7 +160,7 @@ def applicable_bounds(result: Result) -> list[LowerBound]:
     if result.proof is not None:
         sentence = result.proof.words.removeprefix("Proved: ").removesuffix(".")
         bounds.append(LowerBound("certificate", result.proof.lower_bound, True, sentence))
-    if result.study.family == "hexagonal":
+    if result.study.family == "hexagonal" and not result.study.tool:
         bounds.append(_hexagonal(result.study.variables["theta_z"]))
     if _is_symmetric(best.geometry, best.configuration):
         bounds.extend(_symmetric(best.geometry, best.configuration, best.characteristic_length))

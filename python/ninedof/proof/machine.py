@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import astuple
 from time import perf_counter
 from typing import Any, TypedDict, Unpack
 
@@ -23,6 +22,7 @@ from ninedof.support.arrays import MOST_THREADS as MOST
 from ninedof.support.files import sha256
 from ninedof.support.margins import margin_of
 from ninedof.support.progress import Progress, phase
+from ninedof.support.schema import entries
 from ninedof.support.structs import from_core, options_of
 
 
@@ -173,8 +173,11 @@ def machine_digest(
 ) -> str:
     """Return a digest of every number on which a proof of the condition number depends."""
     region = study.objective.region
-    exact = None if region is None else astuple(region)  # its repr is for people, with six digits
+    # Its repr is for people, with six digits.
+    exact = None if region is None else tuple(getattr(region, one.name) for one in entries(Region))
     digest = sha256(repr((float(characteristic_length), exact)).encode())
+    if study.tool:
+        digest.update(repr((study.tool.position, study.tool.rotation)).encode())
     joints = (geometry.base_external, geometry.base_internal, geometry.platform_external, geometry.platform_internal)
     for array in (*joints, configurations.position, configurations.rotation, configurations.internal_point):
         digest.update(repr(np.asarray(array, float).tolist()).encode())

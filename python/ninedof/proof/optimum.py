@@ -171,6 +171,8 @@ def _problem(study: Study) -> _core.Problem:
     instance("study", study, Study)
     if study.objective.region is not None:
         raise ValueError("objective: got a region of poses, expected the neutral pose alone for a proof")
+    if study.tool:
+        raise ValueError("tool: got [tool], expected none: the proof of an optimum is of plates without a tool")
     return study.problem()
 
 

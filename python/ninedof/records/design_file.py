@@ -12,12 +12,14 @@ import numpy as np
 
 from ninedof.conditioning.characteristic_length import KINDS, characteristic_length
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.duty import Tool
 from ninedof.design.indices import computed
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.angles import in_radians
 from ninedof.support.arguments import finite, is_number, known_keys, number, path_argument, table
 from ninedof.support.files import read_toml, write_toml
+from ninedof.support.schema import read
 from ninedof.support.short import short_repr
 from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
 
@@ -47,6 +49,8 @@ class Design(NamedTuple):
     """A number, or a kind of `ninedof.characteristic_length`."""
     unit: str = ""
     """Name of the length unit; "" without one."""
+    tool: Tool = Tool()
+    """Whose frame geometry and configuration have as that of the platform; by default the plate's own."""
 
     @property
     def condition_number(self) -> float:
@@ -69,7 +73,8 @@ def load_design(path: str | os.PathLike[str]) -> Design:
     It has `characteristic_length` (a number or a kind, 1.0 by default), `unit` (the name of the length unit, none by
     default) and two tables: [geometry] with a1 a2 b1 b2, or with four lists of three joints base_external,
     base_internal, platform_external, platform_internal; [configuration] with zp, zs and theta_z_deg (or theta_z in
-    radians), or with position, internal_point and, optionally, rotation (three rows).
+    radians), or with position, internal_point and, optionally, rotation (three rows). With a third, [tool], as in a
+    study, the two are of the plates, and the design is as the tool sees it.
 
     Raises
     ------
@@ -87,11 +92,14 @@ def load_design(path: str | os.PathLike[str]) -> Design:
 
 def save_design(design: Design, path: str | os.PathLike[str]) -> Path:
     """Write a design file, its joints and its configuration as coordinates; return its path."""
+    tool = design.tool
+    g, c = (tool.plates(design.geometry), tool.plate(design.configuration)) if tool else design[:2]
     tables = {
         **unit_entry(design.unit),
         "characteristic_length": design.characteristic_length,
-        "geometry": {name: points.tolist() for name, points in triples(design.geometry).items()},
-        "configuration": {name: values.tolist() for name, values in arrays_of(design.configuration).items()},
+        "geometry": {name: points.tolist() for name, points in triples(g).items()},
+        "configuration": {name: values.tolist() for name, values in arrays_of(c).items()},
+        **({"tool": tool.to_dict()} if tool else {}),
     }
     write_toml(path, tables)
     return Path(path)
@@ -102,7 +110,8 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
         raise ValueError(
             "design: got a study, expected a design with [geometry] and [configuration]; see `ninedof optimize`"
         )
-    known_keys("design", data, ("unit", "geometry", "configuration", "characteristic_length"))
+    known_keys("design", data, ("unit", "geometry", "configuration", "characteristic_length", "tool"))
+    tool = read(Tool, data.get("tool", {}), "tool")
     geometry, configuration = (table(name, _present(name, data, name)) for name in ("geometry", "configuration"))
     require_unit_at_top({"geometry": geometry, "configuration": configuration})
     if "zp" in configuration or "zs" in configuration:
@@ -128,7 +137,7 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
     length = data.get("characteristic_length", 1.0)
     if not isinstance(length, str) and not is_number(length):
         raise ValueError(f"characteristic_length: got {length!r}, expected a number or a kind")
-    return Design(g, c, length, unit_argument(data.get("unit")))
+    return Design(*tool.robot(g, c), length, unit_argument(data.get("unit")), tool)
 
 
 def _present(where: str, data: Mapping[str, Any], name: str) -> Any:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.duty import Tool
 from ninedof.design.pose import Pose
 from ninedof.design.region_outline import region_lines
 from ninedof.optimize.optimize import trace
@@ -66,14 +67,14 @@ def _figures(
 
     unit = "l_c" if compared else result.study.unit  # the paper's unit; a study keeps its own
     note = "" if compared else unit
-    region = None if compared else result.study.objective.region
+    region, tool = None if compared else result.study.objective.region, result.study.tool
     panels = [
-        plot.Robot(name, g, c, kappa, _heights(c, note), () if region is None else region_lines(region, c))
+        plot.Robot(name, g, c, kappa, _heights(tool.plate(c), note), () if region is None else region_lines(region, c))
         for name, g, c, kappa, _ in designs
     ]
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
     say("drawing the condition number along zs and theta_z")
-    curves = [_curves(*designs[0], **compared), *(_curves(*design) for design in designs[1:])]
+    curves = [_curves(tool, designs[0], **compared), *(_curves(tool, design) for design in designs[1:])]
     files += plot.save(plot.condition_curves(curves, unit), directory, "condition")
     if result.best is not None and len(result.best.conditions) > 1:
         say("drawing the condition number at each pose")
@@ -112,29 +113,29 @@ def _pose_name(pose: Pose) -> str:
     return ", ".join(shifts + turns).replace("-", "\N{MINUS SIGN}") or "neutral"
 
 
-def _curves(
-    name: str,
-    g: Geometry,
-    c: Configuration,
-    kappa: float,
-    lc: float,
-    level: float | None = None,
-    crossings: tuple[float, ...] = (),
-) -> DesignCurves:
+def _curves(tool: Tool, design: Named, level: float | None = None, crossings: tuple[float, ...] = ()) -> DesignCurves:
     from ninedof.plot import DesignCurves
 
-    zp, zs = float(c.position[2]), float(c.internal_point[2])
-    theta_z = float(np.arctan2(c.rotation[1, 0], c.rotation[0, 0]))
+    name, g, c, kappa, lc = design
+    plate = tool.plate(c)
+    zp, zs = float(plate.position[2]), float(plate.internal_point[2])
+    theta_z = float(np.arctan2(plate.rotation[1, 0], plate.rotation[0, 0]))
+    own = tool.plates(g)
+
+    def kappas(heights: Any, turns: Any) -> Any:
+        g, c = tool.robot(own, Configuration.neutral(zp, heights, turns))
+        return condition_number(g, c, lc)
+
     heights = np.linspace(0.02, 0.98, 385) * zp
     twists = theta_z + np.radians(np.linspace(-60.0, 60.0, 361))
-    around = np.asarray(condition_number(g, Configuration.neutral(zp, zs, theta_z + np.array([-1e-6, 1e-6])), lc))
+    around = np.asarray(kappas(zs, theta_z + np.array([-1e-6, 1e-6])))
     compared = level is not None
     return DesignCurves(
         name=name,
         zs=heights,
-        along_zs=condition_number(g, Configuration.neutral(zp, heights, theta_z), lc),
+        along_zs=kappas(heights, theta_z),
         theta_z=twists,
-        along_theta_z=condition_number(g, Configuration.neutral(zp, zs, twists), lc),
+        along_theta_z=kappas(zs, twists),
         point=(zs, theta_z, kappa),
         slope=float(np.diff(around)[0] / 2e-6) if compared else None,
         level=level,

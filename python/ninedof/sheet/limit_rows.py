@@ -45,7 +45,7 @@ def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, 
     for limit in study.limits:
         for side, bound in limit.sides.items():
             low, high = (bound, math.inf) if side == "min" else (0.0, bound)
-            alone = problem.with_limits([replace(limit, low=low, high=high).for_core()], math.inf, math.inf)
+            alone = problem.with_limits([replace(limit, low=low, high=high).for_core(study.tool)], math.inf, math.inf)
             rows.append(_row(side, bound, limit.kind, alone.evaluate(x)))
     for name in CONDITION_LIMITS:
         if (bound := getattr(study.objective, name)) is not None:

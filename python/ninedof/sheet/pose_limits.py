@@ -74,12 +74,14 @@ def pose_limits(
         name, kind = limit.name, limit.row.kind
         if limit.at != "poses":
             continue
-        unit = float(neutral.position[2]) if limit.of == "zp" else 1.0
+        unit = study.zp(neutral) if limit.of == "zp" else 1.0
         if name == CLEARANCE:
             numbers = limit_numbers(name, g, c, neutral)[:, apart(g, study)].min(axis=1, initial=math.inf)
             values = [("", numbers)]
         elif name in PARTS:
-            values = list(zip(PARTS[name], limit_numbers(name, g, c, neutral, limit.for_core().axis).T, strict=True))
+            values = list(
+                zip(PARTS[name], limit_numbers(name, g, c, neutral, limit.for_core(study.tool).axis).T, strict=True)
+            )
         else:
             values = _spreads(name, leg_lengths(g, c), beside) if name in SPREADS else []
         for part, value in values:

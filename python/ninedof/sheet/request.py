@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
+from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CONES, JOINTS, PARTS, cone_axes, exempt_pairs
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
@@ -26,8 +27,8 @@ STANDARD = (0.0, 0.0, -9.81)
 class SheetArguments(TypedDict, total=False):
     """Options of `sheet`, which says what they mean."""
 
-    linear_speed: float
-    angular_speed: float
+    linear_speed: float | None
+    angular_speed: float | None
     internal: str | None
     loads: ArrayLike | None
     leg_errors: ArrayLike | None
@@ -86,7 +87,7 @@ class Weight(NamedTuple):
 
     mass: float
     centre: Vector
-    """Centre of mass in the platform frame."""
+    """Centre of mass in the platform frame of the geometry, that of the tool."""
     gravity: Vector
     """Force per mass, base axes: with 9.81 and kilograms forces are in newtons, in any unit of length."""
 
@@ -149,8 +150,11 @@ def internal_over(c: Configuration) -> str:
 
 def _limits(study: Study | None) -> list[tuple[str, Floats]]:
     """Return limits at poses and axes of cones: of each kind of joint about its axis, then all that the study has."""
-    cones = [limit.for_core() for limit in (study.limits if study is not None else ()) if limit.row.is_angle]
-    joints = [(name, np.array(axis or np.zeros(3))) for name, axis in cone_axes(study).items()]
+    limits, tool = ((), Tool()) if study is None else (study.limits, study.tool)
+    cones = [limit.for_core(tool) for limit in limits if limit.row.is_angle]
+    axes = {name: vector("axis", axis) if axis else () for name, axis in cone_axes(study).items()}
+    own = {name: tool.turned(axis) if axis and name.startswith("platform") else axis for name, axis in axes.items()}
+    joints = [(name, np.array(axis or np.zeros(3))) for name, axis in own.items()]
     others = [(name, np.zeros(3)) for name in PARTS if len(ROWS[name].sides) == 1 and name not in CONES]
     return others + joints + [(c.name, c.axis) for c in cones if c.name not in JOINTS]
 

@@ -13,11 +13,13 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
+from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_axes, leg_limits_of
 from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
+from ninedof.sheet.duty import weight_of, with_duty
 from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
@@ -128,6 +130,10 @@ class Sheet:
     leg_ranges: tuple[tuple[float, float], ...] | None = None
     """If O is placed anew at every pose of a region: the length that each leg keeps in all of it, empty if no limit
     compares poses. None for others."""
+    stated: tuple[str, ...] = ()
+    """Tables of the study that gave options which were left out: "speeds", "loads", "masses", "tolerances"."""
+    tool: Tool = field(default_factory=Tool)
+    """Of the study: p and the frame of the platform in `geometry` are the tool's."""
 
     @property
     def idle(self) -> tuple[str, ...]:
@@ -135,13 +141,14 @@ class Sheet:
         return tuple(leg.name for leg in self.legs if leg.idle)
 
     def joints(self) -> list[tuple[str, Floats, Floats]]:
-        """Return name, coordinates in the frame of its body and those in the base frame at the neutral pose."""
+        """Return name, coordinates in the frame of its plate and those in the base frame at the neutral pose."""
         p, q = self.configurations.position[0], self.configurations.rotation[0]
         rows = []
         for triple, points in triples(self.geometry).items():
             for i, point in enumerate(points):
-                at_neutral = p + q @ point if triple.startswith("platform") else point
-                rows.append((f"{triple}_{i + 1}", point, at_neutral))
+                moves = triple.startswith("platform")
+                own = self.tool.own(point) if moves and self.tool else point
+                rows.append((f"{triple}_{i + 1}", own, p + q @ point if moves else point))
         return rows
 
     def summary(self) -> str:
@@ -174,8 +181,11 @@ class Sheet:
                 )
             ],
         }
-        skipped = ("geometry", "configurations", *(["unit"] if not self.unit else []))
+        empty = [name for name in ("unit", "tool") if not getattr(self, name)]
+        skipped = ("geometry", "configurations", *empty)
         out |= {f.name: _plain(getattr(self, f.name)) for f in fields(self) if f.name not in skipped}
+        if self.tool:
+            out["tool"] = self.tool.to_dict()
         out["motion"] = {
             "linear_speed": self.motion.linear_speed,
             "angular_speed_deg": float(np.degrees(self.motion.angular_speed)),
@@ -228,8 +238,9 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     poses : Configuration, shape (n,), optional
         In place of the study's; the neutral pose of the design stays the first. For a Geometry they are needed, and
         the first of them is the neutral one. No region is looked over then.
-    linear_speed, angular_speed : float
-        Speed of the platform origin (length/time; 1 by default) and angular speed (rad/time; 0 by default). The speed
+    linear_speed, angular_speed : float, optional
+        Speed of the platform origin (length/time) and angular speed (rad/time); those of the study, which are those of
+        its tool, or 1 and 0. The speed
         of a leg is the largest over all directions of both: linear_speed |a| + angular_speed |b| where the rate of
         the leg is a.pdot + b.omega. From rest the same holds for accelerations. The acceleration of a leg is the
         largest over all directions while both velocities are constant; where neither speed is 0, a bound of it: the sum
@@ -240,9 +251,10 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         platform. By default as the poses show: "held" where O has one place in all of several poses, "carried" where it
         has one place in the platform, "shifted" where s - p is constant, "least" otherwise.
     loads : array_like, shape (6,) or (k, 6), optional
-        (moment about p, force) on the platform, base axes; the forces of the legs are those of `leg_forces`.
+        (moment about p, force) on the platform, base axes; the forces of the legs are those of `leg_forces`. Those of
+        the study by default.
     leg_errors, joint_errors : float or array_like, optional
-        Tolerances of `error_bounds`; without both the sheet has no accuracy.
+        Tolerances of `error_bounds`, those of the study by default; without both the sheet has no accuracy.
     leg_stiffness : float or array_like of shape (9,), optional
         That of `stiffness`, force/length; without it the sheet has no stiffness.
     characteristic_length : float or str, optional
@@ -252,9 +264,9 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         A given motion (omega, pdot), base axes, rad/time and length/time, and its time derivative, 0 by default: the
         sheet then has the least and largest rate and acceleration of each leg, with all terms of the velocities.
     mass, centre, gravity : float, array_like of shape (3,), array_like of shape (3,), optional
-        Mass of the platform and its centre in the platform frame, its origin by default. Gravity is force per mass,
-        base axes: (0, 0, -9.81) by default gives newtons for kilograms, in any unit of length. The weight is added to
-        every load, and is a load alone where none is given.
+        Mass of the platform and its centre in the frame of the plate, its origin by default. Gravity is force per mass,
+        base axes: (0, 0, -9.81) by default gives newtons for kilograms, in any unit of length. Those of the study where
+        it has them. The weight is added to every load, and is a load alone where none is given.
     samples : int
         Half of the poses of the sample of a region, and even poses for the mean; 10000 by default.
     unit : str, optional
@@ -282,16 +294,17 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     ('r1', 'r2', 'r3')
 
     """
-    values = options_of("sheet", SheetArguments, options, linear_speed=1.0, angular_speed=0.0, samples=SAMPLES)
+    study: Study | None = getattr(design, "solved", None)
+    duty = study or Study(tool=getattr(design, "tool", Tool()))
+    values, stated = with_duty(options_of("sheet", SheetArguments, options, samples=SAMPLES), duty)
     g, c, own_length = _robot(design, poses)
     length = length_argument(own_length if values["characteristic_length"] is None else values["characteristic_length"])
-    weight = Weight.of(values["mass"], values["centre"], values["gravity"])
+    weight = weight_of(duty, values["mass"], values["centre"], values["gravity"])
     internal = internal_over(c) if values["internal"] is None else values["internal"]
     motion = Motion.of(values["linear_speed"], values["angular_speed"], internal, values["twist"], values["twist_rate"])
     loads = _loads(np.zeros((1, 6)) if values["loads"] is None and weight is not None else values["loads"])
     length = float(length_of(g, c[0], length)) if isinstance(length, str) else length
     count = whole("samples", values["samples"], 1, MOST_SAMPLES)
-    study: Study | None = getattr(design, "solved", None)
     variables, look = getattr(design, "variables", None), None
     question = question_of(g, c[0], study, motion, list(loads), weight)
     question.errors = _tolerances(values["leg_errors"], values["joint_errors"])
@@ -333,6 +346,8 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         unit=getattr(study or design, "unit", "") if values["unit"] is None else unit_argument(values["unit"]),
         cone_axes=cone_axes(study),
         leg_ranges=ranges,
+        stated=stated,
+        tool=duty.tool,
     )
 
 
@@ -342,7 +357,7 @@ def _permitted(
     """Return the lengths that a study leaves each leg, None for all where nothing limits a leg."""
     low, high = np.zeros(9), np.full(9, np.inf)
     if study is not None:
-        low, high = leg_limits_of(study, float(home.position[2]))
+        low, high = leg_limits_of(study, home)
     if ranges:
         least, most = np.transpose(ranges)
         low, high = np.maximum(low, least), np.minimum(high, most)

@@ -42,6 +42,7 @@ def sheet_parts(sheet: Any) -> Iterator[Part]:
 def summary_parts(sheet: Any) -> Iterator[Part]:
     """Yield lengths, speeds and cones of the legs, and what is meant by them."""
     yield from region_words(sheet)
+    yield from _study_words(sheet)
     yield lengths_table(sheet), _motions(sheet)
     yield from _motion_words(sheet)
 
@@ -136,7 +137,7 @@ def _joints(sheet: Any) -> Table:
         (name.replace("_", " "), *(round(float(x), 9) for x in (*own, *at_neutral)))
         for name, own, at_neutral in sheet.joints()
     ]
-    title = "Joints in the frame of base or platform, and in base axes at the neutral pose"
+    title = "Joints in the frame of their plate, and in base axes at the neutral pose"
     return Table(title, columns, list(grouped(rows)))
 
 
@@ -189,12 +190,18 @@ def _forces(sheet: Any) -> Table:
     columns = [Column("leg"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(sheet.loads) + 1))]
     rows = _ranges(sheet, [list(column) for column in zip(*(leg.forces for leg in sheet.legs), strict=True)])
     notes = [load_words(k, load, sheet.unit) for k, load in enumerate(sheet.loads, start=1)]
-    if (weight := sheet.weight) is not None:
-        notes.append(
-            f"each with the weight of a mass of {weight.mass:g}, centre {vector_words(weight.centre)} in the platform, "
-            f"gravity {vector_words(weight.gravity)}"
-        )
+    if sheet.weight is not None:
+        notes.append(weight_words(sheet.weight, sheet.tool))
     return Table(f"Leg forces, least to largest {over(sheet)}, pushing positive", columns, rows, notes)
+
+
+def weight_words(weight: Any, tool: Any) -> str:
+    """Return the weight of the platform in words, its centre in the frame of the plate."""
+    x, y, z = tool.own(weight.centre).tolist()
+    return (
+        f"each with the weight of a mass of {weight.mass:g}, centre {vector_words((x, y, z))} in the frame of the "
+        f"plate, gravity {vector_words(weight.gravity)}"
+    )
 
 
 def load_words(number: int, load: Any, unit: str) -> str:
@@ -216,6 +223,15 @@ def region_words(sheet: Any) -> Iterator[str]:
                 "Placing O keeps each leg between its permitted lengths. Shortest and longest are those that the "
                 "region was found to need."
             )
+
+
+def _study_words(sheet: Any) -> Iterator[str]:
+    """Yield what the study states beside its limits: the tool, and the tables that gave options of the sheet."""
+    if sheet.tool:
+        at = amount(vector_words(sheet.tool.position), sheet.unit)
+        yield f"p, poses, speeds, loads and errors are of the tool's point, {at} in the frame of the plate."
+    if sheet.stated:
+        yield f"From the study: {', '.join(f'[{name}]' for name in sheet.stated)}."
 
 
 def over(sheet: Any) -> str:

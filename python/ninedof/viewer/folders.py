@@ -249,7 +249,7 @@ def files_of(viewer: Any, kind: str) -> dict[str, bytes]:
     if kind == LEGS:
         if player is None:
             raise ValueError("no path is open")
-        g, c, length, unit = design
+        g, c, length, unit = design[:4]
         limits = variant.leg_low, variant.leg_high
         return {"legs.csv": legs_csv(follow(g, replace(player.trajectory, unit=unit), c, rule, limits, length))}
     with TemporaryDirectory() as folder:

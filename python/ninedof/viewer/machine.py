@@ -94,6 +94,8 @@ class Machine:
         """The family of the study, else the smallest one that has this design; "" if none has."""
         if self.study is not None:
             return self.study.family
+        if self.design.tool:
+            return ""  # its variables are of the plates
         return next((name for name in FAMILIES if variables_of(name, *self.design[:2]) is not None), "")
 
     @cached_property
@@ -155,7 +157,7 @@ class Machine:
                 margins = {name: float(margin) for name, margin, _ in evaluated}
         if length is None:
             length = self._length(g, home, variables)
-        return Variant(g, home, length, *self._leg_limits(float(home.position[2])), study, lengths, margins)
+        return Variant(g, home, length, *self._leg_limits(home), study, lengths, margins)
 
     def _length(self, g: Geometry, home: Configuration, variables: Mapping[str, float]) -> float:
         if LENGTH in variables:
@@ -165,10 +167,10 @@ class Machine:
             length = self.design.characteristic_length
         return float(characteristic_length(g, home, length)) if isinstance(length, str) else float(length)
 
-    def _leg_limits(self, zp: float) -> tuple[Floats, Floats]:
+    def _leg_limits(self, home: Configuration) -> tuple[Floats, Floats]:
         low, high = np.zeros(9), np.full(9, math.inf)
         if self.study is not None:
-            low, high = leg_limits_of(self.study, zp)
+            low, high = leg_limits_of(self.study, home)
         region = None if self.result is None else self.result.region
         if region is not None and region.leg_ranges:
             least, most = np.transpose(region.leg_ranges)
@@ -201,7 +203,9 @@ def machine_of(design: Any = None) -> Machine:
     best = design.best
     if best is None:
         raise ValueError(f"{name}the result holds no design: {design.reason}")
-    return Machine(Design(best.geometry, best.configuration, best.characteristic_length, design.study.unit), design)
+    study = design.study
+    found = Design(best.geometry, best.configuration, best.characteristic_length, study.unit, study.tool)
+    return Machine(found, design)
 
 
 def machine_points(g: Geometry, c: Configuration) -> Floats:

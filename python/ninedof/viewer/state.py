@@ -229,7 +229,8 @@ class State:
     @property
     def design(self) -> Design:
         """The design shown, its neutral pose the pose shown."""
-        return Design(self.variant.geometry, self.configuration, self.variant.length, self.machine.unit)
+        machine = self.machine
+        return Design(self.variant.geometry, self.configuration, self.variant.length, machine.unit, machine.design.tool)
 
     @property
     def unmoved(self) -> bool:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof import _core
+from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, LEGS, PARTS, SPREADS
 from ninedof.design.region import Region
 from ninedof.design.region_poses import places_o
@@ -47,7 +48,7 @@ def study_question(result: Result) -> StudyQuestion:
         if built is not None:
             criteria, left = narrowed(criteria, *built), ()
     asked = {
-        "box": box_around(home),
+        "box": box_around(home, result.study.tool),
         "rotation": home.rotation,
         "criteria": criteria,
         "internal_point": rule_of_region(g, home, region),
@@ -70,14 +71,14 @@ def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[s
         if limit.at != "poses" or name not in PARTS:
             left.append(limit.label)
             continue
-        unit = float(home.position[2]) if limit.of == "zp" else 1.0
+        unit = study.zp(home) if limit.of == "zp" else 1.0
         low, high = unit * limit.low * (1.0 - EASE), unit * limit.high * (1.0 + EASE)
         if name in LEGS:
             criteria[name] = (low, high)
         elif ROWS[name].kind == "sign":
             criteria[name] = True
         else:
-            criterion = _criterion(name, low, high, limit.axis)
+            criterion = _criterion(name, low, high, limit.axis_in(study.tool))
             if criterion is None:  # a min of 0
                 continue
             criteria[name] = criterion
@@ -189,7 +190,7 @@ def own_fraction(upper: Floats, lower: Floats, point: Floats) -> float | None:
     return fraction if float(np.linalg.norm(arm - fraction * line)) <= 1e-9 * math.sqrt(square) else None
 
 
-def box_around(home: Configuration) -> tuple[Floats, Floats]:
-    """Return a box about the home position, as far to each side as that is from the base."""
-    reach = max(float(np.linalg.norm(home.position)), 1e-300)
+def box_around(home: Configuration, tool: Tool) -> tuple[Floats, Floats]:
+    """Return a box about the home position, as far to each side as the plate is from the base."""
+    reach = max(float(np.linalg.norm(tool.plate(home).position)), 1e-300)
     return home.position - reach, home.position + reach

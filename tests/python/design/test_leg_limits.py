@@ -14,6 +14,6 @@ def test_limits_of_legs_by_kind_and_unit():
             "radius_ratio": (None, 2.0),
         }
     )
-    low, high = leg_limits_of(study, zp=4.0)
+    low, high = leg_limits_of(study, nd.Configuration.neutral(4.0, 2.0))
     assert low.tolist() == [1.0] * 6 + [1.5] * 3
     assert high.tolist() == [9.0] * 3 + [8.0] * 3 + [9.0] * 3

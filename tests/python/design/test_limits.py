@@ -76,9 +76,9 @@ def test_options():
 
 def test_for_the_core():
     (cone,) = limits.parse("base_cone", {"max_deg": 45, "axis": [0, 3, 4]})
-    assert cone.for_core().axis == pytest.approx((0.0, 0.6, 0.8))
+    assert cone.for_core(nd.Tool()).axis == pytest.approx((0.0, 0.6, 0.8))
     (clearance,) = limits.parse("leg_clearance", {"radius": 1, "of": "zp"})
-    one = clearance.for_core()
+    one = clearance.for_core(nd.Tool())
     assert (one.name, one.low, one.high, one.of, one.steps, one.at) == ("leg_clearance", 2.0, INF, "zp", 4, "poses")
     assert not one.axis.any()
 

@@ -44,7 +44,7 @@ def test_every_command_and_option_has_a_line():
 
 def test_what_a_command_needs_is_required():
     needed = {(name, p.name) for name, command in COMMANDS.items() for p in command.params if p.required}
-    assert needed >= {("forces", "design"), ("forces", "load"), ("stiffness", "leg_stiffness"), ("certify", "run")}
+    assert needed >= {("forces", "design"), ("stiffness", "leg_stiffness"), ("certify", "run")}
     assert needed >= {(name, "design") for name in ("sheet", "export", "accuracy", "best", "modes", "singularity")}
 
 

@@ -19,7 +19,8 @@ def silent(_):
 
 def test_curves_pass_through_the_design_at_its_own_characteristic_length():
     best = nd.optimize(STUDY, starts=8).best
-    curves = _curves("it", best.geometry, best.configuration, best.condition_number, STUDY.characteristic_length)
+    length = STUDY.characteristic_length
+    curves = _curves(nd.Tool(), ("it", best.geometry, best.configuration, best.condition_number, length))
     zs, theta_z, kappa = curves.point
     assert kappa == best.condition_number
     assert np.interp(zs, curves.zs, curves.along_zs) == pytest.approx(kappa, rel=1e-3)
@@ -63,3 +64,13 @@ def test_no_figures_without_an_optimum(tmp_path):
         folder.mkdir()
         write_run(other, folder, figures_of(other, silent))
         assert [p.name for p in folder.iterdir()] == ["record.json"]
+
+
+def test_curves_of_a_design_with_a_tool_pass_through_it():
+    tool = nd.Tool((0.3, 0.2, -1.0), (0.1, 0.2, 0.3))
+    best = nd.optimize(nd.Study(tool=tool, characteristic_length=1.5), starts=2).best
+    curves = _curves(tool, ("it", best.geometry, best.configuration, best.condition_number, 1.5))
+    assert curves.point[0] == pytest.approx(best.variables["zs"], rel=1e-12)
+    at = [np.interp(curves.point[0], curves.zs, curves.along_zs)]
+    at.append(np.interp(curves.point[1], curves.theta_z, curves.along_theta_z))
+    assert at == pytest.approx([best.condition_number] * 2, rel=1e-3)

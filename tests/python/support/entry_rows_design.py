@@ -67,6 +67,13 @@ for name, kind in DUTIES.items():
     )
     row(f"{kind.__name__}.to_dict", kind(**DUTY[name]).to_dict)(dict)
 row("Tool.seen", nd.Tool(**DUTY["tool"]).seen)(lambda: {"point": (1.0, 2.0, 3.0)})
+ROBOT = {"geometry": it.g(), "configuration": it.c()}
+row("Tool.turned", nd.Tool(**DUTY["tool"]).turned)(lambda: {"direction": (1.0, 2.0, 3.0)})
+row("Tool.own", nd.Tool(**DUTY["tool"]).own)(lambda: {"points": np.array([1.0, 2.0, 3.0])})
+row("Tool.robot", nd.Tool(**DUTY["tool"]).robot)(ROBOT.copy)
+row("Tool.plates", nd.Tool(**DUTY["tool"]).plates)(lambda: {"geometry": it.g()})
+row("Tool.plate", nd.Tool(**DUTY["tool"]).plate)(lambda: {"configuration": it.c()})
+row("Study.zp", lambda **a: it.study().zp(**a))(lambda: {"neutral": it.c()})
 row("Masses.seen_from", nd.Masses(**DUTY["masses"]).seen_from)(lambda: {"tool": nd.Tool(**DUTY["tool"])})
 row("Study.paper", nd.Study.paper)(dict)
 row("Study.from_dict", nd.Study.from_dict, words={"data": ("study", *OF_ROBOT)})(lambda: {"data": it.study().to_dict()})
@@ -117,6 +124,7 @@ row("Region.from_dict", nd.Region.from_dict, words={"data": ("region",)})(
 REGION = nd.Region(cylinder=(0.1, 0.1))
 row("Region.to_dict", REGION.to_dict)(dict)
 row("Region.for_core", REGION.for_core)(dict)
+row("Region.size_at", nd.Region(ball=0.1, unit="zp").size_at)(lambda: {"home": it.c()})
 row("Region.worded", REGION.worded)(lambda: {"unit": "mm"})
 row("Objective", words={"region": ("box",), "poses": ("pose",)})(
     lambda: {

@@ -88,7 +88,7 @@ class Limit:
 
 
 def limits_of(study):
-    axes = (tuple(one.for_core().axis.tolist()) if one.axis else () for one in study.limits)
+    axes = (tuple(one.for_core(study.tool).axis.tolist()) if one.axis else () for one in study.limits)
     return [Limit(**vars(one) | {"axis": axis}) for one, axis in zip(study.limits, axes, strict=True)]
 
 

@@ -32,6 +32,7 @@ struct Region {
   bool shifted = true;  ///< whether s moves with p (s - p as at the neutral pose) or is held
   bool placed = false;  ///< whether s is placed anew at every pose: then shifts of s count from the neutral one
   bool in_zp = false;   ///< whether positions are in fractions of zp
+  double tool_height = 0.0;  ///< of p above the plate at home: zp is the height of p less this
 
   /// A pose has six coordinates: the shift of p (on a path only the first, from -1 to 1), the two horizontal components
   /// of the tilt vector, and the yaw. Their greatest moduli, 0 for those that are fixed:
@@ -45,6 +46,8 @@ struct Region {
   PoseSlopes slopes(const Vec6& at) const;
   /// The first coordinates of the corners of a path between which one lies.
   std::pair<double, double> straight(double first) const;
+  /// The unit of its positions: zp, or 1.
+  double unit(const Configuration& neutral) const { return in_zp ? neutral.position[2] - tool_height : 1.0; }
   /// That pose of a design.
   Configuration configuration(const Vec6& at, const Configuration& neutral) const;
 

@@ -96,12 +96,12 @@ class AxisFamily : public DesignFamily {
     using std::sin;
     const T angle = o.theta_z + by.turn;
     const T c = cos(angle), s = sin(angle);
-    const auto turned = [&](const Xyz<T>& u) { return Xyz<T>{c * u.x - s * u.y, s * u.x + c * u.y, u.z}; };
+    const auto turned = [&](const Xyz<T>& u) { return Xyz<T>{c * u.x - s * u.y, s * u.x + c * u.y, u.z - by.tool}; };
     return {o.base_external,
             o.base_internal,
             turned(o.platform_external),
             turned(o.platform_internal),
-            o.zp * (1.0 + by.p_in_zp) + by.p,
+            o.zp * (1.0 + by.p_in_zp) + by.tool + by.p,
             o.zs + o.zp * by.s_in_zp + by.s};
   }
 

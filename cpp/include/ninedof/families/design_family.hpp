@@ -29,6 +29,7 @@ struct AxisShift {
   double p = 0.0, s = 0.0;              ///< lengths
   double p_in_zp = 0.0, s_in_zp = 0.0;  ///< fractions of zp
   double turn = 0.0;                    ///< radians
+  double tool = 0.0;                    ///< height of the tool's point in the platform's frame: p is there
 };
 
 /// Logarithms of the four distinct singular values of a C3 design on the axis, and their derivatives with respect to

@@ -43,7 +43,7 @@ struct Limit {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   Unit of = Unit::length;
-  /// Of joint cones, in the body's frame; zero: the leg's direction at the neutral configuration.
+  /// Of joint cones, in the body's frame, that of geometries; zero: the leg's direction at the neutral configuration.
   Vec3 axis = Vec3::Zero();
   /// Of singularity_free: parts of the way to each pose that are tested, 1 to most_steps; none at the neutral pose.
   int steps = 4;

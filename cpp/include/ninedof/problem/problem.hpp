@@ -9,6 +9,7 @@
 #include "ninedof/families/design_family.hpp"
 #include "ninedof/limits/limits.hpp"
 #include "ninedof/problem/objective.hpp"
+#include "ninedof/robot/tool.hpp"
 
 namespace ninedof {
 
@@ -30,9 +31,11 @@ struct StudyLength {
 struct Problem {
   std::string family = "hexagonal";
   std::vector<Bounds> variables;  ///< in the family's order; lengths in the study's unit, angles in radians
-  std::vector<Limit> limits;
+  std::vector<Limit> limits;  ///< axes of cones of the platform in the frame of `geometry`
   StudyLength characteristic_length;
   Objective objective;
+  /// What poses, index and limits at poses are about; limits of the design alone, zp, and s at home are of the plates.
+  Tool tool;
 
   /// Throws InvalidArgument naming what is wrong.
   void validate() const;
@@ -53,7 +56,11 @@ std::array<bool, 21> exempt_pairs(const Problem& problem);
 /// The characteristic length of one design; `variables` is a full set, bounds are not enforced.
 double characteristic_length(const Problem& problem, const Eigen::VectorXd& variables);
 
-/// The neutral configuration and the poses of the objective, for one design.
+/// The robot of a design, its platform joints in the tool's frame. Throws InvalidArgument where the variables describe
+/// none. Numbers behind the family's are not looked at.
+Geometry geometry(const Problem& problem, const Eigen::VectorXd& variables);
+
+/// The neutral configuration and the poses of the objective, for one design, in the tool's frame.
 std::vector<Configuration> configurations(const Problem& problem, const Eigen::VectorXd& variables);
 
 }  // namespace ninedof

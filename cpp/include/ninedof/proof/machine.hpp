@@ -16,6 +16,7 @@
 #include "ninedof/proof/point_rule.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"
+#include "ninedof/robot/tool.hpp"
 
 namespace ninedof {
 
@@ -27,6 +28,7 @@ struct PosedRobot {
   std::vector<Region> region;  ///< none or one
   std::vector<Configuration> poses;
   std::vector<PointRule> rule;  ///< none or one: where s is in the region, in place of what the region says
+  Tool tool = {};  ///< whose frame the geometry has; limits of the design alone are of the plates
 };
 
 /// A number of a pose: what a limit is about, for one of its items.

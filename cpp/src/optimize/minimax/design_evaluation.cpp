@@ -175,7 +175,8 @@ double violation(const PreparedProblem& p, const DesignEvaluation& design, const
 
 double neutral_condition(const PreparedProblem& p, const DesignEvaluation& design) {
   PoseSpectrum s;
-  if (p.family->symmetric()) closed_spectrum(*p.family, design.state, p.pose_specs.front(), Machine::nine_legged, s);
+  if (on_axis(p.problem, p.pose_specs.front().pose))
+    closed_spectrum(*p.family, design.state, p.pose_specs.front(), Machine::nine_legged, s);
   else general_spectrum(design.state, 0, s);
   return std::exp(s.log_max() - s.log_min());
 }

@@ -114,7 +114,7 @@ PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpo
 std::vector<DesignState> PreparedProblem::unrelated_designs(const Coordinates& within) const {
   std::vector<DesignState> designs(probes);
   for (int k = 0; k < probes; ++k)
-    designs[at_index(k)].set(*family, within, problem.characteristic_length, {{}}, 0, within.start(7 * k + 1, 12345));
+    designs[at_index(k)].set(*family, problem, within, {{}}, 0, within.start(7 * k + 1, 12345));
   return designs;
 }
 
@@ -208,7 +208,7 @@ double PreparedProblem::violation_factor(int k) const {
 }
 
 void PreparedProblem::set_state(const Eigen::VectorXd& y, DesignState& state) const {
-  state.set(*family, coordinates, problem.characteristic_length, pose_specs, objective_poses, y);
+  state.set(*family, problem, coordinates, pose_specs, objective_poses, y);
   state.unit = problem.unit();
 }
 

@@ -70,7 +70,7 @@ PlacedState PlacedPoses::state(const Eigen::VectorXd& full, const std::vector<Pl
 std::vector<Vec9> PlacedPoses::lengths(const PlacedState& state) const {
   const Problem there = posed(state.ruling);
   const Eigen::VectorXd x = variables(state);
-  const Geometry g = design_family(there.family).geometry({x.data(), there.variables.size()});
+  const Geometry g = geometry(there, x);
   std::vector<Vec9> out;
   const std::vector<Configuration> all = configurations(there, x);
   for (std::size_t k = 1; k < all.size(); ++k) out.push_back(leg_lengths(g, all[k]));

@@ -87,6 +87,7 @@ struct Checked {
 Checked checked(const RuleTask& task, const PointRule& rule, int threads, const Control& control) {
   PosedRobot machine = task.machine;
   machine.rule = {rule};
+  machine.tool = task.problem.tool;
   const ProofSettings how{.threads = threads, .seconds = proof_seconds, .gap = wide_gap};
   const LimitsOverPoses limits =
       limits_over_poses(machine, task.problem.limits, exempt_pairs(task.problem), 0.0, how, control);
@@ -103,7 +104,7 @@ Checked checked(const RuleTask& task, const PointRule& rule, int threads, const 
   if (task.problem.objective.index == Index::condition_number)
     out.index = std::log(condition.extreme.low) - task.goal.log_index;
   const Region& region = machine.region.front();
-  const double unit = region.in_zp ? machine.neutral.position.z() : 1.0;
+  const double unit = region.unit(machine.neutral);
   for (const MetAt& met : limits.met) out.poses.push_back(region_coordinates(region, unit, met));
   if (condition.extreme.at.pose < 0) out.poses.push_back(region_coordinates(region, unit, condition.extreme.at));
   return out;

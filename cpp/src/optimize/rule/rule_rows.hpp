@@ -19,7 +19,7 @@ class RuleRows {
   RuleRows(const RuleTask& task, int threads, const Control& control);
   /// Without a place of O, which a rule has.
   const Region& region() const { return region_; }
-  double zp() const { return task_.machine.neutral.position.z(); }
+  double zp() const { return task_.machine.neutral.position.z() - task_.problem.tool.position.z(); }
 
   /// The nearest poses of the region with O where it is best.
   std::vector<Placed> best(const std::vector<Vec6>& at) const;

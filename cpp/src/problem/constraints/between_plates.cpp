@@ -25,10 +25,14 @@ class BetweenPlates : public Constraint {
   int items(Side) const override { return 2 * static_cast<int>(poses_.size()); }
   int pose(const DesignState& v, int item) const override { return v.first_pose + poses_[at_index(item / 2)]; }
   static Vec3 below(const PoseState& at) { return at.at[point_p] - at.at[point_s]; }
+  /// Of O below the platform: the tool's point is tool.position.z above its plane.
+  static double below_plate(const DesignState& v, const PoseState& at) {
+    return below(at).dot(at.plate.col(2)) - v.tool.position.z();
+  }
 
   double value(const DesignState& v, Side, int item) const override {
     const PoseState& at = v.pose(pose(v, item));
-    const double height = item % 2 == 0 ? at.at[point_s].z() : below(at).dot(at.rotation.col(2));
+    const double height = item % 2 == 0 ? at.at[point_s].z() : below_plate(v, at);
     return height / v.blueprint.zp;
   }
   void add_value_gradient(const DesignState& v, Side side, int item, double scale, Row out) const override {
@@ -38,7 +42,7 @@ class BetweenPlates : public Constraint {
     v.add_zp(-size * value(v, side, item), out);
     if (item % 2 == 0) return v.add_point(k, point_s, Vec3(0.0, 0.0, size), out);
     // The axis of the platform turns with theta_z.
-    const Vec3 axis = at.rotation.col(2);
+    const Vec3 axis = at.plate.col(2);
     v.add_point(k, point_p, size * axis, out);
     v.add_point(k, point_s, -size * axis, out);
     v.add_turn(k, size * axis.cross(below(at)), out);

@@ -35,7 +35,7 @@ class LengthJoint : public Constraint {
     const int joint = joints_[at_index(item)];
     const double here = v.joint_distance(joint), longest = v.characteristic_length;
     if (!(longest > 0.0)) return;
-    if (here > 0.0) v.add_joint(joint, -v.blueprint.joint[at_index(joint)] / (here * longest), out);
+    if (here > 0.0) v.add_joint(joint, -v.joint_arm(joint) / (here * longest), out);
     v.add_length(here / (longest * longest), out);
   }
 

@@ -28,8 +28,14 @@ class Statements {
         tolerance_(tolerance),
         control_(control),
         questions_(machine, settings, control) {
+    // In the frames of the plates, which limits of the design alone are about.
     const Points at = points(machine.geometry, {Vec3::Zero(), Mat3::Identity(), Vec3::Zero()});
     std::copy_n(at.begin(), joints_.size(), joints_.begin());
+    const Mat3 axes = machine.tool.axes();
+    for (std::size_t k = point_u; k < joints_.size(); ++k) {
+      exact_[k - point_u] = own_point(axes, joints_[k]);
+      joints_[k] = axes * joints_[k] + machine.tool.position;
+    }
   }
 
   LimitsOverPoses prove(const std::vector<Limit>& limits) {
@@ -94,7 +100,7 @@ class Statements {
     for (const Side side : {Side::low, Side::high}) {
       const double given = side == Side::low ? limit.low : limit.high;
       if (!(given > 0.0) || !std::isfinite(given)) continue;
-      const double bound = limit.of == Unit::zp ? given * machine_.neutral.position.z() : given;
+      const double bound = limit.of == Unit::zp ? given * zp() : given;
       const bool at_neutral = limit.at == LimitAt::neutral;
       if (row.pose != nullptr) add_pose_limit(limit.label(), row, side, bound, limit.axis, at_neutral);
       else if (row.design != nullptr) add_design_limit(limit, row, side);
@@ -123,15 +129,25 @@ class Statements {
   Touched<Interval> touched(std::pair<int, int> joints) const {
     const auto exact = [&](int joint) {
       const Vec3& x = joints_[at_index(joint)];
-      return Xyz<Interval>{x.x(), x.y(), x.z()};
+      return joint < point_u ? Xyz<Interval>{x.x(), x.y(), x.z()} : exact_[at_index(joint - point_u)];
     };
-    return {exact(joints.first), exact(joints.second), machine_.neutral.position.z(),
-            machine_.neutral.internal_point.z()};
+    return {exact(joints.first), exact(joints.second), exact_zp(), machine_.neutral.internal_point.z()};
   }
+  /// A point of the tool's frame in that of the platform.
+  Xyz<Interval> own_point(const Mat3& axes, const Vec3& x) const {
+    const auto along = [&](Eigen::Index k) {
+      const double t = machine_.tool.position[k];
+      if (!machine_.tool.turned()) return plus_exact(x[k], t);
+      return Interval(axes(k, 0)) * x.x() + Interval(axes(k, 1)) * x.y() + Interval(axes(k, 2)) * x.z() + t;
+    };
+    return {along(0), along(1), along(2)};
+  }
+  static Interval plus_exact(double x, double t) { return t == 0.0 ? Interval(x) : Interval(x) + t; }
+  Interval exact_zp() const { return plus_exact(machine_.neutral.position.z(), -machine_.tool.position.z()); }
+  double zp() const { return machine_.neutral.position.z() - machine_.tool.position.z(); }
   void add_design_limit(const Limit& limit, const LimitRow& row, Side side) {
     const double given = side == Side::low ? limit.low : limit.high;
-    // Which joint is farthest from z was decided in doubles.
-    const Interval nearly(1.0 - 0x1p-49, 1.0 + 0x1p-49);
+    const Interval nearly = widest_share();
     Interval value = side == Side::high ? Interval(-infinity) : Interval(infinity), unit(1.0);
     for (int item = 0; item < row.design->items(side); ++item) {
       Interval here = row.design->enclosure(touched(row.design->joints(joints_, side, item)), item);
@@ -145,11 +161,17 @@ class Statements {
     const double bound = whole && limit.of != Unit::length ? given * (side == Side::high ? unit.lo : unit.hi) : given;
     put(limit.label(), row, side, bound, false).value = value;
   }
+  /// Which joint is farthest from z was decided in doubles.
+  Interval widest_share() const {
+    const double arm = machine_.tool.position.norm();
+    const double far = arm == 0.0 ? 0.0 : arm / joints_[at_index(widest_joint(joints_, point_u))].head<2>().norm();
+    return {1.0 - 0x1p-49 * (1.0 + far), 1.0 + 0x1p-49 * (1.0 + far)};
+  }
   Interval unit_of(Unit of, int body) const {
-    if (of == Unit::zp) return machine_.neutral.position.z();
+    if (of == Unit::zp) return exact_zp();
     if (of == Unit::length) return 1.0;
     const Xyz<Interval> widest = touched({widest_joint(joints_, body), 0}).a;
-    return sqrt(square(widest.x) + square(widest.y)) * Interval(1.0 - 0x1p-49, 1.0 + 0x1p-49);
+    return sqrt(square(widest.x) + square(widest.y)) * widest_share();
   }
 
   void answer() {
@@ -219,6 +241,7 @@ class Statements {
   double tolerance_;
   const Control& control_;
   std::array<Vec3, 12> joints_;
+  std::array<Xyz<Interval>, 6> exact_;  ///< those of the platform
   Questions questions_;
   std::vector<Group> groups_;
   std::vector<Stroke> strokes_;

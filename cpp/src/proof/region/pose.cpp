@@ -77,7 +77,7 @@ PoseOf<T> Domain::pose(const Box& box) const {
     const Xyz<T> from = constant<T>(region.corners[k]), to = constant<T>(region.corners[k + 1]);
     moved = from + x[0] * (to - from);
   }
-  if (region.in_zp) moved = neutral.position.z() * moved;
+  if (region.in_zp) moved = region.unit(neutral) * moved;
   PoseOf<T> out = pose_of<T>(neutral);
   out.p = out.p + moved;
   if (!rule_.empty()) out.s = out.s + rule_.front().shift<T>({moved.x, moved.y, moved.z, x[3], x[4], x[5]});

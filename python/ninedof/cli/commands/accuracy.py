@@ -12,6 +12,7 @@ import typer
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import JOINT_ERROR, LEG_ERROR
 from ninedof.cli.posed import DesignAtPoses, PosesOptions, at_worst
+from ninedof.design.duty import Tolerances
 from ninedof.statics.accuracy import MOST_SAMPLES, ErrorBounds, error_bounds, error_samples
 from ninedof.support.arguments import finite, whole
 from ninedof.support.units import amount
@@ -33,8 +34,8 @@ GROUPS = ("turn about", "p along", "O along")  # in the order of the components
 class AccuracyOptions(PosesOptions):
     """The options."""
 
-    leg_error: Annotated[float, LEG_ERROR] = 0.0
-    joint_error: Annotated[float, JOINT_ERROR] = 0.0
+    leg_error: Annotated[float | None, LEG_ERROR] = None
+    joint_error: Annotated[float | None, JOINT_ERROR] = None
     samples: Annotated[
         int | None, typer.Option(help="Random robots within the tolerances, without linearization, at one pose.")
     ] = None
@@ -42,24 +43,28 @@ class AccuracyOptions(PosesOptions):
 
 def accuracy(options: AccuracyOptions) -> Answer:
     """Print the errors of platform and O for tolerances of legs and joints, worst case and standard deviation."""
-    errors = {"leg_error": options.leg_error, "joint_error": options.joint_error}
-    for name, value in errors.items():
-        finite(f"--{name.replace('_', '-')}", value, 0.0)
-    if not any(errors.values()):
-        raise ValueError("accuracy: got neither --leg-error nor --joint-error, expected a tolerance")
+    given = {"leg_error": options.leg_error, "joint_error": options.joint_error}
+    for name, value in given.items():
+        if value is not None:
+            finite(f"--{name.replace('_', '-')}", value, 0.0)
     if options.samples is not None:
         whole("--samples", options.samples, 1, MOST_SAMPLES)
         if options.all_poses:
             raise ValueError("--samples: got it with --all-poses, expected one pose")
     at = DesignAtPoses.at(options)
-    g, unit = at.chosen.geometry, at.chosen.unit
-    tolerances = (options.leg_error, options.joint_error)
-    bounds = error_bounds(g, at.c, *tolerances)
+    g, unit, duty = at.chosen.geometry, at.chosen.unit, at.chosen.duty.tolerances
+    stated = {"leg_error": duty.legs, "joint_error": duty.joints}
+    errors = {name: stated[name] if value is None else value for name, value in given.items()}
+    if not any(errors.values()):
+        raise ValueError("accuracy: got neither --leg-error nor --joint-error, expected a tolerance")
+    bounds = error_bounds(g, at.c, errors["leg_error"], errors["joint_error"])
     rows = list(_rows(bounds, unit))
     columns = [Column(), Column("largest", "", RIGHT), Column("standard deviation", "", RIGHT), Column("pose", "", "d")]
     if len(at.c) == 1:
         columns, rows = columns[:3], [row[:3] for row in rows]
-    parts: list[Any] = [Table("Errors of first order", columns, rows)]
+    sizes = (f"{name.split('_')[0]}s {amount(f'{value:g}', unit)}" for name, value in errors.items())
+    source = " of the study" * (None in given.values() and bool(duty != Tolerances()))
+    parts: list[Any] = [f"tolerances{source}: {', '.join(sizes)}", Table("Errors of first order", columns, rows)]
     data: dict[str, Any] = errors | {
         "position": bounds.position,
         "rotation_deg": np.degrees(bounds.rotation),
@@ -68,7 +73,7 @@ def accuracy(options: AccuracyOptions) -> Answer:
     }
     if options.samples is not None:
         data["samples"] = _quantiles(
-            error_samples(g, at.c[0], options.leg_error, options.joint_error, options.samples), unit
+            error_samples(g, at.c[0], errors["leg_error"], errors["joint_error"], options.samples), unit
         )
         parts += data["samples"]["words"]
     return at.answer(parts, data, (row[3] for row in rows if len(row) > 3))

@@ -65,8 +65,7 @@ def evaluate(options: EvaluateOptions) -> Answer:
     parts: list[Any] = [_table(values, chosen)]
     if values["singular"]:
         parts.append("This configuration is singular: the platform or O can move with all legs locked.")
-    p, o = chosen.configuration.position[2], chosen.configuration.internal_point[2]
-    if not 0.0 < o < p:
+    if not 0.0 < chosen.configuration.internal_point[2] < chosen.duty.zp(chosen.configuration):
         parts.append("O is not between base and platform: studies require 0 < zs < zp.")
     if chosen.result is not None:
         of_run = sheet(chosen.result, characteristic_length=chosen.characteristic_length)

@@ -22,6 +22,7 @@ from ninedof.records.folder import run_folder
 from ninedof.records.motion import plain, write_motion
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
+from ninedof.sheet.duty import weight_of
 from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.request import Weight
 from ninedof.support.store import Store
@@ -74,9 +75,11 @@ class PathOptions(JobOptions):
     legs: LegLimits = None
     force: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Force on the platform at its origin.")] = None
     moment: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Moment on the platform.")] = None
-    mass: Annotated[float | None, typer.Option(help="Mass of the platform: its weight is added to the load.")] = None
+    mass: Annotated[
+        float | None, typer.Option(help="Mass of the platform: its weight is added to the load; of the study.")
+    ] = None
     centre: Annotated[
-        Three | None, typer.Option(metavar="X Y Z", help="Its centre in the platform frame; the origin by default.")
+        Three | None, typer.Option(metavar="X Y Z", help="Its centre in the frame of the plate; of the study.")
     ] = None
     gravity: Annotated[
         Three | None, typer.Option(metavar="X Y Z", help="Force per mass, base axes; 0 0 -9.81 by default.")
@@ -102,7 +105,7 @@ def path(options: PathOptions) -> None:
     trajectory = _trajectory(chosen, options)
     limits: Any = chosen.leg_limits() if options.legs is None else options.legs
     how: dict[str, Any] = {"internal_point": _rule(options.internal_point, study), "limits": limits}
-    weight = Weight.of(options.mass, options.centre, options.gravity)
+    weight = weight_of(chosen.duty, options.mass, options.centre, options.gravity)
     question = {
         "geometry": triples(g),
         "home": arrays_of(home),

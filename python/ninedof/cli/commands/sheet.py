@@ -38,8 +38,12 @@ class SheetOptions(Options):
     """The options."""
 
     design: Design
-    speed: Annotated[float, typer.Option(help="Platform speed for the leg speeds, length/time.")] = 1.0
-    turn_deg: Annotated[float, typer.Option(help="Angular speed beside it, degrees/time.")] = 0.0
+    speed: Annotated[
+        float | None, typer.Option(help="Platform speed for the leg speeds, length/time; of the study, or 1.")
+    ] = None
+    turn_deg: Annotated[
+        float | None, typer.Option(help="Angular speed beside it, degrees/time; of the study, or 0.")
+    ] = None
     internal: Annotated[
         str | None, typer.Option(help="How O moves: least, held, shifted or carried; as in the poses by default.")
     ] = None
@@ -49,12 +53,15 @@ class SheetOptions(Options):
     ] = None
     twist_rate: Annotated[str | None, typer.Option(help="Its time derivative, 0 by default.")] = None
     load: Annotated[list[str] | None, LOAD] = None
-    mass: Annotated[float | None, typer.Option(help="Mass of the platform: its weight is added to each load.")] = None
+    mass: Annotated[
+        float | None, typer.Option(help="Mass of the platform: its weight is added to each load; of the study.")
+    ] = None
     centre: Annotated[
-        str | None, typer.Option(help='Its centre "x y z" in the platform frame; the origin by default.')
+        str | None, typer.Option(help='Its centre "x y z" in the frame of the plate; of the study, or its origin.')
     ] = None
     gravity: Annotated[
-        str | None, typer.Option(help='Force per mass "x y z", base axes; "0 0 -9.81" by default: newtons for kg.')
+        str | None,
+        typer.Option(help='Force per mass "x y z", base axes; of the study, or "0 0 -9.81": newtons for kg.'),
     ] = None
     leg_error: Annotated[float | None, LEG_ERROR] = None
     joint_error: Annotated[float | None, JOINT_ERROR] = None
@@ -73,10 +80,11 @@ def sheet(options: SheetOptions) -> None:
         for name, expected in VECTORS.items()
         if (text := getattr(options, name)) is not None
     }
+    turn = options.turn_deg
     result = sheet_of(
         chosen.result or chosen.design,
         linear_speed=options.speed,
-        angular_speed=math.radians(finite("--turn-deg", options.turn_deg, 0.0)),
+        angular_speed=None if turn is None else math.radians(finite("--turn-deg", turn, 0.0)),
         internal=options.internal,
         loads=[load_option(text) for text in options.load] if options.load else None,
         mass=options.mass,
