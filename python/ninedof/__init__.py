@@ -79,6 +79,7 @@ from ninedof.report.report import report
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.path_limits import PathLimits, path_limits
+from ninedof.sheet.payload import Payload, largest_payload
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.singularity import (
     Mechanism,
@@ -155,6 +156,7 @@ __all__ = [
     "Objective",
     "OptimumProof",
     "PathLimits",
+    "Payload",
     "Pose",
     "PositionStatus",
     "Region",
@@ -212,6 +214,7 @@ __all__ = [
     "jacobian",
     "jacobian_bounds",
     "jacobian_rate",
+    "largest_payload",
     "leg_forces",
     "leg_length_bounds",
     "leg_lengths",

@@ -121,8 +121,8 @@ def test_every_limit_of_a_run(run, tmp_path):
     assert "°" in out
 
 
-def test_the_weight_of_a_path_is_that_of_a_force(run):
-    line = "path --circle 0.3 --points 21 --no-figures --json"
+def test_the_weight_of_a_slow_path_is_that_of_a_force(run):
+    line = "path --circle 0.3 --points 21 --duration 1e8 --no-figures --json"
     heavy = json.loads(run(f"{line} --mass 2 --gravity 0 0 -10 --moment 0 1 0")[1])["motion"]["legs"]
     forced = json.loads(run(f"{line} --force 0 0 -20 --moment 0 1 0")[1])["motion"]["legs"]
     assert all(heavy[leg]["push"] == pytest.approx(forced[leg]["push"], abs=1e-12) for leg in forced)

@@ -339,7 +339,18 @@ row("sheet", few=3, huge=("samples",))(
         "unit": "mm",
     }
 )
-for name in ("joints", "summary", "to_csv", "to_dict"):
+row("largest_payload", few=3, huge=("samples",))(
+    lambda: {
+        "design": it.design(),
+        "force": 100.0,
+        "pull": 50.0,
+        "centre": (0.0, 0.0, 0.1),
+        "loads": [0.0, 0.0, 0.0, 0.0, 0.0, -1.0],
+        "samples": 10,
+    }
+)
+row("Payload.to_dict", lambda: nd.largest_payload(it.design(), 100.0).to_dict())(dict)
+for name in ("joints", "forces", "summary", "to_csv", "to_dict"):
     row(f"Sheet.{name}", lambda name=name: getattr(it.result().sheet(it.stack()), name)())(dict)
 row("sweep", few=20, dear=("out",), huge=("over",), words={"over": ("x_p",)})(
     lambda: {
