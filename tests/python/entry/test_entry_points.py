@@ -55,7 +55,7 @@ RESULTS = {
         "Ellipsoid",
     ),
     *("ErrorBounds", "Followed", "Front", "InternalPoint", "InternalPointMap", "InverseDynamics"),
-    *("LegForces", "LimitBreak", "LimitProof", "Payload"),
+    *("LegForces", "LimitBreak", "LimitProof"),
     *("LowerBound", "MachineCertificate", "MapAudit", "NearestSingularity", "OptimumProof", "PathLimits", "Result"),
     *("Sheet", "Singularity", "SingularityDistance", "SingularityMargins", "SweepResult", "Trace", "Tracked"),
     *("VelocityMatrices", "WorkspaceCells", "WorkspaceMap", "WorkspaceSlice"),
