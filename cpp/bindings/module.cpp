@@ -24,6 +24,7 @@ PYBIND11_MODULE(ninedof_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_conditioning(m);
   ninedof::python::bind_singularity(m);
   ninedof::python::bind_statics(m);
+  ninedof::python::bind_dynamics(m);
   ninedof::python::bind_accuracy(m);
   ninedof::python::bind_ellipsoid(m);
   ninedof::python::bind_problem(m);

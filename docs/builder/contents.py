@@ -9,7 +9,8 @@ def _listed(names: str, folder: str = "") -> list[str]:
     return [folder + name for name in names.split()]
 
 
-THEORY = "velocity conditioning closed-form position singularity statics redundancy kernels design minimax limits proof"
+CORE = "velocity conditioning closed-form position singularity statics dynamics redundancy"
+THEORY = f"{CORE} kernels design minimax limits proof"
 # Page: groups of (heading, pages). A pattern stands for all pages it matches, in the order of their names.
 TREE = {
     "index": [

@@ -82,6 +82,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.sheet.failure.failure import failure
 from ninedof.sheet.failure.result import Failure
 from ninedof.sheet.path_limits import PathLimits, path_limits
+from ninedof.sheet.payload import Payload, largest_payload
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.singularity import (
     Mechanism,
@@ -98,6 +99,7 @@ from ninedof.singularity.singularity_distance import (
     nearest_singularity,
 )
 from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_map, error_samples
+from ninedof.statics.dynamics import InverseDynamics, inverse_dynamics
 from ninedof.statics.statics import (
     Ellipsoid,
     LegForces,
@@ -144,6 +146,7 @@ __all__ = [
     "InternalPoint",
     "InternalPointMap",
     "InternalPointStatus",
+    "InverseDynamics",
     "LegForces",
     "LimitBreak",
     "LimitProof",
@@ -157,6 +160,7 @@ __all__ = [
     "Objective",
     "OptimumProof",
     "PathLimits",
+    "Payload",
     "Pose",
     "PositionStatus",
     "Region",
@@ -210,11 +214,13 @@ __all__ = [
     "hexagonal_condition_number_bounds",
     "internal_velocity",
     "inverse_acceleration",
+    "inverse_dynamics",
     "inverse_velocity",
     "isotropy_residual",
     "jacobian",
     "jacobian_bounds",
     "jacobian_rate",
+    "largest_payload",
     "leg_forces",
     "leg_length_bounds",
     "leg_lengths",

@@ -137,8 +137,8 @@ def best_internal_map(
     /,
 ) -> InternalPointMap: ...
 
-# The fields of `Followed` that are computed; "singularity_margins" (3, n), "leg_forces" (0, 9) without loads, "tracked"
-# the number of poses. The trajectory is `time`, `position` and `rotation`.
+# The fields of `Followed` that are computed; "singularity_margins" (3, n), "leg_forces" (0, 9) without a load and
+# masses, "tracked" the number of poses. The trajectory is `time`, `position` and `rotation`.
 def follow(
     g: Geometry,
     home: _Poses,
@@ -149,8 +149,13 @@ def follow(
     limits: tuple[_Floats, _Floats],
     characteristic_length: float,
     loads: _Floats,
+    masses: Masses | None,
+    gravity: _Floats,
     /,
 ) -> dict[str, Any]: ...
+
+# Each (9,); times (n,), forces and rates (n, 9).
+def drive_figures(time: _Floats, forces: _Floats, rates: _Floats, /) -> dict[str, _Floats]: ...
 def leg_margins(leg_lengths: _Floats, low: _Floats, high: _Floats, /) -> _Floats: ...
 def stretches(
     limit: str, time: _Floats, values: _Floats, margin: _Floats, tolerance: float, /
@@ -221,6 +226,24 @@ def leg_forces(g: Geometry, c: _Poses, load: _Floats, threads: int, /) -> _Float
 def self_stress(g: Geometry, c: _Poses, /) -> _Floats: ...
 def stiffness(g: Geometry, c: _Poses, legs: _Floats, threads: int, /) -> _Floats: ...
 def stiffness_with_o(g: Geometry, c: _Poses, legs: _Floats, threads: int, /) -> _Floats: ...
+
+class Masses:
+    platform: float
+    centre: Sequence[float] | _Floats
+    inertia: _Floats
+    cylinder: _Floats
+    rod: _Floats
+    cylinder_centre: _Floats
+    rod_centre: _Floats
+    cylinder_inertia: _Floats
+    rod_inertia: _Floats
+    internal_point: float
+    def __init__(self, **attributes: Any) -> None: ...
+
+# Rows of 27: velocity, acceleration, load; forces, rates and what is unbalanced.
+def inverse_dynamics(
+    g: Geometry, c: _Poses, motion: _Floats, masses: Masses, gravity: _Floats, threads: int, /
+) -> _Floats: ...
 
 # Tolerances are (n, 21): legs, joints. (n, 81); (n, 93): nine components, three distances, covariance; (count, 9)
 def error_map(g: Geometry, c: _Poses, threads: int, /) -> _Floats: ...
@@ -708,12 +731,22 @@ class Tolerances:
     joints: Sequence[float] | _Floats
     def __init__(self, **attributes: Any) -> None: ...
 
+class PayloadLimits:
+    push: _Floats
+    pull: _Floats
+    centre: Sequence[float] | _Floats
+    gravity: Sequence[float] | _Floats
+    def __init__(self, **attributes: Any) -> None: ...
+
 class SheetQuestion:
     limits: Sequence[tuple[str, _Floats]]
     exempt: Sequence[bool]
     motion: PlatformMotion | None
     loads: Any
     weight: Weight | None
+    masses: Masses | None
+    gravity: Sequence[float] | _Floats
+    payload: PayloadLimits | None
     errors: Tolerances | None
     leg_stiffness: _Floats | None
     characteristic_length: float | None

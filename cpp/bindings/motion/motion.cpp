@@ -1,7 +1,9 @@
 #include "support/motion.hpp"
 
+#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include "ninedof/dynamics/drives.hpp"
 #include "ninedof/motion/follow.hpp"
 #include "support/module.hpp"
 #include "support/poses.hpp"
@@ -58,10 +60,11 @@ py::list tuples_of(const std::vector<LimitBreak>& breaks) {
 /// Loads: moment and force for each pose, shape (n, 6); no rows for none.
 py::dict followed(const Geometry& g, const Configuration& home, const Array& time, const Array& position,
                   const Array& rotation, const py::object& rule, const std::pair<Array, Array>& limits,
-                  double characteristic_length, const Array& loads) {
+                  double characteristic_length, const Array& loads, const std::optional<Masses>& masses,
+                  const Vec3& gravity) {
   const Trajectory trajectory{{time.data(), time.data() + time.size()}, poses_from(position, rotation)};
   FollowSettings settings{
-      trajectory_rule_from(rule), limits_from(limits.first, limits.second), characteristic_length, {}};
+      trajectory_rule_from(rule), limits_from(limits.first, limits.second), characteristic_length, {}, masses, gravity};
   for (const double* row = loads.data(); row != loads.data() + loads.size(); row += 6)
     settings.loads.push_back({Eigen::Map<const Vec3>(row), Eigen::Map<const Vec3>(row + 3)});
   const Followed found =
@@ -85,6 +88,15 @@ py::dict followed(const Geometry& g, const Configuration& home, const Array& tim
 
 void bind_motion(py::module_& m) {
   m.def("follow", &followed);
+  m.def("drive_figures", [](const Array& time, const Array& forces, const Array& rates) {
+    const DriveFigures f = drive_figures(span_of(time), lengths_from(forces), lengths_from(rates));
+    py::dict out;
+    for (const auto& [name, values] : {std::pair("push", &f.push), std::pair("pull", &f.pull), std::pair("rms", &f.rms),
+                                       std::pair("power", &f.power), std::pair("braking", &f.braking),
+                                       std::pair("work", &f.work), std::pair("returned", &f.returned)})
+      out[name] = array_from(*values);
+    return out;
+  });
   m.def("leg_margins", [](const Array& lengths, const Array& low, const Array& high) {
     const LegLimits limits = limits_from(low, high);
     std::vector<Vec9> out;

@@ -55,12 +55,17 @@ void bind_question(py::module_& m) {
       .def_readwrite("mass", &Weight::mass)
       .def_readwrite("centre", &Weight::centre, "Of mass, platform frame.")
       .def_readwrite("gravity", &Weight::gravity, "Force per mass, base axes.");
+  request<PayloadLimits>(m, "PayloadLimits", "Greatest forces of the legs, and where a payload is.")
+      .def_readwrite("push", &PayloadLimits::push, "Shape (9,).")
+      .def_readwrite("pull", &PayloadLimits::pull, "Shape (9,).")
+      .def_readwrite("centre", &PayloadLimits::centre, "Platform frame.")
+      .def_readwrite("gravity", &PayloadLimits::gravity, "Force per mass, base axes.");
   request<Tolerances>(m, "Tolerances", "The largest errors of legs and joints.")
       .def_readwrite("legs", &Tolerances::legs, "Shape (9,).")
       .def_readwrite("joints", &Tolerances::joints, "Twelve.");
   py::class_<SheetQuestion>(m, "SheetQuestion", "A machine, and what its sheet is asked for.")
       .def(py::init([](const Geometry& g, const Configuration& neutral, const py::kwargs& given) {
-        return with_keywords(SheetQuestion{g, neutral, {}, {}, {}, {}, {}, {}, {}, {}, {}}, given);
+        return with_keywords(SheetQuestion{.geometry = g, .neutral = neutral}, given);
       }))
       .def_readwrite("limits", &SheetQuestion::limits, "Names of limits at poses, with the axes of cones.")
       .def_readwrite("exempt", &SheetQuestion::exempt, "The pairs of legs that may meet.")
@@ -73,6 +78,9 @@ void bind_question(py::module_& m) {
           },
           "Rows (moment about p, force), base axes; their number is read.")
       .def_readwrite("weight", &SheetQuestion::weight, "Added to each load, or None.")
+      .def_readwrite("masses", &SheetQuestion::masses, "Their weights are added too, or None.")
+      .def_readwrite("gravity", &SheetQuestion::gravity, "Of the masses.")
+      .def_readwrite("payload", &SheetQuestion::payload, "Limits of its forces, or None.")
       .def_readwrite("errors", &SheetQuestion::errors, "Tolerances, or None.")
       .def_readwrite("leg_stiffness", &SheetQuestion::leg_stiffness, "Shape (9,), or None.")
       .def_readwrite("characteristic_length", &SheetQuestion::characteristic_length, "None: no condition number.")

@@ -23,6 +23,7 @@ void bind_acceleration(py::module_& m);
 void bind_conditioning(py::module_& m);
 void bind_singularity(py::module_& m);
 void bind_statics(py::module_& m);
+void bind_dynamics(py::module_& m);
 void bind_accuracy(py::module_& m);
 void bind_ellipsoid(py::module_& m);
 void bind_problem(py::module_& m);

@@ -22,6 +22,7 @@ void require_settings(const FollowSettings& settings, std::size_t poses) {
       throw InvalidArgument("limits", format_number(limits.low[leg]) + " to " + format_number(limits.high[leg]),
                             "0 <= low <= high");
   require_length("characteristic_length", settings.characteristic_length);
+  if (settings.masses) validate(*settings.masses);
   if (!settings.loads.empty() && settings.loads.size() != poses)
     throw InvalidArgument("loads", std::to_string(settings.loads.size()), "none or " + std::to_string(poses));
 }
@@ -33,7 +34,9 @@ void fill(const Geometry& g, std::span<const Configuration> path, const FollowSe
   for (auto* legs : {&out.leg_lengths, &out.leg_rates, &out.leg_accelerations}) legs->resize(n);
   out.condition_number.resize(n);
   out.singularity_margins.resize(n);
-  out.leg_forces.resize(settings.loads.size());
+  const bool loaded = !settings.loads.empty();
+  const Masses masses = settings.masses.value_or(Masses{});
+  out.leg_forces.resize(loaded || settings.masses ? n : 0);
   parallel_for(static_cast<long>(n), poses_a_task, settings.threads, [&](long first, long last) {
     if (control.stop.stop_requested()) throw Stopped{};
     for (std::size_t k = at_index(first); k < at_index(last); ++k) {
@@ -44,7 +47,10 @@ void fill(const Geometry& g, std::span<const Configuration> path, const FollowSe
       out.leg_accelerations[k] = inverse_acceleration(g, c, v, out.derivatives.acceleration[k]);
       out.condition_number[k] = condition_number(g, c, settings.characteristic_length);
       out.singularity_margins[k] = singularity_margins(g, c);
-      if (!settings.loads.empty()) out.leg_forces[k] = leg_forces(g, c, settings.loads[k]).forces;
+      if (out.leg_forces.empty()) continue;
+      const MotionState state{c, v, out.derivatives.acceleration[k]};
+      const Load load = loaded ? settings.loads[k] : Load{};
+      out.leg_forces[k] = inverse_dynamics(g, state, masses, settings.gravity, load).forces;
     }
   });
 }

@@ -37,11 +37,22 @@ SheetNumbers::SheetNumbers(const SheetQuestion& question) : question_(question) 
     groups_.push_back({"twist_acceleration", 9, both});
   }
   if (!question_.loads.empty()) groups_.push_back({"force", static_cast<int>(9 * question_.loads.size()), both});
+  if (question_.motion && !question_.loads.empty()) groups_.push_back({"power", 9, greatest});
+  if (question_.payload)
+    groups_.push_back({"payload", static_cast<int>(18 * std::max<std::size_t>(question_.loads.size(), 1)), greatest});
   if (question_.errors) groups_.push_back({"error", 3, greatest});
   if (question_.leg_stiffness) groups_.push_back({"stiffness", 2, least});
   if (question_.characteristic_length) groups_.push_back({"condition_number", 1, greatest});
   first_locked_ = groups_.size();
   if (question_.characteristic_length) groups_.insert(groups_.end(), question_.locked.size(), {"locked", 1, greatest});
+}
+
+std::vector<Load> SheetNumbers::loads_at(const Configuration& c) const {
+  Load own = question_.weight ? question_.weight->at(c.rotation) : Load{};
+  if (question_.masses) own = own + inertial_load(question_.geometry, {c}, *question_.masses, question_.gravity);
+  std::vector<Load> out = question_.loads.empty() ? std::vector<Load>(1) : question_.loads;
+  for (Load& load : out) load = load + own;
+  return out;
 }
 
 void SheetNumbers::evaluate(std::size_t group, const Configuration& c, double* out) const {
@@ -60,10 +71,18 @@ void SheetNumbers::evaluate(std::size_t group, const Configuration& c, double* o
   } else if (name == "twist_acceleration") {
     nine(leg_accelerations(g, c, q.motion->internal, *q.motion->given));
   } else if (name == "force") {
-    const Load own = q.weight ? q.weight->at(c.rotation) : Load{};
-    for (const Load& load : q.loads) {
-      nine(leg_forces(g, c, {load.moment + own.moment, load.force + own.force, load.force_at_o}).forces);
+    for (const Load& load : loads_at(c)) {
+      nine(leg_forces(g, c, load).forces);
       out += 9;
+    }
+  } else if (name == "power") {
+    Vec9 most = Vec9::Zero();
+    for (const Load& load : loads_at(c)) most = most.cwiseMax(leg_forces(g, c, load).forces.cwiseAbs());
+    nine(most.cwiseProduct(largest_leg_rates(g, c, *q.motion)));
+  } else if (name == "payload") {
+    for (const Load& load : loads_at(c)) {
+      Eigen::Map<Vec18>{out} = payload_shares(g, c, *q.payload, load);
+      out += 18;
     }
   } else if (name == "error") {
     const ErrorBounds bounds = error_bounds(g, c, *q.errors);

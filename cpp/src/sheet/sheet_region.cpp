@@ -140,7 +140,7 @@ SheetRegion sheet_over_region(const SheetQuestion& question, const Region& regio
 
 std::array<Vec9, 2> leg_lengths_over(const Geometry& g, const Configuration& neutral, const Region& region,
                                      const RegionSettings& settings, const Control& control) {
-  const SheetQuestion lengths_alone{g, neutral, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  const SheetQuestion lengths_alone{.geometry = g, .neutral = neutral};
   const SheetNumbers sheet(lengths_alone);
   const RegionExtremes found = region_extremes(
       region, [&] { return std::make_unique<Numbers>(sheet, g, neutral, region, PlacedAt()); }, settings, control);

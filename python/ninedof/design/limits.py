@@ -106,7 +106,7 @@ class Limit:
 
     def axis_in(self, tool: Tool) -> Vector | tuple[()]:
         """Return the axis in the frame of geometries: that of a cone of the platform is seen from the tool's frame."""
-        return tool.turned(self.axis) if self.axis and self.name == "platform_cone" and tool else self.axis
+        return tool.turned(self.axis) if self.axis and self.name.startswith("platform_cone") and tool else self.axis
 
     def for_core(self, tool: Tool) -> _core.Limit:
         """Return the limit as the core takes it: the axis of unit length, in the frame of geometries."""

@@ -20,10 +20,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arrays import Floats
-from ninedof.support.units import unit_argument
-
-METRES = {"mm": (1, 1000), "cm": (1, 100), "m": (1, 1), "in": (254, 10000), "ft": (3048, 10000), "": (1, 1)}
-"""A unit in metres as a fraction, so that 850 mm is 0.85 and not 0.8500000000000001; none is taken as it is."""
+from ninedof.support.units import METRES, unit_argument
 
 P, O = "p", "O"
 """Origin of the platform frame, and the internal point."""

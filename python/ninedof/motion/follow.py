@@ -16,16 +16,19 @@ from ninedof.redundancy.redundancy import leg_limits
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration, operands_with, single
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
-from ninedof.robot.idle import idle_names
+from ninedof.robot.idle import idle_names, unloaded_names
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
+from ninedof.statics.masses import GRAVITY, MassesOf, gravity_for_core, masses_for_core
 from ninedof.support.arguments import choice, finite, instance, pair
 from ninedof.support.arrays import Floats, as_number
 from ninedof.support.files import Arrays, Saved, from_json_array, json_array
 from ninedof.support.margins import TOLERANCE
 from ninedof.support.short import short_repr
-from ninedof.support.units import unit_entry
+from ninedof.support.units import metres, unit_entry
 
+FORCES = ("push", "pull", "rms")
+"""The entries of `Followed.drives` that are forces."""
 DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
 
 
@@ -75,7 +78,7 @@ class Followed(Saved):
     limits: tuple[Floats, Floats]
     """Least and greatest length of each leg, shapes (9,)."""
     leg_forces: Floats | None
-    """For the given load, positive if the leg pushes, shape (n, 9); None without a load."""
+    """For loads and masses, positive if the leg pushes, shape (n, 9); None without both."""
     tracked: bool
     """Whether `track` returns every pose from its leg lengths, to 1e-9 and each step with its proof."""
     tracked_until: float
@@ -84,6 +87,8 @@ class Followed(Saved):
     """Largest difference of a pose that `track` reached: of Q, and of p and O over the largest leg length."""
     unit: str = ""
     """Name of the length unit; "" without one."""
+    force_unit: str = ""
+    """"N" for masses in kilograms and lengths with a unit; "": that of the load, or what goes with the masses."""
 
     @property
     def time(self) -> Floats:
@@ -107,6 +112,36 @@ class Followed(Saved):
         """Legs whose length never changes."""
         return idle_names(self.leg_lengths)
 
+    @property
+    def unloaded_legs(self) -> tuple[str, ...]:
+        """Legs whose force is 0 all along: backlash decides where in it they are. Empty without a load and masses."""
+        return () if self.leg_forces is None else unloaded_names(self.leg_forces)
+
+    @property
+    def leg_powers(self) -> Floats | None:
+        """Force times rate, positive where the actuator does work, shape (n, 9); in watts where `force_unit` is "N"."""
+        if self.leg_forces is None:
+            return None
+        with np.errstate(over="ignore", invalid="ignore"):
+            return self._watts * self.leg_forces * self.leg_rates
+
+    @cached_property
+    def drives(self) -> dict[str, Floats]:
+        """Of each leg over the path: "push", "pull", "rms", "power", "braking", "work", "returned", shapes (9,).
+
+        Greatest forces, root of the mean square of the force over time, greatest power forth and back, and their
+        integrals over time, force and power linear between poses: joules where `force_unit` is "N". Empty without
+        forces.
+        """
+        if self.leg_forces is None:
+            return {}
+        figures = _core.drive_figures(self.time, self.leg_forces, self.leg_rates)
+        return {name: values * (1.0 if name in FORCES else self._watts) for name, values in figures.items()}
+
+    @property
+    def _watts(self) -> float:
+        return metres(self.unit) if self.force_unit else 1.0
+
     def to_dict(self) -> dict[str, Any]:
         """Return a summary as plain values: extremes of each leg, the worst poses, limits that break, the check."""
         worst = int(np.argmax(self.condition_number))
@@ -121,9 +156,7 @@ class Followed(Saved):
             "high": self.limits[1],
             "margin": self.leg_margins.min(axis=0),
         }
-        if self.leg_forces is not None:
-            columns["push"] = self.leg_forces.max(axis=0, initial=0.0)
-            columns["pull"] = (-self.leg_forces).max(axis=0, initial=0.0)
+        columns |= self.drives
         legs = {leg: {name: float(values[k]) for name, values in columns.items()} for k, leg in enumerate(LEGS)}
         return {
             **unit_entry(self.unit),
@@ -134,6 +167,8 @@ class Followed(Saved):
             "internal_point": self.internal_point,
             "legs": legs,
             "idle_legs": list(self.idle_legs),
+            "unloaded_legs": list(self.unloaded_legs),
+            **({"force_unit": self.force_unit} if self.force_unit else {}),
             "characteristic_length": self.characteristic_length,
             "condition_number": {
                 "first": float(self.condition_number[0]),
@@ -200,6 +235,8 @@ def follow(
     limits: tuple[ArrayLike, ArrayLike] | None = None,
     characteristic_length: float | str = 1.0,
     load: tuple[ArrayLike | None, ArrayLike | None] = (None, None),
+    masses: MassesOf | None = None,
+    gravity: ArrayLike = GRAVITY,
 ) -> Followed:
     """Return lengths, rates and accelerations of the legs along a trajectory, and what limits it.
 
@@ -228,6 +265,11 @@ def follow(
         default; a Result and a Design have their own, `result.characteristic_length`.
     load : (force, moment), optional
         On the platform at its origin, base axes, for the leg forces: each of shape (3,) or (n, 3), or None.
+    masses : Masses, optional
+        Weights and inertia of all bodies in the motion are added to the load, as in `inverse_dynamics`: in newtons for
+        kilograms where the path has a length unit, time in seconds. None by default.
+    gravity : array_like, shape (3,)
+        Force per mass, base axes; (0, 0, -9.81) by default. Of the masses only.
 
     Returns
     -------
@@ -258,7 +300,9 @@ def follow(
     lc = float(length_of(geometry, home, lc)) if isinstance(lc, str) else as_number("characteristic_length", lc)
     time, p, q = trajectory.time, trajectory.position, trajectory.rotation
     bounds, loads = leg_limits(limits), _loads(geometry, trajectory, *pair("load", load, "force and moment"))
-    motion = _core.follow(geometry, home, time, p, q, rule, bounds, lc, loads)
+    bodies = None if masses is None else masses_for_core(masses, trajectory.unit)
+    down = gravity_for_core(gravity, trajectory.unit)
+    motion = _core.follow(geometry, home, time, p, q, rule, bounds, lc, loads, bodies, down)
     poses, margins, forces = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
     return Followed(
         geometry=geometry,
@@ -268,10 +312,11 @@ def follow(
         characteristic_length=lc,
         singularity_margins=SingularityMargins(*margins),
         limits=bounds,
-        leg_forces=forces if len(loads) else None,
+        leg_forces=forces if len(forces) else None,
         tracked=poses == len(trajectory),
         tracked_until=float(time[poses - 1]),
         unit=trajectory.unit,
+        force_unit="N" if masses is not None and trajectory.unit else "",
         **motion,
     )
 

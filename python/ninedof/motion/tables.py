@@ -8,13 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.motion.follow import Followed
+from ninedof.motion.follow import FORCES, Followed
 from ninedof.redundancy.rules import where_o
+from ninedof.robot.idle import NEVER_CARRY
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, per
 from ninedof.tables import RIGHT, Column, Table, grouped
 
+POWERS, WORKS = ("power", "braking"), ("work", "returned")
 OF_LENGTHS = ("leg_clearance", "stroke")
 SHOWN = 12  # breaks of limits
 
@@ -26,11 +28,7 @@ def legs_table(motion: Mapping[str, Any]) -> Table:
     if any(leg["low"] > 0.0 or math.isfinite(leg["high"]) for leg in legs.values()):
         columns |= {"low": ("low", unit), "high": ("high", unit), "margin": ("margin", "")}
     columns |= {"speed": ("speed", per(unit, "s")), "acceleration": ("accel.", per(unit, "s²"))}
-    if all("push" in leg for leg in legs.values()):
-        columns |= {name: (name, "") for name in ("push", "pull")}
     largest = {key: max((abs(leg[key]) for leg in legs.values()), default=0.0) for key in columns if key != "margin"}
-    if "push" in columns:
-        largest["push"] = largest["pull"] = max(largest["push"], largest["pull"])
 
     def text(key: str, value: float) -> str:
         if key == "margin":
@@ -40,6 +38,30 @@ def legs_table(motion: Mapping[str, Any]) -> Table:
     rows = [(name, *(text(key, leg[key]) for key in columns)) for name, leg in legs.items()]
     heads = [Column("leg"), *(Column(*head, RIGHT) for head in columns.values())]
     return Table("Legs along the path", heads, list(grouped(rows)))
+
+
+def drives_table(motion: Mapping[str, Any]) -> Table | None:
+    """Return the table of forces, powers and work of the legs; None without forces."""
+    legs = motion["legs"]
+    newton = motion.get("force_unit", "")
+    groups = ((newton, FORCES), ("W" if newton else "", POWERS), ("J" if newton else "", WORKS))
+    units = {name: unit for unit, names in groups for name in names if all(name in leg for leg in legs.values())}
+    if not units:
+        return None
+    most = {
+        name: max(leg.get(one, 0.0) for leg in legs.values() for one in names) for _, names in groups for name in names
+    }
+
+    def text(name: str, value: float) -> str:
+        return "0" if abs(value) <= 1e-6 * most[name] else f"{value:.4g}"
+
+    rows = [(leg, *(text(name, values[name]) for name in units)) for leg, values in legs.items()]
+    body: list[Any] = list(grouped(rows))
+    if "work" in units:
+        totals = {name: f"{sum(leg[name] for leg in legs.values()):.4g}" for name in WORKS}
+        body += [(), ("all", *(totals.get(name, "") for name in units))]
+    heads = [Column("leg"), *(Column(name, unit, RIGHT) for name, unit in units.items())]
+    return Table("Drives along the path", heads, body)
 
 
 def limits_table(motion: Mapping[str, Any]) -> Table:
@@ -64,6 +86,8 @@ def motion_words(followed: Followed, motion: Mapping[str, Any]) -> Iterator[tupl
     yield "", f"{motion['poses']} poses from t = {motion['begin']:g} to {motion['end']:g}; O: {o}"
     if motion["idle_legs"]:
         yield "", f"never move: {', '.join(motion['idle_legs'])}; with --internal-point best or 0.5 they help"
+    if motion.get("unloaded_legs"):
+        yield "", f"never carry load: {', '.join(motion['unloaded_legs'])}; {NEVER_CARRY}"
     ends = f"{kappa['first']:.4f} at the start, {kappa['last']:.4f} at the end"
     yield "", f"condition number at worst {kappa['worst']:.4f} at t = {kappa['at']:.6g}; {ends}"
     yield "", f"nearest singularity: {near['determinant']} = {near['value']:.4f} at t = {near['at']:.6g}"

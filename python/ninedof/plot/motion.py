@@ -1,4 +1,4 @@
-"""Leg lengths and condition number along a trajectory."""
+"""Lengths, rates and forces of the legs and condition number along a trajectory."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof.plot import style
 from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.units import per
 
 if TYPE_CHECKING:
     from ninedof.motion import Followed
@@ -22,7 +23,9 @@ FORBIDDEN: dict[str, Any] = {"color": style.ALARM, "alpha": 0.12, "lw": 0.0, "zo
 
 
 def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, figure: Figure | None = None) -> Figure:
-    """Return a figure of the leg lengths by kind over time, their limits, the condition number below, and margins.
+    """Return a figure of lengths, rates and forces of the legs over time by kind, the condition number, and margins.
+
+    Forces are drawn where the motion has a load or masses, the limits of the lengths where it has them.
 
     Where the robot is singular the curve of the condition number has a gap.
 
@@ -48,26 +51,33 @@ def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, f
     t, lengths, kappa = followed.time, followed.leg_lengths, followed.condition_number
     others = {name: as_floats(f"margins.{name}", values, t.shape) for name, values in (margins or {}).items()}
     samples = _drawn(kappa)
-    rows = (1.0, 0.85, 0.85) if others else (1.0, 0.85)
-    with style.page(figure, style.TWO_COLUMNS, 2.15 * sum(rows)) as figure:
-        bottom, top = (0.07, 0.96) if others else (0.1, 0.94)
-        place: dict[str, float] = {"left": 0.085, "right": 0.98, "bottom": bottom, "top": top}
+    bands = {"length": (lengths, followed.unit), "rate": (followed.leg_rates, per(followed.unit, "s"))}
+    if followed.leg_forces is not None:
+        bands["force"] = (followed.leg_forces, followed.force_unit)
+    rows = [*([1.0] * len(bands)), 0.85, *([0.85] if others else [])]
+    height = 2.15 * sum(rows)
+    with style.page(figure, style.TWO_COLUMNS, height) as figure:
+        place: dict[str, float] = {"left": 0.085, "right": 0.98, "bottom": 0.45 / height, "top": 1.0 - 0.28 / height}
         grid = figure.add_gridspec(len(rows), 3, height_ratios=rows, hspace=0.5, wspace=0.36, **place)
-        panels = [figure.add_subplot(grid[0, k]) for k in range(3)]
-        panels += [figure.add_subplot(grid[k, :]) for k in range(1, len(rows))]
-        for k, (kind, title) in enumerate(style.LEG_WORDS.items()):
-            legs = slice(3 * k, 3 * k + 3)
-            _legs(panels[k], t[samples], lengths[samples, legs], kind)
-            _limits(panels[k], followed.limits[0][legs], followed.limits[1][legs], lengths[:, legs])
-            panels[k].set_title(title, size=style.TEXT_SIZE)
-            panels[k].set_ylabel(style.with_unit("length", followed.unit))
-        _condition(panels[3], t[samples], kappa[samples])
+        first, panels = [], []
+        for row, (what, (values, unit)) in enumerate(bands.items()):
+            for k, (kind, title) in enumerate(style.LEG_WORDS.items()):
+                axes, legs = figure.add_subplot(grid[row, k]), slice(3 * k, 3 * k + 3)
+                _legs(axes, t[samples], values[samples, legs], kind)
+                if what == "length":
+                    _limits(axes, followed.limits[0][legs], followed.limits[1][legs], lengths[:, legs])
+                    axes.set_title(title, size=style.TEXT_SIZE)
+                axes.set_ylabel(style.with_unit(what, unit))
+                panels.append(axes)
+            first.append(panels[-3])
+        below = [figure.add_subplot(grid[row, :]) for row in range(len(bands), len(rows))]
+        _condition(below[0], t[samples], kappa[samples])
         if others:
-            _margins(panels[4], t, others)
-        for axes in panels:
+            _margins(below[1], t, others)
+        for axes in (*panels, *below):
             axes.set_xlabel("time (s)" if followed.unit else "time (in the unit of the path)")
             axes.set_xlim(t[0], t[-1])
-        figure.align_ylabels([panels[0], *panels[3:]])
+        figure.align_ylabels([*first, *below])
     return figure
 
 
@@ -84,7 +94,7 @@ def _legs(axes: Any, t: Floats, lengths: Floats, kind: str) -> None:
     for j, dashes in enumerate(style.DASHES[:3]):
         axes.plot(t, lengths[:, j], color=style.LEG_COLOURS[kind], ls=dashes, label=f"{kind}{j + 1}")
     least, most = float(lengths.min()), float(lengths.max())
-    room = max(0.08 * (most - least), 0.01 * most) or 1.0
+    room = max(0.08 * (most - least), 0.01 * max(abs(least), abs(most))) or 1.0
     axes.set_ylim(least - room, most + 3.0 * room)
     axes.legend(loc="upper center", ncols=3, handlelength=2.2, columnspacing=1.0)
 

@@ -24,7 +24,7 @@ from ninedof.support.units import per, with_unit
 
 LEGS_FILE, POSES_FILE, ARRAYS_FILE = "legs.csv", "poses.csv", ARRAYS["motion"][1]
 LENGTHS = ("x", "y", "z", "o_x", "o_y", "o_z")  # columns of poses.csv
-RATE, ACCELERATION, FORCE = "_rate", "_acceleration", "_force"
+RATE, ACCELERATION, FORCE, POWER = "_rate", "_acceleration", "_force", "_power"
 
 
 def write_motion(
@@ -58,7 +58,7 @@ def write_motion(
 
 
 def legs_csv(motion: Followed) -> bytes:
-    """Return legs.csv: time, lengths, rates and accelerations of the legs, and forces if there is a load."""
+    """Return legs.csv: time, lengths, rates and accelerations of the legs, forces and powers if there is a load."""
     return _csv(*_legs(motion))
 
 
@@ -78,11 +78,17 @@ def plain(motion: Followed, limits: PathLimits | None) -> dict[str, Any]:
 
 
 def _legs(motion: Followed) -> tuple[list[str], Iterable[Floats]]:
-    """Return t, nine lengths, nine rates, nine accelerations, and nine forces if there is a load."""
+    """Return t, nine lengths, nine rates, nine accelerations, and nine forces and powers if there is a load."""
     parts = {"": motion.leg_lengths, RATE: motion.leg_rates, ACCELERATION: motion.leg_accelerations}
-    if motion.leg_forces is not None:
-        parts[FORCE] = motion.leg_forces
-    units = {"": motion.unit, RATE: per(motion.unit, "s"), ACCELERATION: per(motion.unit, "s^2"), FORCE: ""}
+    if motion.leg_forces is not None and motion.leg_powers is not None:
+        parts |= {FORCE: motion.leg_forces, POWER: motion.leg_powers}
+    units = {
+        POWER: "W" if motion.force_unit else "",
+        "": motion.unit,
+        RATE: per(motion.unit, "s"),
+        ACCELERATION: per(motion.unit, "s^2"),
+        FORCE: motion.force_unit,
+    }
     names = ["t", *(with_unit(leg + what, units[what]) for what in parts for leg in LEGS)]
     return names, (motion.time[:, None], *parts.values())
 

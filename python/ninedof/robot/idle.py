@@ -1,4 +1,4 @@
-"""Legs that never move."""
+"""Legs that never move, and legs that never carry load."""
 
 from __future__ import annotations
 
@@ -21,3 +21,17 @@ def idle_legs(lengths: Floats) -> NDArray[np.bool_]:
 def idle_names(lengths: Floats) -> tuple[str, ...]:
     """Return the names of the legs that never move."""
     return tuple(name for name, idle in zip(LEGS, idle_legs(lengths), strict=True) if idle)
+
+
+UNLOADED = 1e-9
+"""Of the greatest force in any leg: a leg that carries no more at every pose carries no load."""
+NEVER_MOVE = "a strut of fixed length would do"
+NEVER_CARRY = "no force closes their play, so backlash there moves the platform"
+
+
+def unloaded_names(forces: Floats) -> tuple[str, ...]:
+    """Return the names of the legs whose force is 0 at all poses, under a load; forces (..., 9)."""
+    most = np.abs(forces).reshape(-1, 9).max(axis=0, initial=0.0)
+    return tuple(
+        name for name, one in zip(LEGS, most, strict=True) if one <= UNLOADED * most.max() and most.max() > 0.0
+    )

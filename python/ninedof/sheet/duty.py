@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ninedof.design.duty import Masses
 from ninedof.design.study import Study
 from ninedof.sheet.request import Weight
+from ninedof.support.arguments import Vector
 
+WEIGHTS = ("platform", "inertia", "cylinder", "rod", "cylinder_inertia", "rod_inertia", "internal_point")
+"""Entries of masses of which one is not 0 where a machine has any."""
 SLOW = (1.0, 0.0)
 """Linear and angular speed where nothing states them."""
 
@@ -32,7 +37,7 @@ def with_duty(options: Mapping[str, Any], study: Study) -> tuple[dict[str, Any],
         if out[name] is None and value is not None:
             out[name] = value
             tables.append(table)
-    if out["mass"] is None and study.masses.platform > 0.0:
+    if (out["mass"] is None and study.masses.platform > 0.0) or masses_besides_platform(study) is not None:
         tables.append("masses")
     return out, tuple(dict.fromkeys(table for table in tables if table))
 
@@ -49,3 +54,26 @@ def weight_of(study: Study, mass: float | None, centre: ArrayLike | None, gravit
         gravity = study.loads.gravity if gravity is None else gravity
     weight = Weight.of(mass, centre, gravity)
     return weight if weight is None or not study.tool else weight._replace(centre=study.tool.seen(weight.centre))
+
+
+def masses_of(study: Study, mass: float | None = None, centre: Vector | None = None) -> Masses | None:
+    """Return the masses of a study in the frame of geometries; None where all are 0.
+
+    `mass` and `centre`, in the frame of the plate, take the place of the platform's.
+    """
+    masses = study.masses
+    if mass is not None:
+        masses = replace(masses, platform=mass)
+    if centre is not None:
+        masses = replace(masses, centre=centre)
+    if not any(np.any(getattr(masses, name)) for name in WEIGHTS):
+        return None
+    return masses.seen_from(study.tool) if study.tool else masses
+
+
+def masses_besides_platform(study: Study) -> Masses | None:
+    """Return the masses of the legs and of O; None where they are 0. Sheets have the platform as a `Weight`."""
+    masses = masses_of(study)
+    if masses is None or not any((masses.cylinder, masses.rod, masses.internal_point)):
+        return None
+    return replace(masses, platform=0.0)

@@ -44,6 +44,8 @@ class LegRow:
     """The same at its platform joint, platform frame."""
     forces: tuple[tuple[float, float], ...]
     """Least and largest force for each load, positive where the leg pushes."""
+    power: float | None = None
+    """Greatest of force times speed, at one pose and under one load; None without loads."""
     twist_speed: tuple[float, float] | None = None
     """Least and largest rate for the given twist; None without one."""
     twist_acceleration: tuple[float, float] | None = None
@@ -70,6 +72,8 @@ class LegRow:
         for name in ("twist_speed", "twist_acceleration"):
             if (ends := getattr(self, name)) is not None:
                 row |= {f"{name}_min": ends[0], f"{name}_max": ends[1]}
+        if self.power is not None:
+            row["power"] = self.power
         for k, (low, high) in enumerate(self.forces):
             row |= {f"force_{k + 1}_min": low, f"force_{k + 1}_max": high}
         return row
@@ -92,6 +96,7 @@ def leg_rows(g: Geometry, c: Configuration, numbers: Mapping[str, Floats]) -> tu
     for name, (body, legs) in JOINTS.items():
         cones[f"{body}_cone"] |= zip(legs, numbers[name].max(axis=0).tolist(), strict=True)
     forces = numbers.get("force", np.empty((len(c), 0))).reshape(len(c), -1, 9)
+    powers = numbers["power"].max(axis=0).tolist() if "power" in numbers else [None] * 9
     ranges = [name for name in ("twist_speed", "twist_acceleration") if name in numbers]
 
     def of_leg(k: int) -> dict[str, Any]:
@@ -110,6 +115,7 @@ def leg_rows(g: Geometry, c: Configuration, numbers: Mapping[str, Floats]) -> tu
             idle=bool(idle[k]),
             speed=float(speed[k]),
             acceleration=float(acceleration[k]),
+            power=powers[k],
             forces=tuple(_ends(f) for f in forces[:, :, k].T),
             **of_leg(k),
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, TypedDict
+from typing import Any, NamedTuple, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -171,3 +171,32 @@ def _six(name: str, value: ArrayLike) -> tuple[float, ...]:
     if numbers.shape != (6,) or not np.isfinite(numbers).all():
         raise ValueError(f"{name}: got {shown(value)}, expected six finite numbers, rotation first")
     return tuple(numbers.tolist())
+
+
+def robot_of(design: Any, poses: Configuration | None) -> tuple[Geometry, Configuration, float | str]:
+    """Return geometry, stack of poses with the neutral one first, and characteristic length of a design."""
+    if poses is not None and (not isinstance(poses, Configuration) or len(poses.shape) != 1 or not len(poses)):
+        raise ValueError(f"poses: got {shown(poses)}, expected a stack of configurations of shape (n,)")
+    if isinstance(design, Geometry):
+        if poses is None:
+            raise ValueError("poses: got none, expected configurations for a Geometry, the neutral one first")
+        return design, poses, 1.0
+    try:
+        g, neutral, length = design.geometry, design.configuration, design.characteristic_length
+    except AttributeError:
+        raise ValueError(f"design: got {type(design).__name__}, expected a result, a design or a Geometry") from None
+    if g is None or neutral is None:
+        raise ValueError("design: got a result without a design, expected one")
+    more = getattr(design, "configurations", None) if poses is None else poses
+    stacks = [neutral, *([] if more is None else [more[1:] if poses is None else more])]
+    p, q, s = ([np.atleast_2d(getattr(x, name)) for x in stacks] for name in ("position", "rotation", "internal_point"))
+    q = [x.reshape(-1, 3, 3) for x in q]
+    return g, Configuration(np.concatenate(p), np.concatenate(q), np.concatenate(s)), length
+
+
+def load_rows(loads: ArrayLike | None) -> Floats:
+    """Return loads as rows (moment, force), none for None."""
+    rows = np.zeros((0, 6)) if loads is None else np.atleast_2d(as_floats("loads", loads, (6,)))
+    if rows.ndim != 2 or not np.isfinite(rows).all():
+        raise ValueError(f"loads: got {shown(loads)}, expected rows of six finite numbers, moment and force")
+    return rows

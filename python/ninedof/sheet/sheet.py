@@ -15,22 +15,22 @@ from ninedof.conditioning.characteristic_length import characteristic_length as 
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_limits, leg_limits_of
-from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.sheet.duty import weight_of, with_duty
+from ninedof.sheet.duty import masses_besides_platform, weight_of, with_duty
 from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
 from ninedof.sheet.pose_words import turn_deg
-from ninedof.sheet.region_look import SAMPLES, RegionSearch, look_over
-from ninedof.sheet.request import Motion, SheetArguments, Weight, internal_over, question_of
+from ninedof.sheet.region_look import SAMPLES, RegionSearch, has_region, joined, leg_ranges_of, look_over_design
+from ninedof.sheet.request import Motion, SheetArguments, Weight, internal_over, load_rows, question_of, robot_of
 from ninedof.sheet.tables import lengths_table, limits_table, summary_parts, worst_table
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import MOST_SAMPLES
-from ninedof.support.arguments import shown, whole
-from ninedof.support.arrays import Floats, as_floats, one_or_each
+from ninedof.statics.masses import masses_for_core
+from ninedof.support.arguments import whole
+from ninedof.support.arrays import Floats, one_or_each
 from ninedof.support.structs import options_of
 from ninedof.support.units import per, unit_argument, with_unit
 from ninedof.tables.html import notebook
@@ -130,6 +130,8 @@ class Sheet:
     leg_ranges: tuple[tuple[float, float], ...] | None = None
     """If O is placed anew at every pose of a region: the length that each leg keeps in all of it, empty if no limit
     compares poses. None for others."""
+    has_leg_masses: bool = False
+    """Whether the weights of legs and O of the study are added to each load too."""
     stated: tuple[str, ...] = ()
     """Tables of the study that gave options which were left out: "speeds", "loads", "masses", "tolerances"."""
     tool: Tool = field(default_factory=Tool)
@@ -139,6 +141,11 @@ class Sheet:
     def idle(self) -> tuple[str, ...]:
         """Names of the legs that have the same length at every pose; empty for a single pose."""
         return tuple(leg.name for leg in self.legs if leg.idle)
+
+    def forces(self) -> Floats:
+        """Return least and greatest force of each leg for each load, shape (loads, 2, 9)."""
+        ends = np.array([leg.forces for leg in self.legs]).reshape(9, len(self.loads), 2)
+        return np.ascontiguousarray(ends.transpose(1, 2, 0))
 
     def joints(self) -> list[tuple[str, Floats, Floats]]:
         """Return name, coordinates in the frame of its plate and those in the base frame at the neutral pose."""
@@ -302,21 +309,25 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     weight = weight_of(duty, values["mass"], values["centre"], values["gravity"])
     internal = internal_over(c) if values["internal"] is None else values["internal"]
     motion = Motion.of(values["linear_speed"], values["angular_speed"], internal, values["twist"], values["twist_rate"])
-    loads = load_rows(np.zeros((1, 6)) if values["loads"] is None and weight is not None else values["loads"])
+    bodies = masses_besides_platform(duty)
+    weighs = weight is not None or bodies is not None
+    loads = load_rows(np.zeros((1, 6)) if values["loads"] is None and weighs else values["loads"])
     length = float(length_of(g, c[0], length)) if isinstance(length, str) else length
     count = whole("samples", values["samples"], 1, MOST_SAMPLES)
     variables, look = getattr(design, "variables", None), None
     question = question_of(g, c[0], study, motion, list(loads), weight)
+    if bodies is not None:
+        question.masses, question.gravity = (
+            masses_for_core(bodies),
+            duty.loads.gravity if weight is None else weight.gravity,
+        )
     question.errors = _tolerances(values["leg_errors"], values["joint_errors"])
     if values["leg_stiffness"] is not None:
         question.leg_stiffness = one_or_each("leg_stiffness", values["leg_stiffness"], 9)
     question.characteristic_length = length if np.isfinite(length) else None
-    region = design.study.objective.region if poses is None and study is not None else None
-    report = getattr(design, "region", None)
-    ranges = None if region is None or places_o(region) or report is None else report.leg_ranges
-    if study is not None and region is not None and (places_o(region) or ranges is not None):
-        place = None if ranges is None else Placing(design.study, c[0], variables or {}, design.objective, ranges)
-        look, worst, shifts = look_over(design.study, c[0], question, count, place)
+    ranges = leg_ranges_of(design) if poses is None else None
+    if poses is None and study is not None and has_region(design):
+        look, worst, shifts = look_over_design(design, c[0], question, count)
         c = joined(c, worst)
         study = replace(study, objective=replace(study.objective, poses=(*study.objective.poses, *shifts)))
     numbers = _core.sheet_numbers(question, c)
@@ -346,6 +357,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         unit=getattr(study or design, "unit", "") if values["unit"] is None else unit_argument(values["unit"]),
         cone_axes={name: () if one is None else one.axis for name, one in cone_limits(study).items()},
         leg_ranges=ranges,
+        has_leg_masses=bodies is not None,
         stated=stated,
         tool=duty.tool,
     )
@@ -374,35 +386,6 @@ def _tolerances(legs: ArrayLike | None, joints: ArrayLike | None) -> _core.Toler
     )
 
 
-def robot_of(design: Any, poses: Configuration | None) -> tuple[Geometry, Configuration, float | str]:
-    """Return geometry, configurations, the neutral one first, and characteristic length of a design."""
-    if poses is not None and (not isinstance(poses, Configuration) or len(poses.shape) != 1 or not len(poses)):
-        raise ValueError(f"poses: got {shown(poses)}, expected a stack of configurations of shape (n,)")
-    if isinstance(design, Geometry):
-        if poses is None:
-            raise ValueError("poses: got none, expected configurations for a Geometry, the neutral one first")
-        return design, poses, 1.0
-    try:
-        g, neutral, length = design.geometry, design.configuration, design.characteristic_length
-    except AttributeError:
-        raise ValueError(f"design: got {type(design).__name__}, expected a result, a design or a Geometry") from None
-    if g is None or neutral is None:
-        raise ValueError("design: got a result without a design, expected one")
-    more = getattr(design, "configurations", None) if poses is None else poses
-    stacks = [neutral, *([] if more is None else [more[1:] if poses is None else more])]
-    p, q, s = ([np.atleast_2d(getattr(x, name)) for x in stacks] for name in ("position", "rotation", "internal_point"))
-    q = [x.reshape(-1, 3, 3) for x in q]
-    return g, Configuration(np.concatenate(p), np.concatenate(q), np.concatenate(s)), length
-
-
-def load_rows(loads: ArrayLike | None) -> Floats:
-    """Return loads as rows (moment about p, force)."""
-    rows = np.zeros((0, 6)) if loads is None else np.atleast_2d(as_floats("loads", loads, (6,)))
-    if rows.ndim != 2 or not np.isfinite(rows).all():
-        raise ValueError(f"loads: got {shown(loads)}, expected rows of six finite numbers, moment and force")
-    return rows
-
-
 def _extreme(values: Floats, place: Callable[[Floats], Any]) -> Extreme:
     at = int(place(values))
     return Extreme(float(values[at]), at)
@@ -423,12 +406,6 @@ def _determinants(g: Geometry, c: Configuration) -> dict[str, Determinant]:
         changes = bool(np.any(values * np.sign(values[0]) <= 0.0))
         determinants[name] = Determinant(*_extreme(np.abs(values), np.argmin), changes)
     return determinants
-
-
-def joined(c: Configuration, more: Configuration) -> Configuration:
-    """Return two stacks as one."""
-    names = ("position", "rotation", "internal_point")
-    return Configuration(*(np.concatenate([getattr(c, name), getattr(more, name)]) for name in names))
 
 
 def _plain(value: Any) -> Any:

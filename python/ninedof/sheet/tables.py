@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ninedof.redundancy.rules import WORDS
+from ninedof.robot.idle import NEVER_CARRY, NEVER_MOVE, unloaded_names
 from ninedof.sheet.limit_rows import limit_amount
 from ninedof.sheet.pose_words import pose_words, vector_words
 from ninedof.support.margins import margin_words
@@ -34,6 +35,7 @@ def sheet_parts(sheet: Any) -> Iterator[Part]:
         yield _twist(sheet)
     if len(sheet.loads):
         yield _forces(sheet)
+        yield _powers(sheet)
     yield worst_table(sheet)
     if sheet.limits:
         yield limits_table(sheet)
@@ -192,7 +194,27 @@ def _forces(sheet: Any) -> Table:
     notes = [load_words(k, load, sheet.unit) for k, load in enumerate(sheet.loads, start=1)]
     if sheet.weight is not None:
         notes.append(weight_words(sheet.weight, sheet.tool))
+    if sheet.has_leg_masses:
+        notes.append("each with the weights of the legs and of O")
+    for k, names in enumerate(map(unloaded_names, sheet.forces()), start=1):
+        if 0 < len(names) < len(sheet.legs):
+            notes.append(f"{', '.join(names)} never carry load {k}: {NEVER_CARRY}")
     return Table(f"Leg forces, least to largest {over(sheet)}, pushing positive", columns, rows, notes)
+
+
+def _powers(sheet: Any) -> Table:
+    """Return the drives beside each other: greatest force, speed and power of each leg."""
+    force = [max(abs(end) for ends in leg.forces for end in ends) for leg in sheet.legs]
+    speeds, powers = ([getattr(leg, name) for leg in sheet.legs] for name in ("speed", "power"))
+    columns = [Column("leg"), Column("force", "", RIGHT), Column("speed", per(sheet.unit, "s"), RIGHT)]
+    columns.append(Column("power", times("force", per(sheet.unit, "s")), RIGHT))
+    rows = zip((leg.name for leg in sheet.legs), *(map(_g, values) for values in (force, speeds, powers)), strict=True)
+    note = "power: the most of force times speed at one pose, at rest or at constant speed"
+    return Table(f"Drives, largest {over(sheet)}", columns, list(grouped(rows)), [note])
+
+
+def _g(value: float) -> str:
+    return f"{value:.5g}"
 
 
 def weight_words(weight: Any, tool: Any) -> str:
@@ -254,7 +276,7 @@ def _motion_words(sheet: Any) -> Iterator[str]:
         f"Acceleration: {most} while both are constant. Cones: from {_axes_words(sheet.cone_axes)}."
     )
     if sheet.idle:
-        yield f"{', '.join(sheet.idle)} never move {over(sheet)}."
+        yield f"{', '.join(sheet.idle)} never move {over(sheet)}: {NEVER_MOVE}."
 
 
 def _axes_words(axes: Mapping[str, Sequence[float]]) -> str:

@@ -8,6 +8,8 @@ from typing import Any
 from ninedof.support.arguments import choice, did_you_mean, shown
 
 UNITS = ("mm", "cm", "m", "in", "ft")
+METRES = {"mm": (1, 1000), "cm": (1, 100), "m": (1, 1), "in": (254, 10000), "ft": (3048, 10000), "": (1, 1)}
+"""A unit in metres as a fraction, so that 850 mm is 0.85 and not 0.8500000000000001; none is taken as it is."""
 SCALES = ("length", "zp")
 """Of shifts of poses: the length unit, or the height zp of the design."""
 
@@ -69,3 +71,9 @@ def per(above: str, below: str) -> str:
 def times(above: str, unit: str) -> str:
     """Return "force mm" for "force" and "mm"; "" without a unit."""
     return f"{above} {unit}" if above and unit else ""
+
+
+def metres(unit: str) -> float:
+    """Return the unit in metres; 1 without one."""
+    above, below = METRES[unit]
+    return above / below

@@ -18,7 +18,8 @@ using namespace support;
 namespace {
 
 SheetQuestion everything(const Geometry& g, const Configuration& neutral) {
-  SheetQuestion q{g, neutral, {}, {}, {}, {}, {}, {}, {}, 1.3, {}};
+  SheetQuestion q{.geometry = g, .neutral = neutral};
+  q.characteristic_length = 1.3;
   q.limits = {{"base_cone", Vec3::Zero()}, {"platform_cone", Vec3(0, 0.2, -1)}, {"leg_clearance", Vec3::Zero()}};
   q.exempt[4] = true;
   q.motion = PlatformMotion{InternalMotion::carried, 1.5, 0.4, TwistMotion{Vec6::Ones(), Vec6::Ones()}};
@@ -59,7 +60,7 @@ TEST_SUITE("sheet_region") {
     std::vector<std::string> names;
     for (const SheetGroup& group : sheet.groups()) names.push_back(group.name);
     CHECK(names == std::vector<std::string>{"base_cone", "platform_cone", "leg_clearance", "speed", "acceleration",
-                                            "twist_speed", "twist_acceleration", "force", "error", "stiffness",
+                                            "twist_speed", "twist_acceleration", "force", "power", "error", "stiffness",
                                             "condition_number"});
     for (std::size_t k = 0; k < names.size(); ++k)
       if (names[k] == "force") forces = k;
@@ -78,7 +79,7 @@ TEST_SUITE("sheet_region") {
     CHECK(all[all.size() - 5] == bounds.rotation);
     CHECK(all[all.size() - 3] == least_stiffness(g, c, *q.leg_stiffness).shift);
     // Alone, it asks for nothing.
-    CHECK(SheetNumbers({g, home, {}, {}, {}, {}, {}, {}, {}, {}, {}}).groups().empty());
+    CHECK(SheetNumbers({.geometry = g, .neutral = home}).groups().empty());
   }
 
   TEST_CASE("no pose of another sample is worse") {
@@ -123,7 +124,8 @@ TEST_SUITE("sheet_region") {
     Random random(23);
     const auto [g, c] = random_robot(random);
     const Region region = box();
-    SheetQuestion q{g, c, {}, {}, {}, {}, {}, {}, {}, 1.3, {}};
+    SheetQuestion q{.geometry = g, .neutral = c};
+    q.characteristic_length = 1.3;
     const auto held = [&, g = g, c = c] {
       return [&region, c](const Vec6& at) {
         Configuration out = region.configuration(at, c);

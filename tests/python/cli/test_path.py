@@ -43,12 +43,13 @@ def test_a_circle_of_the_published_design(run, tmp_path):
         header, *rows = csv.reader(file)
     legs = "l1 l2 l3 q1 q2 q3 r1 r2 r3".split()
     expected = ["t", *legs, *(f"{leg}_rate" for leg in legs), *(f"{leg}_acceleration" for leg in legs)]
-    assert header == [*expected, *(f"{leg}_force" for leg in legs)]
+    assert header == [*expected, *(f"{leg}_force" for leg in legs), *(f"{leg}_power" for leg in legs)]
     home = nd.Configuration(**{name: np.array(values) for name, values in record["question"]["home"].items()})
     geometry = nd.Geometry(**record["question"]["geometry"])
     found = nd.follow(geometry, nd.Trajectory.circle(home, 0.5, 2.0, 101), home, load=([0.0, 0.0, -9.0], None))
     table = np.array(rows, dtype=float)
     columns = [found.time[:, None], found.leg_lengths, found.leg_rates, found.leg_accelerations, found.leg_forces]
+    columns.append(found.leg_powers)
     assert (table == np.concatenate(columns, axis=1)).all()
 
 
@@ -120,8 +121,8 @@ def test_every_limit_of_a_run(run, tmp_path):
     assert "°" in out
 
 
-def test_the_weight_of_a_path_is_that_of_a_force(run):
-    line = "path --circle 0.3 --points 21 --no-figures --json"
+def test_the_weight_of_a_slow_path_is_that_of_a_force(run):
+    line = "path --circle 0.3 --points 21 --duration 1e8 --no-figures --json"
     heavy = json.loads(run(f"{line} --mass 2 --gravity 0 0 -10 --moment 0 1 0")[1])["motion"]["legs"]
     forced = json.loads(run(f"{line} --force 0 0 -20 --moment 0 1 0")[1])["motion"]["legs"]
     assert all(heavy[leg]["push"] == pytest.approx(forced[leg]["push"], abs=1e-12) for leg in forced)

@@ -54,10 +54,10 @@ RESULTS = {
         "DeterminantBounds",
         "Ellipsoid",
     ),
-    *("ErrorBounds", "Followed", "Front", "InternalPoint", "InternalPointMap", "LegForces", "LimitBreak", "LimitProof"),
-    *("LowerBound", "MachineCertificate", "MapAudit", "NearestSingularity", "OptimumProof", "PathLimits", "RegionMap"),
-    *("Failure", "Result", "Sheet", "Singularity", "SingularityDistance", "SingularityMargins", "SweepResult"),
-    *("Trace", "Tracked"),
+    *("ErrorBounds", "Followed", "Front", "InternalPoint", "InternalPointMap", "InverseDynamics"),
+    *("LegForces", "LimitBreak", "LimitProof", "Payload", "Failure", "RegionMap"),
+    *("LowerBound", "MachineCertificate", "MapAudit", "NearestSingularity", "OptimumProof", "PathLimits", "Result"),
+    *("Sheet", "Singularity", "SingularityDistance", "SingularityMargins", "SweepResult", "Trace", "Tracked"),
     *("VelocityMatrices", "WorkspaceCells", "WorkspaceMap", "WorkspaceSlice"),
 }
 
@@ -123,9 +123,17 @@ def test_other_places_are_refused(place):
 # Rows whose good calls return, at the top or further in, a thing of every class in RESULTS.
 RETURNING = (
     *("forward_position", "track", "velocity_matrices", "condition_number_bounds", "determinant_bounds"),
-    *("velocity_ellipsoid", "error_bounds", "leg_forces", "best_internal_point", "best_internal_map"),
+    *(
+        "velocity_ellipsoid",
+        "error_bounds",
+        "leg_forces",
+        "inverse_dynamics",
+        "best_internal_point",
+        "best_internal_map",
+    ),
     *("singularity", "singularity_margins", "distance_to_singularity", "nearest_singularity"),
-    *("follow", "path_limits", "failure", "region_map", "sheet", "sweep", "trace", "Study.evaluate", "check"),
+    *("follow", "path_limits", "failure", "region_map", "sheet", "largest_payload", "sweep", "trace"),
+    *("Study.evaluate", "check"),
     *("applicable_bounds", "WorkspaceMap.slice"),
 )
 

@@ -176,19 +176,23 @@ TIME = np.linspace(0.0, 2.0, 5001)
 LENGTHS = 3.0 + 0.1 * np.sin(TIME[:, None] + np.arange(9))
 
 
-def test_three_panels_of_legs_and_one_of_the_condition_number():
+def test_rows_of_legs_and_the_condition_number():
     figure = plot.motion(followed(4.0 + np.cos(TIME), LENGTHS, TIME, high=3.05, unit="mm"))
     assert [axes.get_title(loc="left") for axes in figure.axes] == [
         *("external legs", "upper internal legs", "lower internal legs"),
-        "",
+        *[""] * 4,
     ]
-    assert figure.axes[3].get_ylabel() == "condition number"
+    assert figure.axes[3].get_ylabel() == "rate (mm/s)"
+    assert figure.axes[6].get_ylabel() == "condition number"
     for k, axes in enumerate(figure.axes[:3]):
         legs = [line for line in axes.get_lines() if len(line.get_xdata()) > 2]
         assert len(legs) == 3
         assert legs[0].get_ydata()[-1] == LENGTHS[-1, 3 * k]
         assert len(legs[0].get_xdata()) <= 4001
     assert figure.axes[0].get_ylabel() == "length (mm)"
+    pushed = plot.motion(followed(4.0 + np.cos(TIME), LENGTHS, TIME, unit="mm", forces=50.0 * LENGTHS - 140.0))
+    assert [axes.get_ylabel() for axes in pushed.axes[6:9]] == ["force (N)"] * 3
+    assert pushed.axes[7].get_lines()[0].get_ydata()[-1] == 50.0 * LENGTHS[-1, 3] - 140.0
 
 
 @pytest.mark.parametrize(("unit", "words"), [("mm", "time (s)"), ("", "time (in the unit of the path)")])
@@ -205,5 +209,5 @@ def test_a_singular_pose_and_one_leg_at_rest():
     kappa[100] = np.inf
     kappa[401] = 1e6  # a narrow peak is not left out
     figure = plot.motion(followed(kappa, np.full((5001, 9), 2.0), TIME))
-    assert figure.axes[3].get_yscale() == "log"
+    assert figure.axes[6].get_yscale() == "log"
     assert_can_be_drawn(figure)

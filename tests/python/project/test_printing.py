@@ -53,6 +53,8 @@ def shown(published):
         "InternalPoint": nd.best_internal_point(published, [0.8, 0.0, 4.0]),
         "InternalPointMap": nd.best_internal_map(published, path),
         "LegForces": nd.leg_forces(published, STACK, [0, 0, 0], [0, 0, 1]),
+        "Payload": nd.largest_payload(nd.Design(published, HOME), 100.0),
+        "InverseDynamics": nd.inverse_dynamics(published, STACK),
         "ErrorBounds": nd.error_bounds(published, HOME, 0.1),
         "SingularityDistance": nd.distance_to_singularity(published, HOME, DOWN, most=5.0),
         "SingularityDistance of a stack": nd.distance_to_singularity(published, STACK, DOWN, most=5.0),

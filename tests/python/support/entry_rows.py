@@ -83,6 +83,16 @@ row("nearest_singularity")(
     robot(part="position", most=2.0, directions=3, **THREADS),
 )
 row("leg_forces")(robot(moment=[0.0, 0.0, 1.0], force=[0.0, 1.0, -9.0], force_at_o=[0.0, 0.5, 0.0]))
+row("inverse_dynamics", nan=("velocity", "load"))(
+    robot(
+        velocity=RATES,
+        acceleration=RATES,
+        masses=nd.Masses(platform=2.0, cylinder=0.5, cylinder_centre=0.2),
+        gravity=[0.0, 0.0, -9.81],
+        load=[0.0, 0.0, 1.0, 0.0, 1.0, -9.0],
+        unit="m",
+    )
+)
 row("self_stress")(robot())
 row("stiffness")(robot(leg_stiffness=np.arange(1.0, 10.0), internal=False))
 row("error_map")(robot())

@@ -311,6 +311,8 @@ row(
         "limits": (np.full(9, 0.5), np.full(9, 9.0)),
         "characteristic_length": 1.0,
         "load": ([0.0, 0.0, -1.0], [0.0, 0.0, 0.5]),
+        "masses": nd.Masses(**DUTY["masses"]),
+        "gravity": [0.0, 0.0, -9.81],
     }
 )
 row("Followed.to_dict", lambda: it.followed().to_dict())(dict)
@@ -338,7 +340,18 @@ row("sheet", few=3, huge=("samples",))(
         "unit": "mm",
     }
 )
-for name in ("joints", "summary", "to_csv", "to_dict"):
+row("largest_payload", few=3, huge=("samples",))(
+    lambda: {
+        "design": it.design(),
+        "force": 100.0,
+        "pull": 50.0,
+        "centre": (0.0, 0.0, 0.1),
+        "loads": [0.0, 0.0, 0.0, 0.0, 0.0, -1.0],
+        "samples": 10,
+    }
+)
+row("Payload.to_dict", lambda: nd.largest_payload(it.design(), 100.0).to_dict())(dict)
+for name in ("joints", "forces", "summary", "to_csv", "to_dict"):
     row(f"Sheet.{name}", lambda name=name: getattr(it.result().sheet(it.stack()), name)())(dict)
 row("failure", few=3, huge=("samples",))(
     lambda: {

@@ -68,11 +68,14 @@ def front(rows, name="leg_ratio", unit="", words="condition number"):
     )
 
 
-def followed(kappa=None, lengths=LENGTHS, time=TIME, high=np.inf, unit=""):
+def followed(kappa=None, lengths=LENGTHS, time=TIME, high=np.inf, unit="", forces=None):
     """What a figure reads of a motion."""
     return SimpleNamespace(
         time=time,
         leg_lengths=lengths,
+        leg_rates=np.gradient(lengths, time, axis=0),
+        leg_forces=forces,
+        force_unit="N" if unit else "",
         condition_number=lengths[:, 0] if kappa is None else kappa,
         limits=(np.zeros(9), np.full(9, high)),
         unit=unit,
@@ -190,6 +193,7 @@ FIGURES = {
     "certified": lambda: plot.certified_workspace(certified(), "m"),
     "body": lambda: plot.workspace_body(found().surface(20_000), home=HOME.position, lines=[EDGES], unit="m"),
     "motion": lambda: plot.motion(followed(high=3.05, unit="mm")),
+    "motion with forces": lambda: plot.motion(followed(unit="mm", forces=30.0 * LENGTHS - 90.0)),
     "margins": lambda: plot.motion(followed(), {"leg_length": 0.3 - TIME, "cone": TIME}),
     "two ellipsoids": lambda: plot.ellipsoids(velocities(TILTED)),
     "four ellipsoids": lambda: plot.ellipsoids(

@@ -18,6 +18,7 @@ CPP_ROOMS = (
     "position",
     "singularity",
     "statics",
+    "dynamics",
     "batch",
     "limits",
     "domains",

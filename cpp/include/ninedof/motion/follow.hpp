@@ -1,12 +1,13 @@
 #pragma once
 /// Inverse kinematics along a trajectory: what it needs of the legs, and what it meets.
 
+#include <optional>
 #include <vector>
 
+#include "ninedof/dynamics/inverse_dynamics.hpp"
 #include "ninedof/motion/derivatives.hpp"
 #include "ninedof/motion/internal_points.hpp"
 #include "ninedof/motion/limit_breaks.hpp"
-#include "ninedof/statics/statics.hpp"
 
 namespace ninedof {
 
@@ -14,7 +15,9 @@ struct FollowSettings {
   TrajectoryRule rule;
   LegLimits limits;  ///< reported, and respected by TrajectoryRule::Kind::best only
   double characteristic_length = 1.0;  ///< of the condition number
-  std::vector<Load> loads;  ///< one for each pose; none: no leg forces
+  std::vector<Load> loads = {};       ///< one for each pose, or none
+  std::optional<Masses> masses = {};  ///< their weights and inertia are added to the loads; without both no leg forces
+  Vec3 gravity = Vec3::Zero();  ///< force per mass, base axes
   int threads = 0;  ///< 0: one for each processor. The result does not depend on it.
 };
 

@@ -11,10 +11,11 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import LOAD
 from ninedof.cli.posed import DesignAtPoses, PosesOptions, load_option
 from ninedof.cli.screen import bold
+from ninedof.robot.idle import NEVER_CARRY, unloaded_names
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.duty import weight_of
+from ninedof.sheet.duty import masses_of, weight_of
 from ninedof.sheet.tables import load_words, weight_words
-from ninedof.statics.statics import leg_forces
+from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.tables import RIGHT, Column, Table, grouped
 from ninedof.tables.numbers import spread
 
@@ -41,24 +42,30 @@ def forces(options: ForcesOptions) -> Answer:
     """Print the forces in the legs that balance loads on the platform, positive where a leg pushes."""
     given = [load_option(text) for text in options.load or ()]
     at = DesignAtPoses.at(options)
-    weight = weight_of(at.chosen.duty, None, None, None)
-    loads = np.array(given or at.chosen.duty.loads.wrenches or np.zeros((int(weight is not None), 6)))
+    duty = at.chosen.duty
+    weight, masses = weight_of(duty, None, None, None), masses_of(duty)
+    loads = np.array(given or duty.loads.wrenches or np.zeros((int(masses is not None), 6)))
     if not len(loads):
         raise ValueError("--load: got none, expected one, or a run whose study has [loads] or [masses]")
-    own = np.zeros((len(at.c), 6)) if weight is None else weight.wrench(at.c.rotation)
-    wrenches = [row + own for row in loads]
-    balances = [leg_forces(at.chosen.geometry, at.c, moment=one[:, :3], force=one[:, 3:]) for one in wrenches]
+    g, gravity = at.chosen.geometry, duty.loads.gravity
+    balances = [inverse_dynamics(g, at.c, masses=masses, gravity=gravity, load=row) for row in loads]
     result, unbalanced = (np.stack([getattr(each, name) for each in balances]) for name in ("forces", "unbalanced"))
     columns = [Column("leg"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(loads) + 1))]
-    sizes = np.abs(wrenches).max(axis=(1, 2))
+    sizes = np.abs(loads).max(axis=1)
+    if masses is not None:
+        total = masses.platform + 9.0 * (masses.cylinder + masses.rod) + masses.internal_point
+        sizes = sizes + total * np.abs(gravity).max() * max(1.0, *np.abs(masses.centre))
     least, most, tiny = result.min(axis=1), result.max(axis=1), 1e-12 * sizes
     rows = [(leg, *map(spread, least[:, k], most[:, k], tiny)) for k, leg in enumerate(LEGS)]
     parts: list[Any] = [load_words(k, row, at.chosen.unit) for k, row in enumerate(loads, start=1)]
     if weight is not None:
-        parts.append(weight_words(weight, at.chosen.duty.tool))
-    if weight is not None or not given:
-        parts.append(f"from the study: {', '.join(['[loads]'] * (not given) + ['[masses]'] * (weight is not None))}")
+        parts.append(weight_words(weight, duty.tool))
+    if masses is not None or not given:
+        parts.append(f"from the study: {', '.join(['[loads]'] * (not given) + ['[masses]'] * (masses is not None))}")
     parts.append(Table("Forces, + pushes", columns, list(grouped(rows))))
+    for k, each in enumerate(result, start=1):
+        if (names := unloaded_names(each)) and len(names) < len(LEGS):
+            parts.append(bold("never carry load", f" {k}: {', '.join(names)}; {NEVER_CARRY}"))
     left = np.abs(unbalanced).max(axis=(1, 2)) > BALANCED * sizes
     for k in np.flatnonzero(left).tolist():
         parts.append(bold("singular", f": at some pose no leg forces balance all of load {k + 1}"))

@@ -17,14 +17,13 @@ from ninedof.cli.posed import rule_option
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.design.study import Study
 from ninedof.motion import Followed, Trajectory, follow
-from ninedof.motion.tables import legs_table, limits_table, motion_words
+from ninedof.motion.tables import drives_table, legs_table, limits_table, motion_words
 from ninedof.records.folder import run_folder
 from ninedof.records.motion import plain, write_motion
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.sheet.duty import weight_of
+from ninedof.sheet.duty import masses_of
 from ninedof.sheet.path_limits import PathLimits, path_limits
-from ninedof.sheet.request import Weight
 from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
 
@@ -76,7 +75,7 @@ class PathOptions(JobOptions):
     force: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Force on the platform at its origin.")] = None
     moment: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Moment on the platform.")] = None
     mass: Annotated[
-        float | None, typer.Option(help="Mass of the platform: its weight is added to the load; of the study.")
+        float | None, typer.Option(help="Mass of the platform: weight and inertia are added to the load; of the study.")
     ] = None
     centre: Annotated[
         Three | None, typer.Option(metavar="X Y Z", help="Its centre in the frame of the plate; of the study.")
@@ -105,28 +104,46 @@ def path(options: PathOptions) -> None:
     trajectory = _trajectory(chosen, options)
     limits: Any = chosen.leg_limits() if options.legs is None else options.legs
     how: dict[str, Any] = {"internal_point": _rule(options.internal_point, study), "limits": limits}
-    weight = weight_of(chosen.duty, options.mass, options.centre, options.gravity)
+    masses = masses_of(chosen.duty, options.mass, options.centre)
+    gravity = chosen.duty.loads.gravity if options.gravity is None else options.gravity
+    force, moment, stated = _load(options, chosen.duty)
     question = {
         "geometry": triples(g),
         "home": arrays_of(home),
         **unit_entry(chosen.unit),
         **how,
-        "force": options.force,
-        "moment": options.moment,
-        **({} if weight is None else {"weight": weight._asdict()}),
+        "force": force,
+        "moment": moment,
+        **({} if masses is None else {"masses": masses.to_dict(), "gravity": gravity}),
     }
     if options.file:
         question["file"] = str(options.file)
     else:
         question |= options.shapes | {"duration": trajectory.time[-1], "points": len(trajectory)}
-    load = _with_weight(options.force, options.moment, weight, trajectory)
     with run_folder(options.out) as directory, Store(directory, {"kind": "motion", **question}):
         length = chosen.characteristic_length
-        result = follow(g, trajectory, home, **how, characteristic_length=length, load=load)
+        result = follow(
+            g,
+            trajectory,
+            home,
+            **how,
+            characteristic_length=length,
+            load=(force, moment),
+            masses=masses,
+            gravity=gravity,
+        )
     of_study = path_limits(study, result, home) if study else None
     motion = plain(result, of_study)
-    parts: list[Any] = [legs_table(motion), *([limits_table(motion)] if motion.get("limits") else [])]
+    drives = drives_table(motion)
+    parts: list[Any] = [
+        legs_table(motion),
+        *([] if drives is None else [drives]),
+        *([limits_table(motion)] if motion.get("limits") else []),
+    ]
     parts += [bold(*words) for words in motion_words(result, motion)]
+    if masses is not None and options.mass is None:
+        stated = [*stated, "[masses]"]
+    parts += [f"from the study: {', '.join(stated)}"] if stated else []
 
     def write(draw: Any) -> Path:
         return write_motion(result, directory, draw, question, of_study)
@@ -157,14 +174,13 @@ def _trajectory(chosen: Chosen, options: PathOptions) -> Trajectory:
     return trajectory
 
 
-def _with_weight(
-    force: Three | None, moment: Three | None, weight: Weight | None, trajectory: Trajectory
-) -> tuple[Any, Any]:
-    """Return force and moment at each pose, with the weight of the platform where it is known."""
-    if weight is None:
-        return force, moment
-    own = weight.wrench(trajectory.rotation)
-    return own[:, 3:] + np.array(force or np.zeros(3)), own[:, :3] + np.array(moment or np.zeros(3))
+def _load(options: PathOptions, duty: Study) -> tuple[Three | None, Three | None, list[str]]:
+    """Return force and moment of the options, or of the first load of a study, and what the study states of them."""
+    wrenches = duty.loads.wrenches
+    if options.force is not None or options.moment is not None or not wrenches:
+        return options.force, options.moment, []
+    mx, my, mz, fx, fy, fz = wrenches[0]
+    return (fx, fy, fz), (mx, my, mz), [f"load 1 of {len(wrenches)} of [loads]"]
 
 
 def _rule(text: str | None, study: Study | None) -> str | float:

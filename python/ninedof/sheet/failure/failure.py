@@ -20,8 +20,9 @@ from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.failure.result import Failure, FreeLeg, LegLoad, LockedLegs
-from ninedof.sheet.region_look import PLACED, SAMPLES, RegionSearch, look_over
-from ninedof.sheet.sheet import Extreme, joined, load_rows, robot_of
+from ninedof.sheet.region_look import PLACED, SAMPLES, RegionSearch, joined, look_over
+from ninedof.sheet.request import load_rows, robot_of
+from ninedof.sheet.sheet import Extreme
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.statics import leg_forces
 from ninedof.support.arguments import finite, flag, whole

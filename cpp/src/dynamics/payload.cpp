@@ -1,0 +1,50 @@
+#include "ninedof/dynamics/payload.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "math/numbers.hpp"
+#include "ninedof/math/error.hpp"
+
+namespace ninedof {
+namespace {
+
+bool is_balanced(const LegForces& f) {
+  return f.unbalanced.moment.isZero(0.0) && f.unbalanced.force.isZero(0.0) && f.unbalanced.force_at_o.isZero(0.0);
+}
+
+double share(double per_mass, double room) {
+  if (room == infinity) return 0.0;
+  return room > 0.0 ? per_mass / room : infinity;
+}
+
+}  // namespace
+
+void validate(const PayloadLimits& limits) {
+  for (const Vec9* forces : {&limits.push, &limits.pull})
+    for (const double force : *forces)
+      if (!(force >= 0.0)) throw InvalidArgument("force", format_number(force), "numbers >= 0");
+  for (const double x : limits.centre) require_finite("centre", x);
+  for (const double x : limits.gravity) require_finite("gravity", x);
+}
+
+Vec18 payload_shares(const Geometry& g, const Configuration& c, const PayloadLimits& limits, const Load& without) {
+  const Vec3 arm = c.rotation * limits.centre;
+  const LegForces own = leg_forces(g, c, without);
+  const LegForces per_mass = leg_forces(g, c, {arm.cross(limits.gravity), limits.gravity, Vec3::Zero()});
+  if (!is_balanced(own) || !is_balanced(per_mass)) return Vec18::Constant(infinity);
+  Vec18 out;
+  for (Eigen::Index k = 0; k < 9; ++k) {
+    out[k] = share(per_mass.forces[k], limits.push[k] - own.forces[k]);
+    out[k + 9] = share(-per_mass.forces[k], limits.pull[k] + own.forces[k]);
+  }
+  return out;
+}
+
+double payload_of(const Vec18& shares) {
+  const double most = shares.maxCoeff();
+  if (most == infinity) return not_a_number;
+  return most > 0.0 ? 1.0 / most : infinity;
+}
+
+}  // namespace ninedof

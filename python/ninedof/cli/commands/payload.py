@@ -1,0 +1,74 @@
+"""`ninedof payload`: the largest payload for given leg forces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+
+from ninedof.cli.answer import Answer
+from ninedof.cli.chosen_design import named_design
+from ninedof.cli.options import LOAD, Design, Options, Three
+from ninedof.cli.posed import load_option
+from ninedof.cli.screen import DONE, NO_RESULT
+from ninedof.robot.leg_names import LEGS
+from ninedof.sheet.payload import Payload, largest_payload
+from ninedof.sheet.pose_words import vector_words
+from ninedof.tables import RIGHT, Column, Table, grouped
+
+PLACE = 4
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof payload runs/20260101-120000 --force 500
+
+  ninedof payload runs/20260101-120000 --force 500 --pull 200 --centre 0 0 40 --json | jq .mass"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PayloadOptions(Options):
+    """The options."""
+
+    design: Design
+    force: Annotated[
+        float, typer.Option(help="Greatest force of a leg, pushing, and pulling without --pull; N for kg.")
+    ]
+    pull: Annotated[float | None, typer.Option(help="Greatest force of a leg that pulls.")] = None
+    centre: Annotated[
+        Three | None,
+        typer.Option(metavar="X Y Z", help="Of the payload in the frame of the plate; its origin by default."),
+    ] = None
+    load: Annotated[list[str] | None, LOAD] = None
+
+
+def payload(options: PayloadOptions) -> Answer:
+    """Print the greatest mass on the platform that the legs hold at every pose.
+
+    Loads, masses and gravity of a run's study act besides it. A region is searched: no proof.
+    """
+    chosen = named_design(options.design)
+    loads = [load_option(text) for text in options.load] if options.load else None
+    centre = options.centre or (0.0, 0.0, 0.0)
+    found = largest_payload(chosen.result or chosen.design, options.force, options.pull, centre, loads)
+    return Answer(_parts(found), found.to_dict(), DONE if found.fits else NO_RESULT)
+
+
+def _parts(found: Payload) -> Iterator[Any]:
+    if not found.fits:
+        yield f"no payload: {found.leg} passes its limit ({found.side}) without one, at the pose below"
+    elif np.isinf(found.mass):
+        yield "no limit: no leg reaches its force under any payload"
+    else:
+        yield f"largest payload {found.mass:.6g}: {found.leg} reaches its limit ({found.side}) first"
+    if found.leg:
+        c = found.configuration
+        yield f"worst pose: p = {vector_words(c.position)}, O = {vector_words(c.internal_point)}"
+        rows = [(leg, f"{force:.5g}") for leg, force in zip(LEGS, found.forces, strict=True)]
+        under = "with the payload" if found.fits else "without a payload"
+        yield Table(
+            f"Leg forces there, {under}, + pushes", [Column("leg"), Column("force", "", RIGHT)], list(grouped(rows))
+        )
+    if found.region is not None:
+        yield f"searched, not proved: {found.region.looked_at} poses of the region looked at, {found.region.region}"

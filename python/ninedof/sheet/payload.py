@@ -1,0 +1,136 @@
+"""The largest payload of a machine over its poses or its region, for given leg forces."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.design.study import Study
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.leg_names import LEGS
+from ninedof.sheet.duty import masses_of
+from ninedof.sheet.region_look import SAMPLES, RegionSearch, has_region, joined, look_over_design
+from ninedof.sheet.request import load_rows, robot_of
+from ninedof.statics.dynamics import inverse_dynamics
+from ninedof.statics.masses import masses_for_core
+from ninedof.support.arguments import Vector, shown, vector, whole
+from ninedof.support.arrays import Floats, one_or_each
+from ninedof.support.short import short_repr
+
+MOST_SAMPLES = 10_000_000
+
+
+@short_repr
+class Payload(NamedTuple):
+    """The largest mass that the legs hold at every pose, and what limits it."""
+
+    mass: float
+    """0 where the machine passes a limit without any payload, infinite where no leg reaches one."""
+    fits: bool
+    """Whether the machine without the payload keeps the limits."""
+    leg: str
+    """The leg that reaches its limit first, "l1" to "r3"; "" where none does."""
+    side: str
+    """"push" or "pull"; "" where no leg reaches a limit."""
+    configuration: Configuration
+    """Where it does: the worst pose."""
+    forces: Floats
+    """Of the legs there under the payload, for the load that limits it; without it where it does not fit. (9,)."""
+    load: int
+    """The number of that load in `loads`, from 0."""
+    region: RegionSearch | None
+    """The search of the region; None for listed poses. It is a search and no proof."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything as plain values."""
+        c = self.configuration
+        pose = {"position": c.position, "rotation": c.rotation, "internal_point": c.internal_point}
+        search = None if self.region is None else self.region._asdict()
+        return {**self._asdict(), "configuration": pose, "region": search, "proved": False}
+
+
+def largest_payload(
+    design: Any,
+    force: ArrayLike,
+    pull: ArrayLike | None = None,
+    centre: Vector = (0.0, 0.0, 0.0),
+    loads: ArrayLike | None = None,
+    samples: int = SAMPLES,
+) -> Payload:
+    """Return the greatest mass on the platform such that no leg force passes a limit at any pose, at rest.
+
+    Leg forces are affine in the mass, so that the largest one at a pose has a closed form; over the region of a study
+    it is searched as the numbers of `sheet` are: a sample, and descents from the worst of it. That is no proof.
+
+    Parameters
+    ----------
+    design : Result, Candidate, DesignPoint or a design of a file
+        As for `sheet`. Loads, masses and gravity of its study act besides the payload.
+    force : float or array_like of shape (9,)
+        Greatest force with which a leg may push, for all legs or in the order of `leg_lengths`; in newtons for
+        kilograms and a gravity of 9.81.
+    pull : float or array_like of shape (9,), optional
+        Greatest force with which it may pull; `force` by default.
+    centre : (3,) floats
+        Centre of the payload in the frame of the plate; its origin by default.
+    loads : array_like, shape (6,) or (k, 6), optional
+        (moment about p, force) on the platform, base axes, each on its own beside the payload; those of the study by
+        default.
+    samples : int
+        Half of the poses of the sample of a region; 10000 by default.
+
+    Returns
+    -------
+    Payload
+
+    Raises
+    ------
+    ValueError
+        If there is no design, or an argument does not fit.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> machine = nd.Design(g, nd.Configuration.neutral(3.9828, 2.4432))
+    >>> payload = nd.largest_payload(machine, force=100.0)
+    >>> round(payload.mass, 3), payload.leg[0], payload.side
+    (18.0, 'r', 'push')
+
+    """
+    study = getattr(design, "solved", None)
+    duty = study or Study(**({"tool": design.tool} if hasattr(design, "tool") else {}))
+    g, c, _ = robot_of(design, None)
+    own = duty.loads.wrenches if loads is None else load_rows(loads)
+    rows = np.array(own).reshape(-1, 6) if len(own) else np.zeros((1, 6))
+    limits = [_limit(name, value) for name, value in (("force", force), ("pull", force if pull is None else pull))]
+    count = whole("samples", samples, 1, MOST_SAMPLES)
+    gravity, masses = duty.loads.gravity, masses_of(duty)
+    question = _core.SheetQuestion(g, c[0], loads=list(rows), gravity=gravity)
+    if masses is not None:
+        question.masses = masses_for_core(masses)
+    at = duty.tool.seen(vector("centre", centre))
+    question.payload = _core.PayloadLimits(push=limits[0], pull=limits[1], centre=at, gravity=gravity)
+    look = None
+    if has_region(design):
+        look, worst, _ = look_over_design(design, c[0], question, count)
+        c = joined(c, worst)
+    shares = _core.sheet_numbers(question, c)["payload"].reshape(len(c), len(rows), 2, 9)
+    pose, load, side, leg = (int(k) for k in np.unravel_index(int(np.argmax(shares)), shares.shape))
+    most = float(shares[pose, load, side, leg])
+    mass = 0.0 if most == np.inf else 1.0 / most if most > 0.0 else np.inf
+    down = np.asarray(gravity) * (mass if np.isfinite(mass) else 0.0)
+    wrench = rows[load] + np.concatenate([np.cross(c[pose].rotation @ np.asarray(at), down), down])
+    forces = inverse_dynamics(g, c[pose], masses=masses, gravity=gravity, load=wrench).forces
+    names = (LEGS[leg], ("push", "pull")[side]) if most > 0.0 else ("", "")
+    return Payload(mass, most < np.inf, *names, c[pose], forces, load, look)
+
+
+def _limit(name: str, value: ArrayLike) -> Floats:
+    limit = one_or_each(name, value, 9)
+    if limit.shape != (9,) or not (limit >= 0.0).all():
+        raise ValueError(f"{name}: got {shown(value)}, expected numbers >= 0, one or nine")
+    return limit

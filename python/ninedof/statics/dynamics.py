@@ -1,0 +1,100 @@
+"""Leg forces of a machine in motion: inverse dynamics in closed form."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.robot.configuration import Configuration, operands_with
+from ninedof.robot.geometry import Geometry
+from ninedof.statics.masses import GRAVITY, MassesOf, gravity_for_core, masses_for_core
+from ninedof.support.arrays import Floats
+from ninedof.support.short import short_repr
+from ninedof.support.units import metres, unit_argument
+
+
+@short_repr
+class InverseDynamics(NamedTuple):
+    """Leg forces for a motion; leading dimensions are those of configuration, motion and load."""
+
+    forces: Floats
+    """In the order of `leg_lengths`, positive if the leg pushes, shape (..., 9)."""
+    rates: Floats
+    """Of the legs, length/time, shape (..., 9)."""
+    power: Floats
+    """Force times rate, in watts with a length unit, positive where the actuator does work, shape (..., 9)."""
+    unbalanced: Floats
+    """The part that no leg forces balance, as `leg_forces` has it, shape (..., 9). Exactly 0 unless singular."""
+
+
+def inverse_dynamics(
+    geometry: Geometry,
+    configuration: Configuration,
+    velocity: ArrayLike = (0.0,) * 9,
+    acceleration: ArrayLike = (0.0,) * 9,
+    masses: MassesOf | None = None,
+    gravity: ArrayLike = GRAVITY,
+    load: ArrayLike = (0.0,) * 6,
+    unit: str = "",
+) -> InverseDynamics:
+    """Return the forces that the actuators exert in a motion, and their powers.
+
+    Virtual power: by d'Alembert every body acts on the machine with weight - mass times acceleration. What all of them
+    do in a motion (omega, pdot, sdot) is one load on platform and O, and H^T f + load = 0 as in `leg_forces`.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    velocity, acceleration : array_like, shape (..., 9)
+        Angular velocity of the platform (rad/time), velocities of its origin p and of O (length/time), base frame, and
+        their time derivatives, as `Followed.velocity` and `Followed.acceleration` have them. 0 by default: the forces
+        that hold the machine at rest.
+    masses : Masses, optional
+        None by default: the load alone.
+    gravity : array_like, shape (3,)
+        Force per mass, base axes; (0, 0, -9.81) by default.
+    load : array_like, shape (..., 6)
+        External load on the platform: moment about p and force, base axes; 0 by default.
+    unit : str
+        Name of the length unit. With one, masses are kilograms, times seconds, forces newtons and powers watts, and
+        moments newtons times the unit, so that gravity stays 9.81. "" by default: units that go together, where
+        gravity is an acceleration in the unit of length.
+
+    Returns
+    -------
+    InverseDynamics
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit.
+
+    Examples
+    --------
+    A platform of 5 kg that is lifted at 2 m/s^2:
+
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=0.58124, b1=0.29062, b2=0.0)
+    >>> c = nd.Configuration.neutral(0.39828, 0.24432)
+    >>> up = [0, 0, 0, 0, 0, 2, 0, 0, 2]
+    >>> motion = nd.inverse_dynamics(g, c, acceleration=up, masses=nd.Masses(platform=5.0))
+    >>> motion.forces.round(1)[[3, 6]]
+    array([29.1, 33.4])
+
+    """
+    name = unit_argument(unit)
+    bodies = _core.Masses() if masses is None else masses_for_core(masses, name)
+    shape, flat, rows = operands_with(
+        geometry, configuration, velocity=(velocity, 9), acceleration=(acceleration, 9), load=(load, 6)
+    )
+    motion = np.concatenate([*rows, np.zeros((len(rows[0]), 3))], axis=1)
+    out = _core.inverse_dynamics(*flat, motion, bodies, gravity_for_core(gravity, name), 0)
+    forces, rates, unbalanced = (out.reshape(*shape, 3, 9)[..., k, :].copy() for k in range(3))
+    with np.errstate(over="ignore", invalid="ignore"):  # infinite where it is no number of double precision
+        power = metres(name) * forces * rates
+    return InverseDynamics(forces, rates, power, unbalanced)

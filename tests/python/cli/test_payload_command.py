@@ -1,0 +1,72 @@
+"""`ninedof payload`, and what forces and paths take from a study with masses."""
+
+import json
+import shlex
+
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+
+DUTY = {
+    "loads": {"wrenches": [[0.0, 0.0, 0.0, 12.0, 0.0, 0.0]]},
+    "masses": {"platform": 1.0, "cylinder": 0.3, "cylinder_centre": 0.6, "rod": 0.1},
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": (2.3, 2.5)},
+        objective={"region": {"box": [0.3, 0.3, 0.3], "tilt_deg": 5.0}},
+        characteristic_length=1.0,
+        **DUTY,
+    )
+    folder = tmp_path_factory.mktemp("runs") / "machine"
+    nd.save(nd.optimize(study, starts=1), folder)
+    return folder
+
+
+@pytest.fixture
+def run(capsys):
+    def line(words):
+        with pytest.raises(SystemExit) as end:
+            main(shlex.split(words))
+        return end.value.code, capsys.readouterr().out
+
+    return line
+
+
+def test_the_payload(folder, run):
+    status, out = run(f"payload {folder} --force 60 --json")
+    assert status == 0
+    data = json.loads(out)
+    assert data["mass"] == pytest.approx(nd.largest_payload(nd.load(folder), 60.0).mass, rel=1e-12)
+    assert data["proved"] is False
+    assert "searched, not proved" in run(f"payload {folder} --force 60")[1]
+    status, out = run(f"payload {folder} --force 1")
+    assert status == 3
+    assert "no payload" in out
+
+
+def test_forces_and_paths_have_the_masses_of_the_study(folder, run, tmp_path):
+    machine = nd.load(folder)
+    wrench = DUTY["loads"]["wrenches"][0]
+    data = json.loads(run(f"forces {folder} --json")[1])
+    expected = nd.inverse_dynamics(machine.geometry, machine.configuration, masses=machine.study.masses, load=wrench)
+    assert data["forces"][0][0] == pytest.approx(expected.forces.tolist(), abs=1e-9)
+    status, out = run(f"path {folder} --line 0.1 0 0.1 --points 51 --no-figures --json --out {tmp_path / 'along'}")
+    assert status == 0
+    legs = json.loads(out)["motion"]["legs"]
+    assert legs["r1"]["work"] > 0.0
+    line = nd.Trajectory.line(machine.configuration, (0.1, 0.0, 0.1), points=51)
+    load = (wrench[3:], wrench[:3])
+    motion = nd.follow(machine.geometry, line, machine.configuration, "shifted", load=load, masses=machine.study.masses)
+    assert [legs[leg]["rms"] for leg in legs] == pytest.approx(motion.drives["rms"].tolist(), rel=1e-12)
+
+
+def test_legs_that_never_carry_are_named(run, tmp_path):
+    hexagons = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    nd.save(nd.Design(hexagons, nd.Configuration.neutral(3.9828, 2.4432)), tmp_path / "design.toml")
+    out = " ".join(run(f"forces {tmp_path / 'design.toml'} --load '0 0 0 0 0 -100'")[1].split())
+    assert "never carry load 1: l1, l2, l3; no force closes their play" in out

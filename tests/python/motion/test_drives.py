@@ -1,0 +1,112 @@
+"""Forces, powers and work of the legs along a path: against energies and integrals written in numpy."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import ninedof as nd
+from ninedof.motion.tables import drives_table, motion_words
+from ninedof.tables.plain import plain
+
+HOME = nd.Configuration.neutral(3.9828, 2.4432)
+MASSES = nd.Masses(
+    platform=4.0,
+    centre=(0.1, -0.2, 0.3),
+    inertia=(1.0, 1.2, 1.5, 0.1, 0.0, 0.2),
+    cylinder=0.8,
+    rod=0.5,
+    cylinder_centre=0.9,
+    rod_centre=0.7,
+    cylinder_inertia=0.2,
+    rod_inertia=0.1,
+    internal_point=0.3,
+)
+
+
+@pytest.fixture(scope="module")
+def lifted():
+    """From rest to rest, sideways and up; O goes a way of its own."""
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    line = nd.Trajectory.line(HOME, (0.5, 0.2, 0.4), duration=2.0, points=2001)
+    return nd.follow(g, line, HOME, 0.5, masses=MASSES)
+
+
+def test_forces_are_those_of_inverse_dynamics(lifted):
+    expected = nd.inverse_dynamics(lifted.geometry, lifted.configurations, lifted.velocity, lifted.acceleration, MASSES)
+    assert_allclose(lifted.leg_forces, expected.forces, rtol=1e-12, atol=1e-12)
+    assert_allclose(lifted.leg_powers, expected.power, rtol=1e-12, atol=1e-12)
+
+
+def test_work_from_rest_to_rest_is_the_change_of_height(lifted):
+    """The actuators' net work is mass times 9.81 times the rise of each body: no kinetic energy is left."""
+    drives = lifted.drives
+    net = drives["work"].sum() - drives["returned"].sum()
+    g, ends = lifted.geometry, (lifted.configurations[0], lifted.configurations[-1])
+
+    def potential(c):
+        tops = [c.position + c.rotation @ u for u in g.platform_external]
+        lows = [c.position + c.rotation @ u for u in g.platform_internal]
+        o = c.internal_point
+        legs = [*zip(g.base_external, tops, strict=True), *((a, o) for a in (*lows, *g.base_internal))]
+        height = 4.0 * (c.position + c.rotation @ MASSES.centre)[2] + 0.3 * o[2]
+        for start, end in legs:
+            e = (end - start) / np.linalg.norm(end - start)
+            height += 0.8 * (start + 0.9 * e)[2] + 0.5 * (end - 0.7 * e)[2]
+        return 9.81 * height
+
+    assert net == pytest.approx(potential(ends[1]) - potential(ends[0]), rel=1e-5)
+
+
+def test_figures_of_drives(lifted):
+    drives, f = lifted.drives, lifted.leg_forces
+    assert_allclose(drives["push"], np.maximum(f.max(axis=0), 0.0))
+    assert_allclose(drives["pull"], np.maximum(-f.min(axis=0), 0.0))
+    assert_allclose(drives["rms"], np.sqrt(np.trapezoid(f**2, lifted.time, axis=0) / 2.0), rtol=1e-5)
+    power = f * lifted.leg_rates
+    assert_allclose(drives["power"], np.maximum(power.max(axis=0), 0.0))
+    assert_allclose(drives["work"], np.trapezoid(np.maximum(power, 0.0), lifted.time, axis=0), rtol=1e-4, atol=1e-9)
+    assert_allclose(drives["returned"], np.trapezoid(np.maximum(-power, 0), lifted.time, axis=0), rtol=1e-4, atol=1e-9)
+
+
+def test_newtons_watts_and_joules_in_any_unit():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+
+    def moved(unit, size):
+        larger = nd.Geometry(
+            *(
+                size * getattr(g, name)
+                for name in ("base_external", "base_internal", "platform_external", "platform_internal")
+            )
+        )
+        home = nd.Configuration.neutral(size * 3.9828, size * 2.4432)
+        line = nd.Trajectory.line(home, (0.5 * size, 0.2 * size, 0.4 * size), points=101, unit=unit)
+        masses = nd.Masses(platform=4.0, cylinder=0.8, cylinder_centre=0.9 * size, cylinder_inertia=0.2 * size**2)
+        return nd.follow(larger, line, home, 0.5, masses=masses)
+
+    metres, millimetres = moved("m", 1.0), moved("mm", 1000.0)
+    assert metres.force_unit == "N"
+    for name, values in metres.drives.items():
+        assert_allclose(millimetres.drives[name], values, rtol=1e-6, atol=1e-6 * np.abs(values).max())
+
+
+def test_the_table_names_units_and_legs_that_never_carry(published):
+    line = nd.Trajectory.line(HOME, (0.0, 0.0, 0.4), points=51, unit="m")
+    lift = nd.follow(published, line, HOME, masses=nd.Masses(platform=2.0))
+    assert lift.unloaded_legs == ("l1", "l2", "l3")
+    text = plain(drives_table(lift.to_dict()))
+    assert "power" in text
+    assert "(W)" in text
+    words = [sentence for _, sentence in motion_words(lift, lift.to_dict())]
+    assert any("never carry load: l1, l2, l3" in sentence for sentence in words)
+    bare = nd.follow(published, line, HOME)
+    assert bare.drives == {}
+    assert bare.leg_powers is None
+    assert bare.unloaded_legs == ()
+    assert drives_table(bare.to_dict()) is None
+
+
+def test_a_saved_motion_keeps_its_forces(lifted, tmp_path):
+    nd.save(lifted, tmp_path / "motion.npz")
+    again = nd.load(tmp_path / "motion.npz")
+    assert_allclose(again.leg_powers, lifted.leg_powers, rtol=0.0, atol=0.0)
+    assert again.force_unit == lifted.force_unit
