@@ -493,7 +493,7 @@ def fit_rule(
 class Candidate:
     variables: _Floats
     objective: float
-    condition_number: float
+    neutral_condition_number: float
     conditions: tuple[float, ...]
     characteristic_length: float
     active: tuple[str, ...]

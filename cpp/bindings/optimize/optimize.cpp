@@ -32,7 +32,7 @@ void bind_results(py::module_& m) {
   py::class_<Candidate>(m, "Candidate", "A local optimum and the results of its checks.")
       .def_readonly("variables", &Candidate::variables, "A full set, in the order of the names of the problem.")
       .def_readonly("objective", &Candidate::objective)
-      .def_readonly("condition_number", &Candidate::condition_number, "At the neutral pose.")
+      .def_readonly("neutral_condition_number", &Candidate::condition_number, "At the neutral pose.")
       .def_property_readonly("conditions", tuple_of(&Candidate::conditions), "At each evaluated pose.")
       .def_readonly("characteristic_length", &Candidate::characteristic_length)
       .def_property_readonly("active", tuple_of(&Candidate::active), "Active bounds and constraints, by name.")

@@ -6,11 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-import numpy as np
-
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.design.duty import Tool
-from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables
@@ -48,20 +45,9 @@ class Chosen(NamedTuple):
         return self.study or Study(tool=self.tool)
 
     @property
-    def leg_ranges(self) -> tuple[tuple[float, float], ...]:
-        """The length that each leg keeps where O is placed in the region of the study; nothing for others."""
-        report = None if self.result is None else self.result.region
-        return () if report is None else report.leg_ranges
-
-    def leg_limits(self) -> tuple[Floats, Floats] | None:
-        """Return the least and greatest length of each leg, of the study and of its ranges; None without a study."""
-        if self.study is None:
-            return None
-        low, high = leg_limits_of(self.study, self.configuration)
-        if self.leg_ranges:
-            least, most = np.transpose(self.leg_ranges)
-            low, high = np.maximum(low, least), np.minimum(high, most)
-        return low, high
+    def permitted_lengths(self) -> tuple[Floats, Floats] | None:
+        """The least and greatest length of each leg by its study; None without one."""
+        return None if self.result is None else self.result.permitted_lengths
 
 
 def named_design(name: str | None) -> Chosen:

@@ -18,10 +18,12 @@ from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import finite
+from ninedof.support.arguments import choice, finite
 from ninedof.workspace.certified import GAPS, require_certifiable
 from ninedof.workspace.region_share import box_about
 from ninedof.workspace.study_question import (
+    ACTUATOR_WORDS,
+    ACTUATORS,
     box_around,
     built_ranges,
     narrowed,
@@ -81,6 +83,13 @@ class WorkspaceOptions(JobOptions):
     study_limits: Annotated[
         bool, typer.Option("--study-limits/--no-study-limits", help="Take the limits of the run's study.")
     ] = True
+    actuators: Annotated[
+        str,
+        typer.Option(
+            help="Legs of a study that compares lengths: permitted (as long as its limits leave them), or needed (as "
+            "its poses need them)."
+        ),
+    ] = ACTUATORS[0]
     angle_deg: Annotated[float | None, typer.Option(help="Region: rotations of at most this angle.")] = None
     tilt_deg: Annotated[float | None, typer.Option(help="Region: tilts of at most this angle.")] = None
     torsion_deg: Annotated[float | None, typer.Option(help="Region: torsions of at most this angle.")] = None
@@ -127,6 +136,8 @@ class Question:
     """The region of the study."""
     proof: dict[str, Any] | None
     """Gap and time of the proof; None without one."""
+    actuators: str
+    """How long the legs are that a study compares, in words; "" without such."""
 
 
 def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
@@ -136,11 +147,14 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     numbers = _present(options, CRITERIA)
     values = {CRITERIA[name]: _radians(name, x) if name.endswith("_deg") else x for name, x in numbers.items()}
     criteria, own, left = criteria_of(study if options.study_limits else None, chosen.geometry, home, values)
-    if options.study_limits and compare_poses(left, values):
-        built = built_ranges(chosen.geometry, home, region, chosen.leg_ranges)
+    choice("--actuators", options.actuators, ACTUATORS)
+    words = ""
+    if chosen.result is not None and options.study_limits and compare_poses(left, values):
+        built = built_ranges(chosen.result, options.actuators)
         if built is not None:
             criteria = narrowed(criteria, *built)
             own.discard("leg_limits")
+            words = ACTUATOR_WORDS[options.actuators]
     if not criteria:
         raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
     if options.method == "grid":
@@ -166,7 +180,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     if chosen.unit:
         keywords["unit"] = chosen.unit
     proof = _proof(options, keywords["internal_point"])
-    return Question(keywords | _place(options, chosen, region), own, left, region, proof)
+    return Question(keywords | _place(options, chosen, region), own, left, region, proof, words)
 
 
 def criteria_of(

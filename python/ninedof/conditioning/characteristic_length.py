@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, Flat, operands
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite, shown
 from ninedof.support.arrays import Floats, as_floats
@@ -16,12 +17,13 @@ from ninedof.support.arrays import Floats, as_floats
 KINDS = ("optimal", "natural", "mean_leg", "platform_radius")
 
 
+@takes_designs
 def characteristic_length(geometry: Geometry, configuration: Configuration, kind: str = "optimal") -> Any:
     """Return the length that makes the Jacobian homogeneous, computed from the robot.
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     kind : {"optimal", "natural", "mean_leg", "platform_radius"}

@@ -10,11 +10,13 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import operands_and_length
 from ninedof.robot.configuration import Configuration
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats, filled, thread_argument
 
 
+@takes_designs
 def singular_values(
     geometry: Geometry,
     configuration: Configuration,
@@ -29,12 +31,11 @@ def singular_values(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     characteristic_length : float, array_like of shape (...), or str
-        Length l_c > 0, or a kind as in `characteristic_length`; 1 by default; a Result and a Design have their own,
-        `result.characteristic_length`.
+        Length l_c > 0, or a kind as in `characteristic_length`; 1 by default, of a design its own.
     threads : int, optional
         Number of threads; one per processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
@@ -51,6 +52,7 @@ def singular_values(
     return _index(_core.singular_values, *poses, threads, out, (6,))  # type: ignore[no-any-return]
 
 
+@takes_designs
 def axis_singular_values(
     geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0
 ) -> Floats:
@@ -62,13 +64,12 @@ def axis_singular_values(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
         Every joint triple a C3 orbit about z.
     configuration : Configuration
         Shape (...); position and internal point on z, rotation about z.
     characteristic_length : float, array_like of shape (...), or str
-        Length l_c > 0, or a kind as in `characteristic_length`; 1 by default; a Result and a Design have their own,
-        `result.characteristic_length`.
+        Length l_c > 0, or a kind as in `characteristic_length`; 1 by default, of a design its own.
 
     Returns
     -------
@@ -85,6 +86,7 @@ def axis_singular_values(
     return _core.axis_singular_values(*poses, 0).reshape(*configuration.shape, 6)
 
 
+@takes_designs
 def condition_number(
     geometry: Geometry,
     configuration: Configuration,
@@ -97,12 +99,11 @@ def condition_number(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     characteristic_length : float, array_like of shape (...), or str
-        Length l_c > 0, or a kind as in `characteristic_length`; 1 by default; a Result and a Design have their own,
-        `result.characteristic_length`.
+        Length l_c > 0, or a kind as in `characteristic_length`; 1 by default, of a design its own.
     norm : {"2", "frobenius"}
         "2": sigma_max / sigma_min, eq. (2), 1 at best. "frobenius": |J'|_F |J'^+|_F, eq. (4) with the Frobenius norm
         and the pseudo-inverse, 6 at best.
@@ -130,6 +131,7 @@ def condition_number(
     )
 
 
+@takes_designs
 def reciprocal_condition_number(
     geometry: Geometry,
     configuration: Configuration,
@@ -144,6 +146,7 @@ def reciprocal_condition_number(
     return _index(_core.reciprocal_condition_number, geometry, configuration, characteristic_length, threads, out)
 
 
+@takes_designs
 def manipulability(
     geometry: Geometry,
     configuration: Configuration,
@@ -159,6 +162,7 @@ def manipulability(
     return _index(_core.manipulability, geometry, configuration, characteristic_length, threads, out)
 
 
+@takes_designs
 def isotropy_residual(
     geometry: Geometry,
     configuration: Configuration,

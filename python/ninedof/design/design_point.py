@@ -29,7 +29,7 @@ class DesignPoint:
     """Those of the family, then "characteristic_length" and offsets of O, where they are free; angles in radians."""
     objective: float
     """The value of the study's objective; infinite where J' is singular."""
-    condition_number: float
+    neutral_condition_number: float
     """Of J' at the neutral configuration; infinite where it is singular."""
     conditions: tuple[float, ...]
     """Condition number at each pose of the objective."""
@@ -59,6 +59,11 @@ class DesignPoint:
         slopes = {name: Fixed(slope) for name, slope in self.margin_gradients.items()}
         object.__setattr__(self, "margin_gradients", Fixed(slopes))
 
+    @property
+    def condition_number(self) -> float:
+        """The worst condition number over the poses of the objective; without any, that at the neutral one."""
+        return max(self.conditions)
+
 
 def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:
     """Evaluate one full vector of variables."""
@@ -70,7 +75,7 @@ def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:
     return DesignPoint(
         variables=dict(zip(names, x, strict=True)),
         objective=objective,
-        condition_number=infinite_if_singular(core["condition_number"]),
+        neutral_condition_number=infinite_if_singular(core["condition_number"]),
         conditions=tuple(infinite_if_singular(k) for k in core["conditions"]),
         characteristic_length=core["characteristic_length"],
         gradient=dict(zip(names, slope.tolist(), strict=True)),

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import operands_and_length
 from ninedof.robot.configuration import Configuration, operands
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, filled, thread_argument
 from ninedof.support.short import short_repr
@@ -35,6 +36,7 @@ class VelocityMatrices(NamedTuple):
     """[1 0 0; 0 -1 C B^-1], shape (..., 6, 9); NaN in the last block where det B = 0. Eq. (35a)."""
 
 
+@takes_designs
 def leg_lengths(
     geometry: Geometry, configuration: Configuration, threads: int | None = None, out: Floats | None = None
 ) -> Floats:
@@ -42,7 +44,7 @@ def leg_lengths(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         One configuration or a stack of shape (...).
     threads : int, optional
@@ -68,6 +70,7 @@ def leg_lengths(
     return lengths  # type: ignore[no-any-return]  # an array: the shape is never ()
 
 
+@takes_designs
 def velocity_matrices(
     geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0
 ) -> VelocityMatrices:
@@ -77,7 +80,7 @@ def velocity_matrices(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     characteristic_length : float, array_like of shape (...), or str
@@ -96,12 +99,13 @@ def velocity_matrices(
     return VelocityMatrices(*matrices)
 
 
+@takes_designs
 def jacobian(geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0) -> Floats:
     """Return J' = F^-1 G of eq. (36), in closed form.
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     characteristic_length : float, array_like of shape (...), or str

@@ -8,10 +8,12 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import resolve_length
 from ninedof.robot.configuration import Configuration, operands, operands_with
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
 
 
+@takes_designs
 def forward_velocity(
     geometry: Geometry, configuration: Configuration, leg_rates: ArrayLike
 ) -> tuple[Floats, Floats, Floats]:
@@ -19,7 +21,7 @@ def forward_velocity(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     leg_rates : array_like, shape (..., 9)
@@ -40,6 +42,7 @@ def forward_velocity(
     return _three_vectors(_core.forward_velocity(*flat, rates, 0), shape)
 
 
+@takes_designs
 def inverse_velocity(
     geometry: Geometry,
     configuration: Configuration,
@@ -52,7 +55,7 @@ def inverse_velocity(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     omega, pdot : array_like, shape (..., 3)
@@ -98,6 +101,7 @@ def inverse_velocity(
     return _core.inverse_velocity(*flat, np.concatenate(velocity, axis=1), 0).reshape(*shape, 9)
 
 
+@takes_designs
 def internal_velocity(
     geometry: Geometry,
     configuration: Configuration,
@@ -112,7 +116,7 @@ def internal_velocity(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     omega, pdot : array_like, shape (..., 3)
@@ -150,6 +154,7 @@ def internal_velocity(
     return _core.internal_velocity(*flat, np.concatenate(twist, axis=1), weight, 0).reshape(*shape, 3)
 
 
+@takes_designs
 def null_motion(geometry: Geometry, configuration: Configuration) -> Floats:
     """Return the leg rates of the three null motions, in which the platform is at rest.
 
@@ -160,7 +165,7 @@ def null_motion(geometry: Geometry, configuration: Configuration) -> Floats:
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
 
@@ -184,6 +189,7 @@ def null_motion(geometry: Geometry, configuration: Configuration) -> Floats:
     return flat.reshape(*configuration.shape, 9, 3)
 
 
+@takes_designs
 def forward_acceleration(
     geometry: Geometry, configuration: Configuration, leg_rates: ArrayLike, leg_accelerations: ArrayLike
 ) -> tuple[Floats, Floats, Floats]:
@@ -191,7 +197,7 @@ def forward_acceleration(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     leg_rates : array_like, shape (..., 9)
@@ -230,6 +236,7 @@ def forward_acceleration(
     return _three_vectors(_core.forward_acceleration(*flat, rates, accelerations, 0), shape)
 
 
+@takes_designs
 def inverse_acceleration(
     geometry: Geometry,
     configuration: Configuration,
@@ -244,7 +251,7 @@ def inverse_acceleration(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     omega, pdot, sdot : array_like, shape (..., 3)
@@ -276,6 +283,7 @@ def inverse_acceleration(
     return _core.inverse_acceleration(*flat, velocity, acceleration, 0).reshape(*shape, 9)
 
 
+@takes_designs
 def jacobian_rate(
     geometry: Geometry,
     configuration: Configuration,
@@ -290,7 +298,7 @@ def jacobian_rate(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     omega, pdot, sdot : array_like, shape (..., 3)

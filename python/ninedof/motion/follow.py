@@ -15,6 +15,7 @@ from ninedof.motion.trajectory import Trajectory
 from ninedof.redundancy.redundancy import leg_limits
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration, operands_with, single
+from ninedof.robot.designs import HasRobot, robot_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.robot.idle import idle_names, unloaded_names
 from ninedof.robot.leg_names import LEGS
@@ -228,12 +229,12 @@ def stretches(
 
 
 def follow(
-    geometry: Geometry,
+    geometry: Geometry | HasRobot,
     trajectory: Trajectory,
-    home: Configuration,
-    internal_point: str | float = "carried",
+    home: Configuration | None = None,
+    internal_point: str | float | None = None,
     limits: tuple[ArrayLike, ArrayLike] | None = None,
-    characteristic_length: float | str = 1.0,
+    characteristic_length: float | str | None = None,
     load: tuple[ArrayLike | None, ArrayLike | None] = (None, None),
     masses: MassesOf | None = None,
     gravity: ArrayLike = GRAVITY,
@@ -246,10 +247,12 @@ def follow(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
+        A design stands for its geometry, its home and its characteristic length, a Result also for the leg lengths
+        that its study permits and for the rule for O of its region.
     trajectory : Trajectory
     home : Configuration
-        The neutral configuration, a single one: it says where O is.
+        The neutral configuration, a single one: it says where O is. Needed with a Geometry.
     internal_point : {"carried", "shifted", "held", "best"} or float
         O along the trajectory. "carried", the default: as a point of the platform, so that O keeps its side of the
         upper internal joints on every trajectory; while the platform does not turn, the upper internal legs do not
@@ -261,8 +264,8 @@ def follow(
         Least and greatest leg lengths, each a number or shape (9,). None by default. They are reported, and respected
         by "best" only.
     characteristic_length : float or str
-        Length l_c of the condition number, or a kind of `characteristic_length`, taken at home; 1 by
-        default; a Result and a Design have their own, `result.characteristic_length`.
+        Length l_c of the condition number, or a kind of `characteristic_length`, taken at home; 1 by default, of a
+        design its own.
     load : (force, moment), optional
         On the platform at its origin, base axes, for the leg forces: each of shape (3,) or (n, 3), or None.
     masses : Masses, optional
@@ -294,18 +297,30 @@ def follow(
 
     """
     instance("trajectory", trajectory, Trajectory)
-    single(geometry, home, "home")
     rule, lc = internal_point, characteristic_length
+    if isinstance(geometry, Geometry):
+        g = geometry
+    else:
+        g, home = robot_of(geometry), geometry.configuration if home is None else home
+        limits = getattr(geometry, "permitted_lengths", None) if limits is None else limits
+        lc = geometry.characteristic_length if lc is None else lc
+        study = getattr(geometry, "study", None)
+        region = None if study is None else study.objective.region
+        rule = region.internal_point if rule is None and region is not None else rule
+    rule, lc = "carried" if rule is None else rule, 1.0 if lc is None else lc
+    if home is None:
+        raise ValueError("home: got none, expected the neutral configuration of a Geometry")
+    single(g, home, "home")
     rule = choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
     lc = float(length_of(geometry, home, lc)) if isinstance(lc, str) else as_number("characteristic_length", lc)
     time, p, q = trajectory.time, trajectory.position, trajectory.rotation
-    bounds, loads = leg_limits(limits), _loads(geometry, trajectory, *pair("load", load, "force and moment"))
+    bounds, loads = leg_limits(limits), _loads(g, trajectory, *pair("load", load, "force and moment"))
     bodies = None if masses is None else masses_for_core(masses, trajectory.unit)
     down = gravity_for_core(gravity, trajectory.unit)
-    motion = _core.follow(geometry, home, time, p, q, rule, bounds, lc, loads, bodies, down)
+    motion = _core.follow(g, home, time, p, q, rule, bounds, lc, loads, bodies, down)
     poses, margins, forces = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
     return Followed(
-        geometry=geometry,
+        geometry=g,
         trajectory=trajectory,
         configurations=Configuration(p, q, motion.pop("internal_point")),
         internal_point=rule,

@@ -142,7 +142,7 @@ def _of_design(result: Result) -> Iterator[Finding]:
     point = result.solved.evaluate(best.variables)
     yield _robot(result, point)
     conditions = _conditions(point)
-    claims = np.append(np.asarray(best.conditions, dtype=np.float64), best.condition_number)
+    claims = np.append(np.asarray(best.conditions, dtype=np.float64), best.neutral_condition_number)
     figure = _difference(conditions, claims) if conditions.shape == claims.shape else math.inf
     ends = f"{conditions.min():.6f} to {conditions.max():.6f}"
     sentence = f"{len(conditions)} by the general path, {ends}: differences up to {figure:.1e}"

@@ -173,14 +173,14 @@ def _proved(result: Result, threads: int, progress: Progress | None, pieces: Pie
     Where the proof leaves limits out, the optimum of the study without them is what it can come up to. After Ctrl-C the
     result is `interrupted`.
     """
-    study, best = result.study, float(result.condition_number)  # type: ignore[arg-type]
+    study, best = result.study, float(result.neutral_condition_number)  # type: ignore[arg-type]
     left_out = {label.removesuffix(" at neutral").removesuffix(".min") for label in left_out_of(study)}
     if left_out:
         others = {name: limit for name, limit in study.constraints.items() if name not in left_out}
         relaxed = _optimized(replace(study, constraints=others), threads, progress, warm_variables(result), pieces)
         if relaxed.interrupted:
             return replace(result, interrupted=True)
-        best = min(best, relaxed.condition_number or best)
+        best = min(best, relaxed.neutral_condition_number or best)
     if progress is not None:
         phase(progress, "proving that no design is better")
 

@@ -8,6 +8,9 @@ from enum import StrEnum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+import numpy as np
+
+from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.pose import rule_words
 from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
@@ -25,6 +28,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.robot.idle import idle_names
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arguments import choice, finite, instance, items
+from ninedof.support.arrays import Floats
 from ninedof.support.progress import progress_argument
 from ninedof.support.short import short_repr
 from ninedof.support.structs import Fixed, entries_of, from_core
@@ -63,10 +67,10 @@ class Candidate:
 
     objective: float
     """The value of the study's objective."""
-    condition_number: float
+    neutral_condition_number: float
     """At the neutral pose."""
     conditions: tuple[float, ...]
-    """Condition number at each pose of the objective."""
+    """Condition number at each pose of the objective; where it has none, at the neutral pose."""
     characteristic_length: float
     variables: dict[str, float]
     """Those of the family, then "characteristic_length" and offsets of O, where they are free; angles in radians."""
@@ -91,6 +95,14 @@ class Candidate:
         """Make what is there by name unchangeable, as all else is."""
         for name in ("variables", "prices"):
             object.__setattr__(self, name, Fixed(getattr(self, name)))
+
+    @property
+    def condition_number(self) -> float:
+        """The worst condition number over the poses of the study; of a region over the poses that ruled.
+
+        It is what a study asks for that minimizes the worst; `Result.objective` is the value of another objective.
+        """
+        return max(self.conditions)
 
     def to_dict(self) -> dict[str, Any]:
         """Return every field as plain values, but for the robot and its poses, which follow from the variables."""
@@ -168,7 +180,10 @@ class Result:
         return self.starts_done - self.runs_abandoned if self.runs_completed is None else self.runs_completed
 
     objective = _OfBest(lambda c: c.objective, "Objective of the best candidate.")
-    condition_number = _OfBest(lambda c: c.condition_number, "Condition number of the best candidate, neutral pose.")
+    condition_number = _OfBest(
+        lambda c: c.condition_number, "Worst condition number of the best candidate over the poses of the study."
+    )
+    neutral_condition_number = _OfBest(lambda c: c.neutral_condition_number, "The same at its neutral pose alone.")
     conditions = _OfBest(lambda c: c.conditions, "Its condition numbers at the poses of the objective.")
     characteristic_length = _OfBest(lambda c: c.characteristic_length, "Characteristic length of the best candidate.")
     variables = _OfBest(lambda c: c.variables, "Variables of the best candidate by name, angles in radians.")
@@ -230,6 +245,21 @@ class Result:
         if not self.candidates:
             return notebook(f"{self.status}: {self.reason}", f"causes: {', '.join(self.causes) or 'none found'}")
         return notebook(f"{self.status}: {self.reason}", candidates_table(self))
+
+    @property
+    def permitted_lengths(self) -> tuple[Floats, Floats] | None:
+        """Least and greatest length of each leg, shapes (9,), None without a design.
+
+        By the limits of the study on lengths and, where placing O over a region is permitted a range for each leg,
+        within that; 0 and infinity where nothing limits it.
+        """
+        if self.best is None:
+            return None
+        low, high = leg_limits_of(self.study, self.best.configuration)
+        if self.region is not None and self.region.leg_ranges:
+            least, most = np.transpose(self.region.leg_ranges)
+            low, high = np.maximum(low, least), np.minimum(high, most)
+        return low, high
 
     def sheet(self, poses: Configuration | None = None, **options: Any) -> Sheet:
         """Return the engineering sheet of the best candidate: `ninedof.sheet` with its arguments."""
@@ -295,7 +325,7 @@ class Result:
         objective = self.study.objective
         value = f"{self.words} {best.objective:.6f}"
         if objective.index != "condition_number" or objective.poses or objective.region is not None:
-            value += f"; condition number {best.condition_number:.6f} at the neutral pose"
+            value += f"; condition number {best.neutral_condition_number:.6f} at the neutral pose"
         if len(best.conditions) > 1:
             value += f", {min(best.conditions):.6f} to {max(best.conditions):.6f} over the poses"
         lines.append(value)

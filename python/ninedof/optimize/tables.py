@@ -48,7 +48,7 @@ def _index_lines(result: Any) -> Iterator[Line]:
     yield Line(result.words, [c.objective for c in candidates], ".6f")
     if objective.index == "condition_number" and not objective.poses and objective.region is None:
         return
-    yield Line("neutral condition number", [c.condition_number for c in candidates], ".6f")
+    yield Line("neutral condition number", [c.neutral_condition_number for c in candidates], ".6f")
     if len(result.solved.objective.poses) > 1 and objective.region is None:
         yield Line("worst over the poses", [max(c.conditions) for c in candidates], ".6f")
         yield Line("best over the poses", [min(c.conditions) for c in candidates], ".6f")

@@ -93,7 +93,8 @@ class Front:
         Returns
         -------
         list of dict
-            limit (in `unit`); status and reason; objective, condition_number (at the neutral pose), price, active,
+            limit (in `unit`); status and reason; objective, condition_number, the worst over the poses, and
+            neutral_condition_number; price; active;
             variables (angles in radians) of the best design, None where there is none; dominated. `active` leaves out
             the swept limit where its price is 0: the best design without the limit just meets it.
 
@@ -105,6 +106,7 @@ class Front:
             active = best and [name for name in best.active if name != self.limit_name or price != 0.0]
             row: dict[str, Any] = {"limit": limit, "status": str(result.status), "reason": result.reason}
             row |= {"objective": best and best.objective, "condition_number": best and best.condition_number}
+            row["neutral_condition_number"] = best and best.neutral_condition_number
             row |= {"price": price, "active": active, "variables": best and dict(best.variables), "dominated": flat}
             rows.append(row)
         return rows
@@ -144,7 +146,10 @@ def front_table(front: Front) -> Table:
         (
             str(number),  # RUN#1 names the first
             limit_text(front, row["limit"]),
-            *(None if row["objective"] is None else row[key] for key in ("objective", "condition_number", "price")),
+            *(
+                None if row["objective"] is None else row[key]
+                for key in ("objective", "neutral_condition_number", "price")
+            ),
             _row_words(front, row),
         )
         for number, row in enumerate(front.table(), start=1)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, broadcast_flat, operands
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats, as_floats, thread_argument
@@ -111,6 +112,7 @@ class AssemblyModes(Solutions):
         return f"<{self.count} assembly modes: {self.status}{', ' + self.reason if self.reason else ''}>"
 
 
+@takes_designs
 def forward_position(geometry: Geometry, leg_lengths: ArrayLike, threads: int | None = None) -> AssemblyModes:
     """Return every configuration that has the given leg lengths: all real assembly modes, up to 32.
 
@@ -122,7 +124,7 @@ def forward_position(geometry: Geometry, leg_lengths: ArrayLike, threads: int | 
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     leg_lengths : array_like, shape (..., 9)
         l1 l2 l3 q1 q2 q3 r1 r2 r3, the order of eq. (35b), >= 0, in the length unit of the geometry.
     threads : int, optional
@@ -246,6 +248,7 @@ class Tracked(Solutions):
         return f"<{self.status}: {super().__repr__()}>"
 
 
+@takes_designs
 def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, threads: int | None = None) -> Tracked:
     """Return the assembly mode reached from `start` when the leg lengths change along a straight path.
 
@@ -258,7 +261,7 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     leg_lengths : array_like
         Shape (..., 9), broadcast against `start`: one step each. With one dimension more than `start` has, shape
         (..., n, 9): a trajectory of n steps, each from the configuration of the one before.

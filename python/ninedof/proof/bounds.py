@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import operands_and_length
 from ninedof.robot.configuration import Configuration, operands
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, broadcast_leading, thread_argument, without_infinity
 from ninedof.support.short import short, short_repr
@@ -42,6 +43,7 @@ class DeterminantBounds(NamedTuple):
     """Of the upper internal legs, shape (...)."""
 
 
+@takes_designs
 def condition_number_bounds(
     geometry: Geometry,
     configuration: Configuration,
@@ -56,7 +58,7 @@ def condition_number_bounds(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     characteristic_length : float, array_like of shape (...), or str
@@ -96,6 +98,7 @@ def condition_number_bounds(
     return _at_poses("condition_number_bounds", (), geometry, configuration, characteristic_length, threads)
 
 
+@takes_designs
 def axis_condition_number_bounds(
     geometry: Geometry,
     configuration: Configuration,
@@ -109,7 +112,7 @@ def axis_condition_number_bounds(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
         Every joint triple a C3 orbit about z, to 1e-9 of its size.
     configuration : Configuration
         Shape (...); position and internal point on z, rotation about z.
@@ -184,6 +187,7 @@ def hexagonal_condition_number_bounds(
     return _split(rows, shape, ())
 
 
+@takes_designs
 def singular_value_bounds(
     geometry: Geometry,
     configuration: Configuration,
@@ -198,6 +202,7 @@ def singular_value_bounds(
     return _at_poses("singular_value_bounds", (6,), geometry, configuration, characteristic_length, threads)
 
 
+@takes_designs
 def jacobian_bounds(
     geometry: Geometry,
     configuration: Configuration,
@@ -212,6 +217,7 @@ def jacobian_bounds(
     return _at_poses("jacobian_bounds", (6, 9), geometry, configuration, characteristic_length, threads)
 
 
+@takes_designs
 def leg_length_bounds(geometry: Geometry, configuration: Configuration, threads: int | None = None) -> Bounds:
     """Return numbers between which the nine leg lengths lie with certainty.
 
@@ -222,6 +228,7 @@ def leg_length_bounds(geometry: Geometry, configuration: Configuration, threads:
     return _split(rows, configuration.shape, (9,))
 
 
+@takes_designs
 def determinant_bounds(
     geometry: Geometry, configuration: Configuration, threads: int | None = None
 ) -> DeterminantBounds:

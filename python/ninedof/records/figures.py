@@ -47,7 +47,8 @@ def figures_of(run: Result | Comparison, say: Say, convergence: bool = False) ->
         objective = run.study.objective
         title = "optimum at the neutral pose" if objective.poses or objective.region is not None else "optimum"
         designs = [
-            (title, c.geometry, c.configuration, c.condition_number, c.characteristic_length) for c in candidates
+            (title, c.geometry, c.configuration, c.neutral_condition_number, c.characteristic_length)
+            for c in candidates
         ]
         result, compared = run, {}
     else:
@@ -181,7 +182,7 @@ def _over_poses(result: Result) -> list[DesignCurves]:
     index, _, over = study.words.partition(" over ")
     if result.region is not None:
         over = f"the {len(result.region.poses)} poses that ruled the region"
-    kappa = [[point.condition_number for point in points] for points in along]
+    kappa = [[point.neutral_condition_number for point in points] for points in along]
     passed = [[min(point.margins.values(), default=0.0) < -1e-6 for point in points] for points in along]
     curves = DesignCurves(
         name=f"{index} over {over}",

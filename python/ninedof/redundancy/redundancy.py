@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.robot.configuration import Configuration
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, instance, pair
 from ninedof.support.arrays import Floats, as_floats, as_number, one_or_each, thread_argument
@@ -70,6 +71,7 @@ class InternalPoint:
     "q1 low" and "r3 high" are limits of legs, "det B" the clearance from a singularity."""
 
 
+@takes_designs
 def best_internal_point(
     geometry: Geometry,
     position: ArrayLike,
@@ -91,7 +93,7 @@ def best_internal_point(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     position : array_like, shape (..., 3)
         Origin p of the platform, length units, base frame.
     rotation : array_like, shape (..., 3, 3), or scipy.spatial.transform.Rotation
@@ -105,8 +107,7 @@ def best_internal_point(
     limits : (low, high), optional
         Least and greatest leg lengths, each a number or shape (9,) in the order of `leg_lengths`. None by default.
     characteristic_length : float
-        Length l_c of the condition number; 1 by default; a Result and a Design have their own,
-        `result.characteristic_length`.
+        Length l_c of the condition number; 1 by default, of a design its own.
     start : array_like, shape (..., 3), optional
         A point of the chamber to search. By default midway between the centroids of the internal joints of base and
         platform.
@@ -145,6 +146,7 @@ def best_internal_point(
     return InternalPoint(**point_fields(shape, p, q, points))
 
 
+@takes_designs
 def best_internal_path(
     geometry: Geometry,
     position: ArrayLike,
@@ -167,7 +169,7 @@ def best_internal_path(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     position : array_like, shape (n, 3)
         The path of the platform origin, in order.
     rotation : array_like, shape (n, 3, 3), or scipy.spatial.transform.Rotation

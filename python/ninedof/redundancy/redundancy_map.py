@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.redundancy.redundancy import InternalPoint, PointOptions, point_fields, poses_of, problem_of, starts_of
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import thread_argument
@@ -55,6 +56,7 @@ class MapOptions(PointOptions, total=False):
 MAP_DEFAULTS = {"characteristic_length": 1.0, "seed_every": 256, "audit_every": 512, "audit_seed": 0}
 
 
+@takes_designs
 def best_internal_map(
     geometry: Geometry,
     position: ArrayLike,
@@ -77,7 +79,7 @@ def best_internal_map(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     position : array_like, shape (n0, ..., nk, 3)
         The grid: poses next to each other along an axis are near each other, in position and rotation. A list (n, 3) is
         a grid of one axis, in the order given. Use more seeds if neighbours are far apart.

@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from ninedof.design.limit_numbers import SPREADS
 from ninedof.optimize.result import Result
 from ninedof.redundancy.rules import WORDS, where_o
 from ninedof.report.scene import numbers
 from ninedof.support.arrays import Floats
 from ninedof.workspace import WorkspaceMap, workspace
 from ninedof.workspace.question_words import criterion_words
-from ninedof.workspace.study_question import study_question
+from ninedof.workspace.study_question import box_around, study_question
 
 MOST = 100_000  # points of the raster: at most about 46 along each side
 TOLERANCE = 0.02  # of the volume of a quick workspace
@@ -64,8 +65,8 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
     best, unit = result.best, result.study.unit
     assert best is not None
     try:
-        question = study_question(result)
-        keywords = question.asked
+        keywords, left = study_question(result)
+        keywords["box"] = box_around(best.configuration, result.study.tool)
         if keywords["internal_point"] == "best":
             return None, f"The workspace with O placed anew at every position takes minutes: {how}."
         if not keywords["criteria"]:
@@ -73,7 +74,6 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
         search = partial(
             workspace,
             best.geometry,
-            home=best.configuration,
             tolerance=TOLERANCE,
             most_evaluations=EVALUATIONS,
             progress=stop,
@@ -98,8 +98,8 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
         f"Workspace: positions of the platform in the orientation of the neutral pose, within {'; '.join(limits)}. "
         f"O is {o}. "
     )
-    if question.left:
-        note += f"Not among them: {', '.join(question.left).replace('_', ' ')}. "
+    if left := [name.replace("_", " ") for name in left if name in SPREADS]:
+        note += f"Not among them: {', '.join(left)}. "
     if whole.box_limits:
         note += "It ends at the box looked at and is larger. "
     return body, f"{note}A coarse search: {how} with its volume and its error."

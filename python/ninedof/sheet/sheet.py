@@ -14,7 +14,7 @@ from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.duty import Tool
-from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_limits, leg_limits_of
+from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_limits
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
@@ -333,7 +333,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     numbers = _core.sheet_numbers(question, c)
     kappa = numbers["condition_number"][:, 0] if "condition_number" in numbers else np.full(len(c), np.inf)
     determinants = _determinants(g, c)
-    legs = zip(leg_rows(g, c, numbers), _permitted(study, c[0], ranges), strict=True)
+    legs = zip(leg_rows(g, c, numbers), _permitted(design), strict=True)
     return Sheet(
         geometry=g,
         configurations=c,
@@ -363,16 +363,9 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     )
 
 
-def _permitted(
-    study: Study | None, home: Configuration, ranges: Sequence[tuple[float, float]] | None
-) -> Sequence[tuple[float, float] | None]:
+def _permitted(design: Any) -> Sequence[tuple[float, float] | None]:
     """Return the lengths that a study leaves each leg, None for all where nothing limits a leg."""
-    low, high = np.zeros(9), np.full(9, np.inf)
-    if study is not None:
-        low, high = leg_limits_of(study, home)
-    if ranges:
-        least, most = np.transpose(ranges)
-        low, high = np.maximum(low, least), np.minimum(high, most)
+    low, high = getattr(design, "permitted_lengths", None) or (np.zeros(9), np.full(9, np.inf))
     limited = low.any() or np.isfinite(high).any()
     return list(zip(low.tolist(), high.tolist(), strict=True)) if limited else (None,) * 9
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands, single
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_number, checked_out, thread_argument
 from ninedof.support.short import short_repr
@@ -57,6 +58,7 @@ class Singularity(NamedTuple):
     """Displacement of the internal point in it, length, shape (..., 3)."""
 
 
+@takes_designs
 def singularity_margins(
     geometry: Geometry, configuration: Configuration, threads: int | None = None, out: Floats | None = None
 ) -> SingularityMargins:
@@ -69,7 +71,7 @@ def singularity_margins(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     threads : int, optional
@@ -100,12 +102,13 @@ def singularity_margins(
     return _margins(flat.reshape(-1, 3), configuration.shape)
 
 
+@takes_designs
 def singularity(geometry: Geometry, configuration: Configuration, threads: int | None = None) -> Singularity:
     """Return the weakest mechanism, and the motion that locked legs resist least.
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     threads : int, optional
@@ -144,12 +147,13 @@ def singularity(geometry: Geometry, configuration: Configuration, threads: int |
     return Singularity(_margins(flat[:, :3], shape), smallest, mechanisms_of(flat[:, 6], shape), omega, pdot, sdot)
 
 
+@takes_designs
 def uncontrolled_motions(geometry: Geometry, configuration: Configuration, tolerance: float = 1e-9) -> Floats:
     """Return every independent motion that changes no leg length.
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         One configuration.
     tolerance : float

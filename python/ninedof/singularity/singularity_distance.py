@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration, operands, operands_with
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.singularity.singularity import mechanism_of, mechanisms_of
 from ninedof.support.arguments import choice, finite, whole
@@ -35,6 +36,7 @@ class SingularityDistance(NamedTuple):
     """False where the path is free up to `distance` and undecided beyond; shape (...)."""
 
 
+@takes_designs
 def distance_to_singularity(
     geometry: Geometry,
     configuration: Configuration,
@@ -51,7 +53,7 @@ def distance_to_singularity(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     direction : array_like, shape (..., 9)
@@ -112,6 +114,7 @@ class NearestSingularity(NamedTuple):
     """The singular configuration; the given one where none was found."""
 
 
+@takes_designs
 def nearest_singularity(
     geometry: Geometry,
     configuration: Configuration,
@@ -128,7 +131,7 @@ def nearest_singularity(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         A single one or a stack of shape (n,); of a stack the nearest of all is returned.
     part : {"position", "rotation", "internal_point"}

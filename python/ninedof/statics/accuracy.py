@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, Operands, operands, operands_with, single
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats, one_or_each, thread_argument
@@ -33,6 +34,7 @@ class ErrorBounds(NamedTuple):
     """Covariance of (rotation, p, s) for independent uniform errors within the tolerances, shape (..., 9, 9)."""
 
 
+@takes_designs
 def error_map(geometry: Geometry, configuration: Configuration) -> Floats:
     """Return the change of (rotation, p, s) per unit of error in the nine leg lengths: H^-1 of eqs. (24)-(26).
 
@@ -41,7 +43,7 @@ def error_map(geometry: Geometry, configuration: Configuration) -> Floats:
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
 
@@ -56,6 +58,7 @@ def error_map(geometry: Geometry, configuration: Configuration) -> Floats:
     return _core.error_map(*operands(geometry, configuration), 0).reshape(*configuration.shape, 9, 9)
 
 
+@takes_designs
 def error_bounds(
     geometry: Geometry, configuration: Configuration, leg_errors: ArrayLike = 0.0, joint_errors: ArrayLike = 0.0
 ) -> ErrorBounds:
@@ -69,7 +72,7 @@ def error_bounds(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     leg_errors : float or array_like of shape (..., 9)
@@ -108,6 +111,7 @@ def error_bounds(
     return ErrorBounds(out[..., :9].copy(), rotation, position, internal_point, covariance.copy())
 
 
+@takes_designs
 def error_samples(
     geometry: Geometry,
     configuration: Configuration,
@@ -125,7 +129,7 @@ def error_samples(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         The intended configuration, a single one.
     leg_errors : float or array_like of shape (9,)

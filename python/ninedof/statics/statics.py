@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import operands_and_length
 from ninedof.robot.configuration import Configuration, operands_with, single
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, flag
 from ninedof.support.arrays import Floats, one_or_each
@@ -29,6 +30,7 @@ class LegForces(NamedTuple):
     """The part that no leg forces balance: moment, force and force at O, shape (..., 9). Exactly 0 unless singular."""
 
 
+@takes_designs
 def leg_forces(
     geometry: Geometry,
     configuration: Configuration,
@@ -44,7 +46,7 @@ def leg_forces(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     moment, force : array_like, shape (..., 3)
@@ -77,12 +79,13 @@ def leg_forces(
     return LegForces(out[..., 0, :].copy(), out[..., 1, :].copy())
 
 
+@takes_designs
 def self_stress(geometry: Geometry, configuration: Configuration) -> Floats:
     """Return the leg forces that are in equilibrium without a load: the null space of H^T.
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         A single one.
 
@@ -111,6 +114,7 @@ def self_stress(geometry: Geometry, configuration: Configuration) -> Floats:
     return _core.self_stress(*single(geometry, configuration))
 
 
+@takes_designs
 def stiffness(
     geometry: Geometry, configuration: Configuration, leg_stiffness: ArrayLike, internal: bool = False
 ) -> Floats:
@@ -125,7 +129,7 @@ def stiffness(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     leg_stiffness : float or array_like of shape (..., 9)
@@ -172,6 +176,7 @@ class Ellipsoid(NamedTuple):
     """Descending, shape (..., n)."""
 
 
+@takes_designs
 def velocity_ellipsoid(
     geometry: Geometry,
     configuration: Configuration,
@@ -185,7 +190,7 @@ def velocity_ellipsoid(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     part : {"translation", "rotation", "twist"}
@@ -214,6 +219,7 @@ def velocity_ellipsoid(
     return _ellipsoid("velocity", part, geometry, configuration, characteristic_length)
 
 
+@takes_designs
 def force_ellipsoid(
     geometry: Geometry,
     configuration: Configuration,
@@ -227,7 +233,7 @@ def force_ellipsoid(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
     configuration : Configuration
         Shape (...).
     part : {"translation", "rotation", "twist"}

@@ -12,6 +12,7 @@ from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.indices import What, indices_of
 from ninedof.robot.configuration import Configuration, single
+from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.angles import DEG, in_radians, plain_name
 from ninedof.support.arguments import choice, finite, flag, known_keys, shown
@@ -62,6 +63,7 @@ class DesignOptions(GridOptions, total=False):
     family: str
 
 
+@takes_designs
 def sweep(
     geometry: Geometry,
     home: Configuration,
@@ -97,8 +99,8 @@ def sweep(
         ("carried"), from where swept x_s, y_s, z_s displace it; or the point of least condition number
         (`best_internal_map`, over blocks of some 2000 points; NaN where no position is admissible). "held" by default.
     characteristic_length : float or str
-        A number, or a kind of `ninedof.characteristic_length`, taken at each configuration; 1 by
-        default; a Result and a Design have their own, `result.characteristic_length`.
+        A number, or a kind of `ninedof.characteristic_length`, taken at each configuration; 1 by default, of a
+        design its own.
     executor : concurrent.futures.Executor, optional
         Where the chunks are computed: threads, processes, or a cluster by Dask's `Client.get_executor()`. In this
         process by default. The values are the same, bit for bit. The executor handles lost workers: Dask repeats their

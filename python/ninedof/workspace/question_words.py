@@ -56,7 +56,7 @@ def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> It
         kinds = {"all": slice(0, 9)} if np.ptp(low) == 0.0 and len(set(high.tolist())) == 1 else KINDS
         if any(len(set(end[legs].tolist())) > 1 for end in (low, high) for legs in KINDS.values()):
             ranges = (f"{leg} {a:.6g} to {b:.6g}" for leg, a, b in zip(LEG_NAMES, low, high, strict=True))
-            needs = "legs as the region needs them"
+            needs = "legs as the study has them"
             yield needs if brief else amount(f"{needs}: {', '.join(ranges)}", unit)
             return
         for kind, legs in kinds.items():

@@ -13,6 +13,7 @@ from ninedof import _core
 from ninedof.design.indices import What, indices_of
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.robot.configuration import Configuration
+from ninedof.robot.designs import HasRobot, robot_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown, whole
 from ninedof.support.arrays import as_number, thread_argument
@@ -23,6 +24,7 @@ from ninedof.workspace.cells import WorkspaceCells
 from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
 from ninedof.workspace.question import question_of
 from ninedof.workspace.statistics import statistics_of
+from ninedof.workspace.study_question import design_question
 
 METHODS = ("octree", "grid", "sample")
 POINTS = 16384
@@ -35,18 +37,18 @@ COORDINATES = {
 
 
 def workspace(
-    geometry: Geometry,
+    geometry: Geometry | HasRobot,
     box: tuple[ArrayLike, ArrayLike] | None = None,
     *,
     archetype: str = "constant_orientation",
     criteria: Mapping[str, Any] | None = None,
-    internal_point: ArrayLike | str | Mapping[str, ArrayLike] = 0.5,
+    internal_point: ArrayLike | str | Mapping[str, ArrayLike] | None = None,
     rotation: Any = None,
     position: ArrayLike | None = None,
     region: Mapping[str, Any] | None = None,
     orientations: Any = None,
     home: Configuration | None = None,
-    characteristic_length: float = 1.0,
+    characteristic_length: float | None = None,
     method: str = "octree",
     tolerance: float = 1e-3,
     resolution: int | None = None,
@@ -69,7 +71,10 @@ def workspace(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
+        A design stands for its geometry, its home pose, its characteristic length and its unit. A Result stands for
+        the limits of its study too, as `ninedof workspace RUN` has them: the actuators are as long as the study
+        permits, O follows its rule, and the box is about its region. What is given beside it counts instead.
     box : (low, high), each array_like, shape (3,)
         Positions p of the platform to search, length units, base frame. Not for "orientation".
     archetype : str
@@ -90,7 +95,8 @@ def workspace(
           signs they have there. By cells: pieces closer than one of the smallest cells count as one.
     internal_point : float, array_like, mapping or "best"
         The rule for O. A number: that fraction of the way from the centroid of the lower to that of the upper internal
-        joints, half by default. Shape (3,): fixed in the base. {"platform": (3,)}: fixed in the platform. "best": the
+        joints, half by default, of a Result as its study has it. Shape (3,): fixed in the base. {"platform": (3,)}:
+        fixed in the platform. "best": the
         point of least condition number within the leg limits, by `best_internal_map` at the corners of the first cells
         and by continuation from two points around it elsewhere.
     rotation : array_like, shape (3, 3), or scipy.spatial.transform.Rotation, optional
@@ -107,8 +113,7 @@ def workspace(
     home : Configuration, optional
         The home pose, with its O. The middle of the box or region by default, with O by the rule.
     characteristic_length : float
-        Of the condition number, length units; 1 by default; a Result and a Design have their own,
-        `result.characteristic_length`.
+        Of the condition number, length units; 1 by default, of a design its own.
     method : {"octree", "grid", "sample"}
         "grid" judges resolution^3 cells by their centres. "sample" counts points of a low-discrepancy sequence with
         random shifts.
@@ -167,6 +172,7 @@ def workspace(
 
     """
     arguments = {
+        "box": box,
         "archetype": archetype,
         "criteria": criteria,
         "internal_point": internal_point,
@@ -176,11 +182,17 @@ def workspace(
         "orientations": orientations,
         "home": home,
         "characteristic_length": characteristic_length,
+        "unit": unit,
     }
-    question = question_of(geometry, box, arguments)
+    own: dict[str, Any] = {"internal_point": 0.5, "characteristic_length": 1.0}
+    if not isinstance(geometry, Geometry):
+        own |= design_question(geometry, archetype)
+        geometry = robot_of(geometry)
+    arguments |= {name: value for name, value in own.items() if arguments[name] is None}
+    unit = unit_argument(arguments.pop("unit"))
+    question = question_of(geometry, arguments.pop("box"), arguments)
     progress_argument(progress)
     choice("method", method, METHODS)
-    unit = unit_argument(unit)
     indices = () if index is None else indices_of(index)
     searched = question.rule.kind == "best"
     if indices and archetype not in ("constant_orientation", "orientation"):

@@ -4,57 +4,82 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ninedof import _core
+from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, LEGS, PARTS, SPREADS
 from ninedof.design.region import Region
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
-from ninedof.optimize.result import Candidate, Result
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
+from ninedof.robot.designs import HasRobot, robot_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
 from ninedof.workspace.question import ROWS
-from ninedof.workspace.region_share import EASE, leg_ranges_over
+from ninedof.workspace.region_share import EASE, box_about, leg_ranges_over
 
-Ranges = tuple[tuple[float, float], ...]
-
-
-class StudyQuestion(NamedTuple):
-    """A workspace for `study_question`."""
-
-    asked: dict[str, Any]
-    """Arguments of `workspace`: criteria, box, rotation, rule for O."""
-    left: tuple[str, ...]
-    """Limits of the study that compare poses, where no lengths of the legs stand for them."""
+ACTUATOR_WORDS = {
+    "permitted": "workspace of the actuators that the study permits: ranges about the lengths its poses need",
+    "needed": "workspace of the lengths that the poses of the study need",
+}
+ACTUATORS = tuple(ACTUATOR_WORDS)
 
 
-def study_question(result: Result) -> StudyQuestion:
-    """Return the positions that the best design reaches in its neutral orientation within the limits of its study.
+def study_question(result: Result, actuators: str = ACTUATORS[0]) -> tuple[dict[str, Any], list[str]]:
+    """Return arguments of `workspace` for a result: its positions in the neutral orientation within its study's limits.
 
     The same limits and the same rule for O as `ninedof workspace RUN` has; the box holds all that a home height
-    reaches.
+    reaches. Beside them the limits of the study that no single pose can meet.
     """
-    best: Candidate = result.best  # type: ignore[assignment]
-    g, home, region = best.geometry, best.configuration, result.study.objective.region
-    limits, others = study_limits(result.study, g, home)
-    criteria, left = with_leg_limits(limits), tuple(name for name in others if name in SPREADS)
-    if left:
-        built = built_ranges(g, home, region, () if result.region is None else result.region.leg_ranges)
-        if built is not None:
-            criteria, left = narrowed(criteria, *built), ()
-    asked = {
-        "box": box_around(home, result.study.tool),
+    best, region = result.best, result.study.objective.region
+    assert best is not None
+    g, home = best.geometry, best.configuration
+    limits, left = study_limits(result.study, g, home)
+    criteria = with_leg_limits(limits)
+    if any(name in SPREADS for name in left) and (built := built_ranges(result, actuators)) is not None:
+        criteria, left = narrowed(criteria, *built), [name for name in left if name not in SPREADS]
+    arguments = {
+        "box": box_around(home, result.study.tool) if region is None else box_about(region, home),
         "rotation": home.rotation,
         "criteria": criteria,
         "internal_point": rule_of_region(g, home, region),
+        "home": home,
         "characteristic_length": best.characteristic_length,
+        "unit": result.study.unit or None,
     }
-    return StudyQuestion(asked, left)
+    return arguments, left
+
+
+def design_question(design: HasRobot, archetype: str) -> dict[str, Any]:
+    """Return the arguments of `workspace` that a design brings; of a result with the limits of its study.
+
+    Positions have a box about its region or its home, "orientation" has its home position.
+    """
+    if isinstance(design, Result):
+        robot_of(design)
+        own, _ = study_question(design)
+    else:
+        g, home, length = robot_of(design), design.configuration, design.characteristic_length
+        length = float(characteristic_length(g, home, length)) if isinstance(length, str) else length
+        own = {
+            "box": box_around(home, getattr(design, "tool", Tool())),
+            "rotation": home.rotation,
+            "home": home,
+            "characteristic_length": length,
+        }
+        own |= {"internal_point": rule_of_region(g, home, None), "unit": getattr(design, "unit", None)}
+    if archetype == "orientation":
+        own["position"] = own["home"].position
+        del own["box"]
+    elif archetype != "constant_orientation":
+        del own["rotation"]
+    return own
 
 
 def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[str, Any], list[str]]:
@@ -135,18 +160,32 @@ def leg_ranges(ranges: Mapping[str, tuple[float, float]]) -> tuple[Any, Any] | N
     )
 
 
-def built_ranges(
-    g: Geometry, home: Configuration, region: Region | None, ranges: Ranges
-) -> tuple[Floats, Floats] | None:
+def built_ranges(result: Result, actuators: str = ACTUATORS[0]) -> tuple[Floats, Floats] | None:
     """Return the lengths for which the legs are built, where a study compares those of several poses; None if unknown.
 
-    Over the region of the study, or from `ranges` where O is placed in it.
+    "needed": the lengths that the poses of the study need, over its region all of it. "permitted": the ranges about
+    them that its limits on strokes and ratios leave, so as long as the study lets an actuator be.
     """
-    if region is not None and places_o(region):
-        return leg_ranges_over(region, g, home)
-    if not ranges:
-        return None
-    low, high = np.transpose(ranges)
+    best, region = result.best, result.study.objective.region
+    assert best is not None
+    if region is not None and not places_o(region):
+        ranges = () if result.region is None else result.region.leg_ranges
+        if actuators == "needed":
+            ranges = tuple((leg.shortest, leg.longest) for leg in result.sheet().legs)
+        return _eased(*np.transpose(ranges)) if ranges else None
+    if region is not None:
+        lengths = np.array(leg_ranges_over(region, best.geometry, best.configuration))
+    else:
+        lengths = leg_lengths(best.geometry, best.configurations)
+    if actuators == "needed":
+        return _eased(lengths.min(axis=0), lengths.max(axis=0))
+    low, high = np.zeros(9), np.full(9, math.inf)
+    for _, least, most, _ in _core.leg_ranges(result.study.problem(), float(best.variables["zp"]), lengths):
+        low, high = np.maximum(low, least), np.minimum(high, most)
+    return _eased(low, high)
+
+
+def _eased(low: Floats, high: Floats) -> tuple[Floats, Floats]:
     return low * (1.0 - EASE), high * (1.0 + EASE)
 
 

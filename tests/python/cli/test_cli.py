@@ -52,7 +52,7 @@ def test_standard_output_is_json_only(run):
     status, out, err = run("--json --no-figures --threads 1")
     assert status == 0
     data = json.loads(out)
-    assert data["optimization"]["candidates"][0]["condition_number"] == pytest.approx(3.762659078596, rel=1e-9)
+    assert data["optimization"]["candidates"][0]["neutral_condition_number"] == pytest.approx(3.762659078596, rel=1e-9)
     assert [row["title"] for row in data["designs"]]
     assert Path(data["record"]).is_file()
     assert "3.762659" in err
@@ -126,7 +126,7 @@ def test_study_over_poses_shows_prices_and_poses(run):
     assert best["objective"] == pytest.approx(max(best["conditions"]), rel=1e-9)
     assert "radius_ratio" in best["prices"]
     evaluated = json.loads(run("evaluate run --json")[1])
-    assert evaluated["condition_number"] == pytest.approx(best["condition_number"], rel=1e-9)
+    assert evaluated["condition_number"] == pytest.approx(best["neutral_condition_number"], rel=1e-9)
 
 
 def test_a_run_never_overwrites_another(run):

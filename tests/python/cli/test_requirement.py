@@ -75,7 +75,7 @@ def test_five_commands(folder, monkeypatch, capsys):
     assert reach["region"]["share"] == 1.0
     assert reach["region"]["passed"] == []
     assert "100 % of it within these limits" in printed[3]
-    assert "legs as the region needs them: l1 " in printed[3]
+    assert "legs as the study has them: l1 " in printed[3]
     assert reach["workspace"]["volume"] > 80.0 * 80.0 * 40.0
     # the front is against the limit that is reached, and a looser limit is better
     assert front["front"]["against"] == "stroke_ratio"

@@ -139,11 +139,11 @@ def test_a_limit_on_the_neutral_condition_number_alone():
         starts=6,
     )
     free = nd.optimize(study).best
-    limit = 0.5 * (2.3430924 + free.condition_number)
+    limit = 0.5 * (2.3430924 + free.neutral_condition_number)
     objective = replace(study.objective, neutral_condition_limit=limit)
     found = nd.optimize(replace(study, objective=objective)).best
-    assert limit < free.condition_number
-    assert found.condition_number == pytest.approx(limit, rel=1e-8)
+    assert limit < free.neutral_condition_number
+    assert found.neutral_condition_number == pytest.approx(limit, rel=1e-8)
     assert found.active.count("condition_limit at neutral") == 1
     assert found.objective > free.objective
     # The margin and its gradient, by the number that the point itself has.
@@ -151,7 +151,7 @@ def test_a_limit_on_the_neutral_condition_number_alone():
     at = {name: value * (1.0 + 0.01 * k) for k, (name, value) in enumerate(free.variables.items())}
 
     def margin(variables):
-        return 1.0 - tight.evaluate(variables).condition_number / limit
+        return 1.0 - tight.evaluate(variables).neutral_condition_number / limit
 
     point = tight.evaluate(at)
     assert point.margins == {"condition_limit at neutral": pytest.approx(margin(at), abs=1e-13)}

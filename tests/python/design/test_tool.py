@@ -145,7 +145,7 @@ def test_a_tool_beside_the_axis_is_the_robot_made_by_hand():
     robot = numpy_model.Robot(g.base_external, g.base_internal, u, ut, p, q, s)
     assert np.allclose(numpy_model.lengths(robot), nd.leg_lengths(a.geometry, a.configurations), rtol=1e-13)
     kappa = numpy_model.condition_number(robot, 1.3)
-    assert np.allclose(kappa, [a.condition_number, *a.conditions], rtol=1e-10)
+    assert np.allclose(kappa, [a.neutral_condition_number, *a.conditions], rtol=1e-10)
     # The axis of the cone is in the frame of the plate, whose axes are q r^T.
     axis = (q @ r.T) @ (np.array([0.1, 0.2, -1.0]) / np.linalg.norm([0.1, 0.2, -1.0]))
     x, y, _, _, _ = numpy_model.legs(robot)

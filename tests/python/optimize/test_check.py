@@ -100,7 +100,7 @@ def moved(result, **shifts):
     for name, shift in shifts.items():
         variables[name] += shift
     point = study.evaluate(variables)
-    names = ("objective", "condition_number", "conditions", "geometry", "configuration", "configurations")
+    names = ("objective", "neutral_condition_number", "conditions", "geometry", "configuration", "configurations")
     return with_best(result, variables=variables, **{name: getattr(point, name) for name in names})
 
 
@@ -188,10 +188,12 @@ def failed(result, **options):
 
 def test_a_wrong_number_fails(paper):
     kappa = paper.condition_number
-    assert failed(with_best(paper, condition_number=kappa * (1 + 1e-7)), perturbations=0) == {"condition numbers"}
+    assert failed(with_best(paper, neutral_condition_number=kappa * (1 + 1e-7)), perturbations=0) == {
+        "condition numbers"
+    }
     assert failed(with_best(paper, objective=kappa * (1 - 1e-7)), perturbations=0) == {"objective"}
     assert failed(with_best(paper, conditions=(kappa, kappa)), perturbations=0) == {"condition numbers"}
-    assert failed(with_best(paper, condition_number=math.nan), perturbations=0) == {"condition numbers"}
+    assert failed(with_best(paper, neutral_condition_number=math.nan), perturbations=0) == {"condition numbers"}
 
 
 def test_another_geometry_fails(paper):

@@ -31,7 +31,9 @@ def test_properties_of_a_result_are_those_of_the_best_candidate(result):
     assert best.objective == pytest.approx(max(best.conditions))
     assert best.configurations.shape == (4,)
     assert best.configuration == best.configurations[0]
-    assert best.condition_number == pytest.approx(nd.condition_number(best.geometry, best.configuration))
+    assert best.neutral_condition_number == pytest.approx(nd.condition_number(best.geometry, best.configuration))
+    assert best.condition_number == result.condition_number == max(best.conditions)
+    assert result.neutral_condition_number == best.neutral_condition_number
     assert best.conditions == pytest.approx(nd.condition_number(best.geometry, best.configurations)[1:])
     assert result.confidence == min(1.0, best.reached / result.starts_done)
 

@@ -81,7 +81,18 @@ def test_prices_are_the_slope(front):
 def test_rows_have_all_fields(front):
     row = front.table()[1]
     assert set(row) == {
-        *("limit", "status", "reason", "objective", "condition_number", "price", "active", "variables", "dominated")
+        *(
+            "limit",
+            "status",
+            "reason",
+            "objective",
+            "condition_number",
+            "price",
+            "active",
+            "neutral_condition_number",
+            "variables",
+            "dominated",
+        )
     }
     assert row["status"] == "optimal"
     assert row["variables"] == front.results[1].variables

@@ -78,10 +78,10 @@ def test_a_region_study_is_drawn_over_its_region(tmp_path, monkeypatch):
     )
     (curves,) = _over_poses(result)
     zs, theta_z, objective = curves.point
-    assert objective == result.best.objective > result.best.condition_number
+    assert objective == result.best.objective > result.best.neutral_condition_number
     assert np.interp(zs, curves.zs, curves.along_zs) == pytest.approx(objective, rel=1e-3)
     assert np.interp(theta_z, curves.theta_z, curves.along_theta_z) == pytest.approx(objective, rel=1e-3)
-    assert np.interp(zs, curves.zs, curves.neutral[0]) == pytest.approx(result.best.condition_number, rel=1e-3)
+    assert np.interp(zs, curves.zs, curves.neutral[0]) == pytest.approx(result.best.neutral_condition_number, rel=1e-3)
     turned = curves.theta_z[100]  # the same machine with its platform's frame turned
     twisted = nd.Configuration.neutral(*result.best.configuration.position[2:], zs, turned)
     kappa = nd.condition_number(result.best.geometry, twisted)

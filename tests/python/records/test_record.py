@@ -106,7 +106,9 @@ def test_design_of_a_record_of_any_family(tmp_path, family):
     x = study.problem().starts(1, 0)[0].tolist()
     variables = dict(zip(study.problem().names, x, strict=True))
     point = study.evaluate(variables)
-    numbers = {name: getattr(point, name) for name in ("objective", "condition_number", "characteristic_length")}
+    numbers = {
+        name: getattr(point, name) for name in ("objective", "neutral_condition_number", "characteristic_length")
+    }
     lists = {"conditions": list(point.conditions), "active": [], "prices": {}}
     candidate = {"variables": variables, **numbers, **lists, "optimality_residual": 0.0, "constraint_violation": 0.0}
     found = {"status": "optimal", "reason": "", "causes": [], "evaluations": 1, "starts_done": 1, "seconds": 0.0}

@@ -47,7 +47,8 @@ LINES = {
     ],
     "atlas": ["--designs 10 --seed 0 --out {out} --no-report"],
     "workspace": [
-        "{design} --archetype constant_orientation --x -1:1 --y -1:1 --z 3:5 --legs 0.5,9 --external 0.5,9 "
+        "{design} --archetype constant_orientation --actuators needed --x -1:1 --y -1:1 --z 3:5 "
+        "--legs 0.5,9 --external 0.5,9 "
         "--upper 0.5,9 --lower 0.5,9 --condition 50 --base-cone-deg 80 --platform-cone-deg 80 --base-cone-axis 0,0,1 "
         "--platform-cone-axis 0,0,1 --clearance 0.01 --internal-point 0.5 --lc 1 --method octree --tolerance 0.9 "
         "--resolution 4 --seed 0 --index manipulability --threads 1 --out {out} --no-report",

@@ -51,7 +51,7 @@ def best(options: BestOptions) -> Answer:
     at = DesignAtPoses.at(options)
     at = replace(at, chosen=with_length(at.chosen, options.lc))
     chosen, c = at.chosen, at.c
-    limits: Any = chosen.leg_limits() if options.legs is None else options.legs
+    limits: Any = chosen.permitted_lengths if options.legs is None else options.legs
     length = length_at_home(chosen)
     how = {"criterion": options.criterion, "limits": limits, "characteristic_length": length}
     result = best_internal_point(chosen.geometry, c.position, c.rotation, **how, start=c.internal_point)

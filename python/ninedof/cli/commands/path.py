@@ -102,7 +102,7 @@ def path(options: PathOptions) -> None:
     chosen = with_length(named_design(options.design), options.lc)
     g, home, study = chosen.geometry, chosen.configuration, chosen.study
     trajectory = _trajectory(chosen, options)
-    limits: Any = chosen.leg_limits() if options.legs is None else options.legs
+    limits: Any = chosen.permitted_lengths if options.legs is None else options.legs
     how: dict[str, Any] = {"internal_point": _rule(options.internal_point, study), "limits": limits}
     masses = masses_of(chosen.duty, options.mass, options.centre)
     gravity = chosen.duty.loads.gravity if options.gravity is None else options.gravity

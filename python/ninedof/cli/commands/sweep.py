@@ -110,8 +110,8 @@ def sweep(job: Sweep) -> None:
             call = _over_poses(what, job, grid)
         else:
             _expect_none("in a sweep over designs", job, OF_POSES)
-            note = _note(what, "at the neutral pose alone")
             design, own = swept_design(what, job.sides, job.theta_z_deg, grid, job.lc)
+            note = _note(what, "at the neutral pose alone")
             own["chunk"] = job.chunk
             call = partial(sweep_designs, design, grid, job.index or "condition_number", **own)
     result, folder = job.compute(call, title)
