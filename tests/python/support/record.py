@@ -122,7 +122,7 @@ def designs():
         point = study.evaluate(x)
         out[f"design {n:02d}: margins"] = [point.margins[name] for name in sorted(point.margins)]
         out[f"design {n:02d}: gradients"] = [*flat(point.margin_gradients), *point.gradient.values()]
-        out[f"design {n:02d}: conditions"] = [point.objective, point.condition_number, *point.conditions]
+        out[f"design {n:02d}: conditions"] = [point.objective, point.neutral_condition_number, *point.conditions]
     return out
 
 
