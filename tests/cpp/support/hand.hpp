@@ -191,10 +191,10 @@ inline Range measured(const Limit& limit, const Design& d) {
             out.add(distance(a, b) / unit);
         }
     }
-  if (name == "base_cone" || name == "platform_cone")
+  if (name.starts_with("base_cone") || name.starts_with("platform_cone"))
     for (const Configuration& c : d.looked(limit))
-      for (std::size_t k = 0; k < 6; ++k) {
-        const bool platform = name == "platform_cone";
+      for (std::size_t k = name.ends_with("internal") ? 3 : 0; k < (name.ends_with("external") ? 3U : 6U); ++k) {
+        const bool platform = name.starts_with("platform");
         const std::size_t leg = k < 3 || platform ? k : k + 3;
         const auto away = [&](const Configuration& where) -> Vec3 {  // from the joint, in its body's frame
           const auto [from, to] = segments(g, where)[leg];

@@ -20,7 +20,8 @@ struct Evaluation {
     double value;  ///< 1 - limited / high or limited / low - 1; of a determinant limited - low
     Eigen::VectorXd gradient;
     double limited;  ///< what is limited, in the unit of the limit; its own digits where the margin has lost them
-    std::string part;  ///< the leg, the pair of legs or the determinant that reaches it; "" where the limit has no parts
+    std::string
+        part;  ///< the leg, the pair of legs or the determinant that reaches it; "" where the limit has no parts
   };
   std::vector<Margin> margins;  ///< the smallest of each constraint
 };

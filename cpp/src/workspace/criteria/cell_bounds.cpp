@@ -48,8 +48,7 @@ CellBounds::CellBounds(const Geometry& g, const WorkspaceDomain& domain, const C
       const Vec3& axis = body.axis[at_index(k - body.first)];
       ConedLeg one{line(leg_at(platform, k), sense_at(platform, k)), {}, platform};
       for (std::size_t r = 0; r < rotations_; ++r)
-        one.cone.emplace_back(
-            platform && chart.positional() ? domain.rotations[r] * axis : axis, body.angle);
+        one.cone.emplace_back(platform && chart.positional() ? Vec3(domain.rotations[r] * axis) : axis, body.angle);
       const bool limits_it = body.angle < std::numbers::pi;
       constant_.push_back(!(limits_it && moves(one, platform ? one.at[0].norm() : one.arm.norm())));
       if (!constant_.back()) cones_.push_back(std::move(one));
