@@ -155,6 +155,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
             criteria = narrowed(criteria, *built)
             own.discard("leg_limits")
             words = ACTUATOR_WORDS[options.actuators]
+            left = [name for name in left if name not in SPREADS]
     if not criteria:
         raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
     if options.method == "grid":
