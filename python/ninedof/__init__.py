@@ -79,6 +79,7 @@ from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_i
 from ninedof.report.report import report
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.sheet.allotment import tolerances_for
 from ninedof.sheet.failure.failure import failure
 from ninedof.sheet.failure.result import Failure
 from ninedof.sheet.path_limits import PathLimits, path_limits
@@ -248,6 +249,7 @@ __all__ = [
     "sweep",
     "sweep_designs",
     "sweep_figure",
+    "tolerances_for",
     "trace",
     "track",
     "uncontrolled_motions",

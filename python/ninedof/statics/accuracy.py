@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,10 +12,13 @@ from ninedof import _core
 from ninedof.robot.configuration import Configuration, Operands, operands, operands_with, single
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import whole
+from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import Floats, one_or_each, thread_argument
 from ninedof.support.short import short_repr
 
+DISTRIBUTIONS = ("uniform", "normal")
+NORMAL = np.repeat([math.sqrt(1.0 / 3.0), math.sqrt(5.0) / 3.0], [9, 12])
+"""Of legs and joints: uniform errors within such a share of the tolerances have the variances t^2/9 and rho^2/9."""
 MOST_SAMPLES = 10_000_000  # 720 MB of errors
 
 
@@ -31,7 +35,7 @@ class ErrorBounds(NamedTuple):
     internal_point: Any
     """Largest displacement of O, shape (...)."""
     covariance: Floats
-    """Covariance of (rotation, p, s) for independent uniform errors within the tolerances, shape (..., 9, 9)."""
+    """Covariance of (rotation, p, s) for independent errors, shape (..., 9, 9)."""
 
 
 @takes_designs
@@ -60,7 +64,11 @@ def error_map(geometry: Geometry, configuration: Configuration) -> Floats:
 
 @takes_designs
 def error_bounds(
-    geometry: Geometry, configuration: Configuration, leg_errors: ArrayLike = 0.0, joint_errors: ArrayLike = 0.0
+    geometry: Geometry,
+    configuration: Configuration,
+    leg_errors: ArrayLike = 0.0,
+    joint_errors: ArrayLike = 0.0,
+    distribution: str = "uniform",
 ) -> ErrorBounds:
     """Return first-order bounds and the covariance of the motion of platform and O for errors within tolerances.
 
@@ -81,13 +89,18 @@ def error_bounds(
         Largest distance of a joint centre from its nominal position; the same for all, or three for each triple in the
         order of `Geometry` (base external, base internal, platform external, platform internal). 0 by default. Errors
         of coincident joints are independent. The joint at O has no error: six legs meet in it exactly.
+    distribution : {"uniform", "normal"}
+        Of the errors behind the covariance, all independent. "uniform": anywhere within the tolerance alike, a leg in
+        its interval, a joint in its ball. "normal": the tolerance is three standard deviations, of a leg and of a joint
+        along each axis.
 
     Returns
     -------
     ErrorBounds
         Lengths in the unit of the input. The standard deviation of a component is the root of a diagonal entry of
-        `covariance`; a leg contributes the variance t^2/3 of its interval, a joint rho^2/5 along its leg. Infinite
-        if not determined at a singular configuration (in the covariance, NaN off the diagonal).
+        `covariance`. Of uniform errors a leg contributes the variance t^2/3 of its interval, a joint rho^2/5 along its
+        leg; of normal ones t^2/9 and rho^2/9. Infinite if not determined at a singular configuration (in the
+        covariance, NaN off the diagonal).
 
     Raises
     ------
@@ -106,6 +119,8 @@ def error_bounds(
     """
     shape, flat, tolerances = _with_tolerances(geometry, configuration, leg_errors, joint_errors)
     out = _core.error_bounds(*flat, tolerances, 0).reshape(*shape, 93)
+    if choice("distribution", distribution, DISTRIBUTIONS) == "normal":  # of uniform errors with the same variances
+        out[..., 12:] = _core.error_bounds(*flat, tolerances * NORMAL, 0).reshape(*shape, 93)[..., 12:]
     rotation, position, internal_point = (out[..., k].copy()[()] for k in (9, 10, 11))
     covariance = out[..., 12:].reshape(*shape, 9, 9)
     return ErrorBounds(out[..., :9].copy(), rotation, position, internal_point, covariance.copy())

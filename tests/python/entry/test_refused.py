@@ -93,7 +93,12 @@ OTHER_KINDS = {  # of one call: a row, what is refused, its arguments
     ),
 }
 EXCEPT = {  # rows and arguments where one of these values has a meaning, or another argument is named
-    *("follow internal_point", "workspace internal_point", "workspace characteristic_length"),
+    *(
+        "tolerances_for position",
+        "follow internal_point",
+        "workspace internal_point",
+        "workspace characteristic_length",
+    ),
     *("follow characteristic_length", "sheet characteristic_length", "inverse_velocity sdot", "workspace position"),
     "failure characteristic_length",
     *("inverse_velocity: O chosen sdot", "sheet centre", "stiffness internal", "workspace home"),

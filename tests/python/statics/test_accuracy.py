@@ -169,6 +169,21 @@ def test_samples_have_the_covariance_and_keep_the_bounds():
     )
 
 
+def test_normal_errors_have_their_own_covariance():
+    """A tolerance of three standard deviations, of a leg and of a joint along each axis, by the map in numpy."""
+    m, rng = robots.regular(14)
+    legs, joints = rng.uniform(1e-5, 1e-4, size=9), rng.uniform(1e-5, 1e-4, size=12)
+    g, c = m.geometry(), m.configuration()
+    normal = nd.error_bounds(g, c, legs, joints, distribution="normal")
+    variances = legs**2 / 9.0
+    np.add.at(variances, LEG_OF_JOINT, joints**2 / 9.0)
+    assert_allclose(normal.covariance, inverse(m) @ np.diag(variances) @ inverse(m).T, rtol=1e-8, atol=1e-22)
+    uniform = nd.error_bounds(g, c, legs, joints)
+    assert_array_equal(normal.components, uniform.components)
+    assert normal.position == uniform.position
+    assert (normal.covariance.diagonal() < uniform.covariance.diagonal()).all()
+
+
 def test_one_error_alone_comes_close_to_its_bound():
     m, _ = robots.regular(15)
     for k in range(21):

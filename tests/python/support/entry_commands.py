@@ -19,7 +19,8 @@ LINES = {
     "view": ["{design} --host 127.0.0.1 --port x --path {path}"],  # a port that is none: it waits for ever
     "accuracy": [
         "{design} --leg-error 0.1 --joint-error 0.1 --samples 10 --position 0,0,4 --rotation-deg 0,0,0 "
-        "--internal-point 0,0,2"
+        "--internal-point 0,0,2 --distribution normal",
+        "{design} --within 0.1 --within-deg 0.1 --weights 1,1",
     ],
     "best": [
         "{design} --criterion condition_number --legs 0.5,9 --position 0,0,4 --rotation-deg 0,0,0 "

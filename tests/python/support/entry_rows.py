@@ -96,7 +96,9 @@ row("inverse_dynamics", nan=("velocity", "load"))(
 row("self_stress")(robot())
 row("stiffness")(robot(leg_stiffness=np.arange(1.0, 10.0), internal=False))
 row("error_map")(robot())
-row("error_bounds", **OVERFLOW)(robot(leg_errors=np.full(9, 1e-3), joint_errors=np.full(12, 1e-3)))
+row("error_bounds", **OVERFLOW)(
+    robot(leg_errors=np.full(9, 1e-3), joint_errors=np.full(12, 1e-3), distribution="normal")
+)
 row("error_samples", huge=("samples",), words={"leg_errors": ("leg_lengths",)}, **OVERFLOW)(
     robot(leg_errors=np.full(9, 1e-3), joint_errors=np.full(12, 1e-3), samples=3, seed=1, threads=1)
 )

@@ -319,6 +319,9 @@ row("Followed.to_dict", lambda: it.followed().to_dict())(dict)
 row("region_map")(lambda: {"result": it.region_result()})
 row("path_limits")(lambda: {"study": it.study(), "followed": it.followed(), "home": it.c()})
 row("PathLimits.worst", lambda: nd.path_limits(it.study(), it.followed(), it.c()).worst())(dict)
+row("tolerances_for", words={"position": ("position", "rotation")})(
+    lambda: {"design": it.design(), "position": 0.1, "rotation": 0.01, "weights": (1.0, 1.0)}
+)
 row("sheet", few=3, huge=("samples",))(
     lambda: {
         "design": it.design(),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -10,13 +11,14 @@ import numpy as np
 import typer
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import JOINT_ERROR, LEG_ERROR
+from ninedof.cli.options import JOINT_ERROR, LEG_ERROR, Two
 from ninedof.cli.posed import DesignAtPoses, PosesOptions, at_worst
 from ninedof.design.duty import Tolerances
-from ninedof.statics.accuracy import MOST_SAMPLES, ErrorBounds, error_bounds, error_samples
-from ninedof.support.arguments import finite, whole
-from ninedof.support.units import amount
-from ninedof.tables import RIGHT, Column, Table
+from ninedof.sheet.allotment import tolerances_for
+from ninedof.statics.accuracy import DISTRIBUTIONS, MOST_SAMPLES, ErrorBounds, error_bounds, error_samples
+from ninedof.support.arguments import choice, finite, whole
+from ninedof.support.units import amount, unit_entry
+from ninedof.tables import RIGHT, Column, Line, Table
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -24,6 +26,8 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof accuracy design.toml --leg-error 0.01 --joint-error 0.02
 
   ninedof accuracy runs/20260101-120000 --leg-error 0.01 --all-poses
+
+  ninedof accuracy runs/20260101-120000 --within 0.1    which tolerances keep p within 0.1?
 
   ninedof accuracy runs/20260101-120000#7 --leg-error 0.01 --samples 10000 --json | jq .position"""
 
@@ -36,6 +40,16 @@ class AccuracyOptions(PosesOptions):
 
     leg_error: Annotated[float | None, LEG_ERROR] = None
     joint_error: Annotated[float | None, JOINT_ERROR] = None
+    distribution: Annotated[
+        str, typer.Option(help="Of the errors behind the standard deviation: uniform or normal (three sigma).")
+    ] = DISTRIBUTIONS[0]
+    within: Annotated[
+        float | None, typer.Option(help="Largest displacement of p that is allowed: prints the tolerances for it.")
+    ] = None
+    within_deg: Annotated[float | None, typer.Option(help="The same of the angle the platform turns, degrees.")] = None
+    weights: Annotated[
+        Two, typer.Option(metavar="JOINTS LEGS", help="Parts of the allowed error that joints and legs may make.")
+    ] = (1.0, 1.0)
     samples: Annotated[
         int | None, typer.Option(help="Random robots within the tolerances, without linearization, at one pose.")
     ] = None
@@ -52,14 +66,23 @@ def accuracy(options: AccuracyOptions) -> Answer:
         if options.all_poses:
             raise ValueError("--samples: got it with --all-poses, expected one pose")
     at = DesignAtPoses.at(options)
+    if options.within is not None or options.within_deg is not None:
+        return _allotted(options, at)
+    choice("--distribution", options.distribution, DISTRIBUTIONS)
     g, unit, duty = at.chosen.geometry, at.chosen.unit, at.chosen.duty.tolerances
     stated = {"leg_error": duty.legs, "joint_error": duty.joints}
     errors = {name: stated[name] if value is None else value for name, value in given.items()}
     if not any(errors.values()):
         raise ValueError("accuracy: got neither --leg-error nor --joint-error, expected a tolerance")
-    bounds = error_bounds(g, at.c, errors["leg_error"], errors["joint_error"])
+    bounds = error_bounds(g, at.c, errors["leg_error"], errors["joint_error"], options.distribution)
     rows = list(_rows(bounds, unit))
-    columns = [Column(), Column("largest", "", RIGHT), Column("standard deviation", "", RIGHT), Column("pose", "", "d")]
+    deviation = f"standard deviation\n({options.distribution} errors)"
+    columns = [
+        Column(),
+        Column("largest", "", RIGHT),
+        Column(deviation, "", RIGHT),
+        Column("pose", "", "d"),
+    ]
     if len(at.c) == 1:
         columns, rows = columns[:3], [row[:3] for row in rows]
     sizes = (f"{name.split('_')[0]}s {amount(f'{value:g}', unit)}" for name, value in errors.items())
@@ -77,6 +100,28 @@ def accuracy(options: AccuracyOptions) -> Answer:
         )
         parts += data["samples"]["words"]
     return at.answer(parts, data, (row[3] for row in rows if len(row) > 3))
+
+
+def _allotted(options: AccuracyOptions, at: DesignAtPoses) -> Answer:
+    """Return the tolerances that keep the machine within an error, over the poses of its study."""
+    for name in ("leg_error", "joint_error", "samples", "all_poses"):
+        if getattr(options, name):
+            raise ValueError(f"--{name.replace('_', '-')}: got it with --within, expected one of the two")
+    if named := options.named():
+        raise ValueError(f"{named[0]}: got it with --within, expected none: it is about all poses of the study")
+    turn = None if options.within_deg is None else math.radians(options.within_deg)
+    design, unit = at.chosen.result or at.chosen.design, at.chosen.unit
+    kept = tolerances_for(design, options.within, turn, options.weights)
+    rows = [Line("joint centres, radius", [f"{kept.joints:.4g}"], unit=unit)]
+    rows += [Line("leg lengths, plus or minus", [f"{kept.legs:.4g}"], unit=unit)]
+    limits = [] if options.within is None else [f"p errs by at most {amount(f'{options.within:g}', unit)}"]
+    limits += [] if turn is None else [f"the platform turns by at most {options.within_deg:g}°"]
+    study = at.chosen.study
+    where = (
+        "the neutral pose" if study is None else "the region" if study.objective.region else "the poses of the study"
+    )
+    title = f"Tolerances with which {' and '.join(limits)}, to first order, over {where}"
+    return Answer([Table(title, [Column(), Column("", "", RIGHT)], rows)], unit_entry(unit) | kept.to_dict())
 
 
 def _rows(bounds: ErrorBounds, unit: str) -> Iterator[tuple[Any, ...]]:
