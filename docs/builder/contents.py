@@ -14,7 +14,7 @@ THEORY = f"{CORE} kernels design minimax limits proof"
 # Page: groups of (heading, pages). A pattern stands for all pages it matches, in the order of their names.
 TREE = {
     "index": [
-        ("Start", _listed("first-design requirement tour gallery/index")),
+        ("Start", _listed("questions first-design requirement tour gallery/index")),
         ("Guides", _listed("characteristic-length regions reading-a-map assembly-modes confidence", "guides/")),
         (
             "Subjects",

@@ -289,8 +289,8 @@ class Study:
             return ""
         return (
             f"characteristic_length is not given: 1 {self.unit} assumed. A turn of 1 rad then counts as much as a "
-            f"shift of 1 {self.unit}, and the condition number depends on it: give the reach of the tool in "
-            f'{self.unit}, or a word such as "optimal"'
+            f"shift of 1 {self.unit}, and the condition number depends on it: give the length that a turn of "
+            f'1 rad shall count as, in {self.unit}, or a word such as "optimal"'
         )
 
     @property
