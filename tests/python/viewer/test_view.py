@@ -167,7 +167,7 @@ def test_a_body_found_as_it_is_given_up_is_not_shown(monkeypatch):
         viewer.submit("done again", lambda: None)
         assert done.wait(10.0)
         until(lambda: "/workspace" not in viewer.scene.nodes)
-        assert viewer.panel.widgets["workspace"].content == ""
+        until(lambda: viewer.panel.widgets["workspace"].content == "")  # drawn after the scene
 
 
 @pytest.mark.parametrize(("unit", "duration"), [("mm", "duration 2 s<"), ("", "duration 2<")])
