@@ -1,0 +1,88 @@
+#include "ninedof/proof/admissible.hpp"
+
+#include <pybind11/stl.h>
+
+#include "ninedof/proof/bounds.hpp"
+#include "support/interruptible.hpp"
+#include "support/module.hpp"
+#include "support/struct.hpp"
+
+namespace ninedof::python {
+namespace {
+
+/// The ends of pieces as arrays (n, number of variables).
+py::tuple ends_of_pieces(const DesignSet& found, py::ssize_t count) {
+  const auto n = static_cast<py::ssize_t>(found.pieces.size());
+  const std::vector<py::ssize_t> shape{n, count};
+  Array low(shape), high(shape);
+  for (py::ssize_t k = 0; k < n; ++k)
+    for (py::ssize_t i = 0; i < count; ++i) {
+      const DesignPiece& piece = found.pieces[static_cast<std::size_t>(k)];
+      low.mutable_at(k, i) = piece.low[static_cast<std::size_t>(i)];
+      high.mutable_at(k, i) = piece.high[static_cast<std::size_t>(i)];
+    }
+  return py::make_tuple(low, high);
+}
+
+py::dict found_designs(const DesignQuestion& question, const DesignSet& found) {
+  const auto n = static_cast<py::ssize_t>(found.pieces.size());
+  py::array_t<std::int8_t> state(n);
+  py::array_t<std::int32_t> demand(n), pose(n);
+  Array at(std::vector<py::ssize_t>{n, 6});
+  for (py::ssize_t k = 0; k < n; ++k) {
+    const DesignPiece& piece = found.pieces[static_cast<std::size_t>(k)];
+    state.mutable_at(k) = static_cast<std::int8_t>(piece.state);
+    demand.mutable_at(k) = piece.demand;
+    pose.mutable_at(k) = piece.at.pose;
+    for (py::ssize_t i = 0; i < 3; ++i) at.mutable_at(k, i) = piece.at.shift[i];
+    at.mutable_at(k, 3) = piece.at.tilt[0];
+    at.mutable_at(k, 4) = piece.at.tilt[1];
+    at.mutable_at(k, 5) = piece.at.yaw;
+  }
+  const py::tuple ends = ends_of_pieces(found, static_cast<py::ssize_t>(question.varied.size()));
+  py::list demands;
+  for (const Demand& one : found.demands) demands.append(py::make_tuple(one.limit, one.part));
+  py::dict out;
+  out["low"] = ends[0];
+  out["high"] = ends[1];
+  out["state"] = state;
+  out["demand"] = demand;
+  out["pose"] = pose;
+  out["at"] = at;
+  out["demands"] = py::tuple(demands);
+  out["inside"] = found.inside;
+  out["outside"] = found.outside;
+  out["undecided"] = found.undecided;
+  out["looked_at"] = found.looked_at;
+  out["boxes"] = found.boxes;
+  out["interrupted"] = found.interrupted;
+  return out;
+}
+
+}  // namespace
+
+void bind_admissible(py::module_& m) {
+  request<DesignQuestion>(m, "DesignQuestion", "Which designs, and what they have to keep.")
+      .def_property("problem", copy_of(&DesignQuestion::problem), setter_of(&DesignQuestion::problem), "Copied.")
+      .def_property("region", copy_of(&DesignQuestion::region), setter_of(&DesignQuestion::region), "None or one.")
+      .def_readwrite("at", &DesignQuestion::at, "A value for each variable of the family.")
+      .def_readwrite("varied", &DesignQuestion::varied, "Indices of the variables that vary.")
+      .def_readwrite("low", &DesignQuestion::low, "Of each.")
+      .def_readwrite("high", &DesignQuestion::high, "Of each.")
+      .def_readwrite("condition", &DesignQuestion::condition, "Greatest condition number.");
+  m.def(
+      "admissible_designs",
+      [](const DesignQuestion& question, int threads, double seconds, double resolution, double undecided,
+         const py::object& progress) {
+        require_sound_arithmetic();
+        const DesignSettings settings{threads, seconds, resolution, undecided};
+        const DesignSet found = interruptible(
+            progress, [&](const WorkControl& control) { return admissible_designs(question, settings, {}, control); },
+            [](DesignSet& set) { return set.interrupted = true; });
+        return found_designs(question, found);
+      },
+      py::arg("question"), py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("resolution"),
+      py::arg("undecided"), py::arg("progress") = py::none());
+}
+
+}  // namespace ninedof::python
