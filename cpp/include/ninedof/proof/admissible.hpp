@@ -66,4 +66,17 @@ struct DesignSet {
 DesignSet admissible_designs(const DesignQuestion& question, const DesignSettings& settings,
                              const std::vector<DesignPiece>& from = {}, const Control& control = {});
 
+/// A box around a design, all of which is inside.
+struct DesignRoom {
+  bool found = false;  ///< not where the design breaks a limit, or where nothing could be proved
+  std::array<double, most_varied> low{}, high{};
+  int demand = -1;  ///< which the design breaks, proved; -1: none is known
+  long boxes = 0;
+};
+
+/// The largest box around a design, within the ends of the question: its half widths are in the given proportions, or
+/// without them its volume is greatest. A local search of boxes each of which is proved; `seconds` of wall time.
+DesignRoom room_around(const DesignQuestion& question, const std::vector<double>& design,
+                       const std::vector<double>& proportions, double seconds, const Control& control = {});
+
 }  // namespace ninedof

@@ -124,7 +124,17 @@ class LinearTest {
     return true;
   }
   bool holds_for(const std::vector<Slope<ConditionSplitOf<T>::cuts>>& all) const {
-    return std::ranges::all_of(all, [&](const auto& cut) { return holds_for(cut); });
+    // Points that differ by a coordinate that moves nothing are one.
+    const auto repeats = [&](const auto& cut) {
+      for (std::size_t k = 0; k < cut.size(); ++k)
+        if (cut[k] > 0.0 && !moves(ConditionSplitOf<T>::first_cut + k)) return true;
+      return false;
+    };
+    return std::ranges::all_of(all, [&](const auto& cut) { return repeats(cut) || holds_for(cut); });
+  }
+  bool moves(std::size_t coordinate) const {
+    return std::find(active_.begin(), active_.begin() + static_cast<std::ptrdiff_t>(count_), coordinate) !=
+           active_.begin() + static_cast<std::ptrdiff_t>(count_);
   }
   bool holds_everywhere() const {
     for (std::size_t corner = 0; corner < (std::size_t{1} << count_); ++corner) {
@@ -204,6 +214,27 @@ T quadratic_from_below(const SplitGramOf<T>& g, const Vec6& v) {
 
 }  // namespace
 
+namespace {
+
+/// Above K where it is positive.
+template <class T>
+T excess_of(const SplitGramOf<T>& g, double condition, const Vec6& high, const Vec6& low) {
+  const Interval squared = square(Interval(condition));
+  return T::of(squared_length(low)) * quadratic_from_below(g, high) -
+         T::of(squared * squared_length(high)) * quadratic(g.above, low);
+}
+
+}  // namespace
+
+template <class T>
+T condition_excess(const SplitGramOf<T>& g, double condition) {
+  if (!g.known) return T::unknown();
+  const Mat6 middle = middle_of(g.above);
+  if (!middle.allFinite()) return T::unknown();
+  const RightSvd<6> eigen = jacobi_right_svd(middle);
+  return excess_of(g, condition, eigen.v.col(0), eigen.v.col(5));
+}
+
 template <class T>
 ConditionSplitOf<T> split_by_condition(const SplitGramOf<T>& g, double condition) {
   using Split = ConditionSplitOf<T>;
@@ -214,9 +245,7 @@ ConditionSplitOf<T> split_by_condition(const SplitGramOf<T>& g, double condition
   out.excess = T::unknown();
   const LinearTest<T> test(g, condition);
   if (!test.known()) return out;
-  const Interval squared = square(Interval(condition));
-  out.excess = T::of(squared_length(test.low())) * quadratic_from_below(g, test.high()) -
-               T::of(squared * squared_length(test.high())) * quadratic(g.above, test.low());
+  out.excess = excess_of(g, condition, test.high(), test.low());
   if (!std::isfinite(radius(out.excess))) return out;
   for (std::size_t k = 0; k < Split::cuts; ++k) out.slope[k] = -out.excess.a[Split::first_cut + k];
   double others = 0.0;  // how far the excess goes by coordinates that are not cut
@@ -238,7 +267,7 @@ ConditionSplitOf<T> split_by_condition(const SplitGramOf<T>& g, double condition
     level = step - most;
   }
   for (int n = 0; n < tries && level < most; ++n, step *= wider, level += step) {
-    const auto points = hull_above<Split::cuts>(out.slope, level);
+    auto points = hull_above<Split::cuts>(out.slope, level);
     if (!test.holds_for(points)) continue;
     if (!points.empty()) out.level = level;
     break;
@@ -246,6 +275,7 @@ ConditionSplitOf<T> split_by_condition(const SplitGramOf<T>& g, double condition
   return out;
 }
 
+template DesignForm condition_excess(const SplitGramOf<DesignForm>&, double);
 template ConditionSplitOf<PoseForm> split_by_condition(const SplitGram&, double);
 template ConditionSplitOf<DesignForm> split_by_condition(const SplitGramOf<DesignForm>&, double);
 

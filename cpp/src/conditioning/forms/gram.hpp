@@ -79,6 +79,9 @@ struct ConditionSplitOf {
   T excess;            ///< above K where it is positive
 };
 using ConditionSplit = ConditionSplitOf<PoseForm>;
+/// The excess alone.
+template <class T>
+T condition_excess(const SplitGramOf<T>& g, double condition);
 template <class T>
 ConditionSplitOf<T> split_by_condition(const SplitGramOf<T>& g, double condition);
 

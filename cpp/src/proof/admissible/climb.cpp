@@ -9,7 +9,7 @@
 namespace ninedof::admissible {
 namespace {
 
-constexpr long most_boxes_of_item = 4000;
+constexpr long most_boxes_of_item = 4000, most_boxes_of_condition = 40'000;
 /// A plane is taken where it is off by less than this part of what the number changes over the designs, or by this many
 /// times what the designs alone leave open.
 constexpr double part_of_change = 0.02, times_open = 4.0;
@@ -43,12 +43,14 @@ int coordinate_to_divide(const Box& box, const Box& root, const Seen& seen) {
 template <class Number>
 class Descent {
  public:
-  Descent(const DesignsAt& designs, const Number& number, const std::vector<Box>& roots)
-      : designs_(designs), number_(number), roots_(roots) {
+  Descent(const DesignsAt& designs, const Number& number, const std::vector<Box>& roots, long most, const Stop& stop)
+      : designs_(designs), number_(number), roots_(roots), most_(most), stop_(stop) {
     for (const Box& root : roots) add(root);
   }
   bool done() const { return open_.empty(); }
-  bool spent() const { return boxes_ >= most_boxes_of_item; }
+  bool spent() const {
+    return boxes_ >= most_ + std::ssize(roots_) || (boxes_ % 64 < 2 && stop_());
+  }
   long boxes() const { return boxes_; }
   double least() const { return open_.top().least; }
   Open take() {
@@ -92,6 +94,8 @@ class Descent {
   const DesignsAt& designs_;
   const Number& number_;
   const std::vector<Box>& roots_;
+  long most_;
+  const Stop& stop_;
   std::priority_queue<Open> open_;
   long boxes_ = 0;
 };
@@ -108,37 +112,47 @@ bool covered(const Plane& x, const std::vector<Plane>& by) {
 
 }  // namespace
 
-Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots) {
+Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, const Stop& stop) {
   Found out;
   const auto lost = [&](const Met& met, const Box& at) {
     if (!met.known || least_of(met.most) >= 0.0) return false;
     out.losses.push_back({met.most, item.demand, at});
     return most_of(met.most) < 0.0;
   };
-  Descent<Item> descent(designs, item, roots);
+  const bool keeps_open = item.kind == Item::Kind::condition;
+  Descent<Item> descent(designs, item, roots, keeps_open ? most_boxes_of_condition : most_boxes_of_item, stop);
   const auto finish = [&](Found::Status status) {
     out.status = status;
-    out.boxes += descent.boxes();
+    out.boxes = descent.boxes();
+    while (keeps_open && !descent.done() && !(descent.least() > 0.0)) out.open.push_back(descent.take().box);
     return out;
   };
   while (!descent.done() && !(descent.least() > 0.0)) {
     if (descent.spent()) return finish(Found::Status::unknown);
     const Open one = descent.take();
-    if (one.seen.known && covered(one.seen.kept, out.cuts)) continue;
+    if (one.seen.known && covered(one.seen.kept, out.cuts)) {
+      if (keeps_open) out.open.push_back(one.box);
+      continue;
+    }
     const Box at = descent.worst_pose(one);
     const Met met = designs.meet(item, at);
-    if (!met.known) return finish(Found::Status::unknown);
+    if (!met.known) {
+      if (keeps_open) out.open.push_back(one.box);
+      return finish(Found::Status::unknown);
+    }
     if (lost(met, at)) return finish(Found::Status::outside);
     if (!descent.near_enough(one.seen, met, 0.0) && descent.divide(one)) continue;
+    if (keeps_open) out.open.push_back(one.box);
     if (!one.seen.known || !std::isfinite(one.seen.kept.c)) return finish(Found::Status::unknown);
     out.cuts.push_back(lowered(one.seen.kept, met));
   }
   return finish(out.cuts.empty() ? Found::Status::kept : Found::Status::cut);
 }
 
-Envelope envelope(const DesignsAt& designs, const Length& length, const std::vector<Box>& roots, double allowed) {
+Envelope envelope(const DesignsAt& designs, const Length& length, const std::vector<Box>& roots, double allowed,
+                  const Stop& stop) {
   Envelope out;
-  Descent<Length> descent(designs, length, roots);
+  Descent<Length> descent(designs, length, roots, most_boxes_of_item, stop);
   while (!descent.done()) {
     const Open one = descent.take();
     out.boxes = descent.boxes();

@@ -1,7 +1,7 @@
 #pragma once
 /// An item over all its poses as planes over a box of designs: a branch and bound whose bounds are linear in the design.
 
-#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "proof/admissible/items.hpp"
@@ -27,10 +27,14 @@ struct Found {
   } status = Status::kept;
   std::vector<Plane> cuts;
   std::vector<Loss> losses;
+  std::vector<Box> open;  ///< of a condition number: the boxes outside of which all designs keep it
   long boxes = 0;
 };
 
-Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots);
+/// Asked now and then; the search then ends with what is known.
+using Stop = std::function<bool()>;
+
+Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, const Stop& stop);
 
 /// Planes none of whose least is above the length, or less the length, and the poses that they were found at.
 struct Envelope {
@@ -41,6 +45,7 @@ struct Envelope {
   long boxes = 0;
 };
 /// `allowed`: planes may be off by so much.
-Envelope envelope(const DesignsAt& designs, const Length& length, const std::vector<Box>& roots, double allowed);
+Envelope envelope(const DesignsAt& designs, const Length& length, const std::vector<Box>& roots, double allowed,
+                  const Stop& stop);
 
 }  // namespace ninedof::admissible

@@ -136,14 +136,14 @@ Demands::Demands(const DesignQuestion& question) {
   add_condition(*this, question.problem.objective.neutral_condition_limit, "condition_number at neutral", true);
 }
 
-Spreads::Spreads(const DesignsAt& designs) : designs_(designs) {}
+Spreads::Spreads(const DesignsAt& designs, const Stop& stop) : designs_(designs), stop_(stop) {}
 
 const Envelope& Spreads::of(int leg, double sign, bool closely) {
   Envelope& one = known_[closely][sign > 0.0][at_index(leg)];
   if (one.boxes > 0) return one;
   const Met home = designs_.meet(Length{leg, 1.0}, home_pose());
   const double roughly = home.known ? part_of_length * home.most.c : 0.0;
-  one = envelope(designs_, {leg, sign}, designs_.poses().all(), closely ? 0.0 : roughly);
+  one = envelope(designs_, {leg, sign}, designs_.poses().all(), closely ? 0.0 : roughly, stop_);
   boxes_ += one.boxes;
   return one;
 }

@@ -36,7 +36,7 @@ struct Demands {
 /// The lengths of the legs over all poses, each looked for once.
 class Spreads {
  public:
-  explicit Spreads(const DesignsAt& designs);
+  Spreads(const DesignsAt& designs, const Stop& stop);
   Found look_at(const Spread& spread);
   /// The margin of a spread at the poses of a loss.
   Met meet(const Spread& spread, const Loss& loss) const;
@@ -47,6 +47,7 @@ class Spreads {
   Plane margin(const Spread& spread, const Plane& less_longest, const Plane& shortest, bool above) const;
 
   const DesignsAt& designs_;
+  const Stop& stop_;
   std::array<std::array<std::array<Envelope, 9>, 2>, 2> known_;
   long boxes_ = 0;
 };

@@ -178,11 +178,9 @@ Met DesignsAt::meet(const Item& item, const Box& point) const {
   const PoseOf<DesignForm> pose = poses_.pose(point, forms_);
   if (item.kind == Item::Kind::condition) {
     Moves unused;
-    return met(-forms::split_by_condition(forms::split_gram(forms_.joints,
-                                                            question_.problem.characteristic_length.value, pose,
-                                                            unused, item.locked),
-                                          item.bound)
-                    .excess);
+    return met(-forms::condition_excess(
+        forms::split_gram(forms_.joints, question_.problem.characteristic_length.value, pose, unused, item.locked),
+        item.bound));
   }
   const DesignLook look(forms_.joints, pose, homes_[at_index(item.limit)]);
   if (item.kind == Item::Kind::number) return met(number(item, look));
