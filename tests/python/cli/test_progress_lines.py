@@ -12,7 +12,7 @@ def lines_of(capsys, kind, reports, terminal=False):
     console = screen.progress_console
     console.get_time, console._force_terminal = (lambda: now), terminal
     with screen.bar(kind, "study.toml") as bar:
-        for now, done, value in reports:
+        for now, done, value in reports:  # noqa: B007 the clock reads it
             bar(done, 500, value)
         lines = capsys.readouterr().err.splitlines()
     return lines
