@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
@@ -361,6 +362,21 @@ def candidate_of(problem: _core.Problem, end: _core.Candidate) -> Candidate:
 def _robot(problem: _core.Problem, x: Sequence[float]) -> dict[str, Any]:
     configurations = Configuration(*problem.configurations(x))
     return dict(zip(ROBOT, (problem.geometry(x), configurations[0], configurations), strict=True))
+
+
+def with_fixed_design(result: Result) -> Result:
+    """Return a result without a design with the one design of its study, if no variable is free, whatever it violates.
+
+    It is for showing the indices and margins of that design; the result itself has no best design.
+    """
+    study = result.study
+    if result.candidates or any(isinstance(ends, tuple) for ends in study.variables.values()):
+        return result
+    point = study.evaluate({})
+    own: dict[str, Any] = {f.name: getattr(point, f.name) for f in fields(Candidate) if hasattr(point, f.name)}
+    violation = max(0.0, -min(point.margins.values(), default=0.0))
+    search: dict[str, Any] = {"active": (), "prices": {}, "optimality_residual": math.nan, "reached": 0}
+    return replace(result, candidates=(Candidate(**own, **search, constraint_violation=violation),))
 
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:

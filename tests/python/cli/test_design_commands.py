@@ -263,3 +263,48 @@ def test_a_sweep_of_a_region_study_says_that_it_is_not_over_the_region(run, tmp_
             status, out, _ = run(f"sweep {tmp_path / name} {options}")
             assert status == 0
             assert (f"{where}, not over the region of the study" in " ".join(out.split())) is said
+
+
+FIXED = """
+unit = "mm"
+[design]
+family = "hexagonal"
+characteristic_length = 150.0
+[variables]
+a1 = 0.0
+a2 = 2850.0
+b1 = 1290.0
+b2 = 0.0
+zp = 1480.0
+zs = 1320.0
+[constraints]
+radius_ratio = { max = 1.2 }
+leg_length = { min = 250, max = 5000 }
+"""
+
+
+def test_a_fixed_design_that_violates_a_limit_shows_its_index_and_all_margins(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    (tmp_path / "fixed.toml").write_text(FIXED)
+    status, optimized, _ = run(f"optimize {tmp_path}/fixed.toml --out {tmp_path}/run --no-figures")
+    assert status == 3
+    status, evaluated, _ = run(f"evaluate {tmp_path}/run")
+    assert status == 0
+    point = nd.Study.load(tmp_path / "fixed.toml").evaluate({})
+    assert f"has condition number {point.condition_number:.6f}" in optimized
+    assert f"{point.condition_number:.6f}" in evaluated
+    assert nd.load(tmp_path / "run").best is None
+    for text in (optimized, evaluated):
+        assert "infeasible: " in text
+        rows = [line for line in text.splitlines() if line.startswith(("│ radius_ratio", "│ leg_length"))]
+        assert [("violated" in row) for row in rows] == [True, False, False]
+        assert f"{100.0 * point.margins['radius_ratio']:.2f} %" in rows[0]
+
+
+def test_the_table_of_indices_names_determinants_and_fits_80_columns(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    sides = "--a1 0 --a2 2850 --b1 1290 --b2 0 --zp 1480 --zs 1320"
+    lines = run(f"evaluate {sides} --lc 150")[1].splitlines()
+    assert any(line.startswith("│ singularity margins: det N, B, C ") for line in lines)
+    rows = [line.split("│") for line in lines if line.startswith("│")]
+    assert all(value.strip() for _, _, value, _ in rows)

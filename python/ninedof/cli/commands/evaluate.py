@@ -24,13 +24,15 @@ from ninedof.cli.options import (
     TwistDeg,
 )
 from ninedof.design.indices import computed
+from ninedof.optimize.result import Status
 from ninedof.records.design_file import indices
 from ninedof.sheet.sheet import sheet
 from ninedof.sheet.tables import limits_table, poses_table
-from ninedof.support.units import amount, unit_entry
+from ninedof.support.units import unit_entry
 from ninedof.tables import RIGHT, Column, Line, Table
 
 PLACE = 3
+DETERMINANTS = "singularity margins: det N, B, C"
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4435
@@ -68,6 +70,8 @@ def evaluate(options: EvaluateOptions) -> Answer:
     if not 0.0 < chosen.configuration.internal_point[2] < chosen.duty.zp(chosen.configuration):
         parts.append("O is not between base and platform: studies require 0 < zs < zp.")
     if chosen.result is not None:
+        if chosen.result.status == Status.INFEASIBLE:
+            parts.append(f"{chosen.result.status}: {chosen.result.reason}")
         of_run = sheet(chosen.result, characteristic_length=chosen.characteristic_length)
         parts += [poses_table(of_run)] if len(of_run.configurations) > 1 else []
         parts += [limits_table(of_run)] if of_run.limits else []
@@ -77,7 +81,10 @@ def evaluate(options: EvaluateOptions) -> Answer:
 
 def _table(values: dict[str, Any], chosen: Chosen) -> Table:
     rows: list[Any] = [
-        Line(index.words, ["  ".join(map(_digits, np.atleast_1d(values[name])))])
+        Line(
+            DETERMINANTS if name == "singularity_margins" else index.words,
+            ["  ".join(map(_digits, np.atleast_1d(values[name])))],
+        )
         for name, index in computed().items()
         if name in values and name not in ("singular_values", "leg_lengths")
     ]
@@ -89,8 +96,8 @@ def _table(values: dict[str, Any], chosen: Chosen) -> Table:
     rows.append(())
     for kind, at in values["characteristic_lengths"].items():
         if math.isfinite(at["length"]):
-            length = amount(_digits(at["length"]), chosen.unit)
-            rows.append(Line(f"at the {kind} length {length}", [f"k = {_digits(at['condition_number'])}"]))
+            words = f"{_digits(at['length'])}: k = {_digits(at['condition_number'])}"
+            rows.append(Line(f"at the {kind} length", [words], unit=chosen.unit))
     return Table("Indices", [Column(), Column("", "", RIGHT)], rows)
 
 
