@@ -59,6 +59,34 @@ py::dict found_designs(const DesignQuestion& question, const DesignSet& found) {
   return out;
 }
 
+/// The pieces of an earlier run, from the arrays that it gave.
+std::vector<DesignPiece> pieces_from(const py::dict& from, std::size_t count) {
+  const auto low = from["low"].cast<Array>(), high = from["high"].cast<Array>(), at = from["at"].cast<Array>();
+  const auto state = from["state"].cast<std::vector<int>>(), demand = from["demand"].cast<std::vector<int>>(),
+             pose = from["pose"].cast<std::vector<int>>();
+  const auto n = static_cast<py::ssize_t>(state.size());
+  if (low.ndim() != 2 || low.shape(0) != n || low.shape(1) != static_cast<py::ssize_t>(count) || high.ndim() != 2 ||
+      high.shape(0) != n || high.shape(1) != low.shape(1) || at.ndim() != 2 || at.shape(0) != n || at.shape(1) != 6 ||
+      demand.size() != state.size() || pose.size() != state.size())
+    throw InvalidArgument("earlier", "arrays of other shapes", "those of an earlier run");
+  std::vector<DesignPiece> out(state.size());
+  for (py::ssize_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    DesignPiece& piece = out[i];
+    for (std::size_t j = 0; j < count; ++j) {
+      piece.low[j] = low.at(k, static_cast<py::ssize_t>(j));
+      piece.high[j] = high.at(k, static_cast<py::ssize_t>(j));
+    }
+    piece.state = state[i] == 0 ? Membership::inside : state[i] == 1 ? Membership::outside : Membership::undecided;
+    piece.demand = demand[i];
+    piece.at.pose = pose[i];
+    piece.at.shift = Vec3(at.at(k, 0), at.at(k, 1), at.at(k, 2));
+    piece.at.tilt = Vec3(at.at(k, 3), at.at(k, 4), 0.0);
+    piece.at.yaw = at.at(k, 5);
+  }
+  return out;
+}
+
 }  // namespace
 
 void bind_admissible(py::module_& m) {
@@ -73,16 +101,18 @@ void bind_admissible(py::module_& m) {
   m.def(
       "admissible_designs",
       [](const DesignQuestion& question, int threads, double seconds, double resolution, double undecided,
-         const py::object& progress) {
+         const py::object& from, const py::object& progress) {
         require_sound_arithmetic();
         const DesignSettings settings{threads, seconds, resolution, undecided};
+        const std::vector<DesignPiece> earlier =
+            from.is_none() ? std::vector<DesignPiece>{} : pieces_from(from.cast<py::dict>(), question.varied.size());
         const DesignSet found = interruptible(
-            progress, [&](const WorkControl& control) { return admissible_designs(question, settings, {}, control); },
+            progress, [&](const WorkControl& control) { return admissible_designs(question, settings, earlier, control); },
             [](DesignSet& set) { return set.interrupted = true; });
         return found_designs(question, found);
       },
       py::arg("question"), py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("resolution"),
-      py::arg("undecided"), py::arg("progress") = py::none());
+      py::arg("undecided"), py::arg("earlier") = py::none(), py::arg("progress") = py::none());
   m.def(
       "room_around",
       [](const DesignQuestion& question, const std::vector<double>& design, const std::vector<double>& proportions,

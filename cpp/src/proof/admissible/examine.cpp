@@ -36,6 +36,34 @@ std::vector<Box> Examiner::roots_of(const Item& item) const {
   return out;
 }
 
+/// Positions as lengths, of the design in the middle where the region is in zp.
+MetAt Examiner::met_at(const Box& point, const DesignBox& designs) const {
+  MetAt out;
+  if (point.piece < 0) {
+    out.pose = -1 - point.piece;
+    return out;
+  }
+  DesignBox middle = designs;
+  for (std::size_t k = 0; k < question_.varied.size(); ++k)
+    middle.low[k] = middle.high[k] = 0.5 * (designs.low[k] + designs.high[k]);
+  const DesignForms forms = design_forms(question_, middle);
+  out.shift = centre(poses_.pose(point, forms).p) - centre(forms.home.p);
+  out.tilt = Vec3(point.low[3], point.low[4], 0.0);
+  out.yaw = point.low[5];
+  return out;
+}
+
+std::vector<DesignPiece> Examiner::pieces_of(const std::vector<Piece>& pieces) const {
+  std::vector<DesignPiece> out;
+  for (const Piece& piece : pieces) {
+    out.push_back({piece.box.low, piece.box.high, piece.state, -1, {}});
+    if (piece.loss == nullptr) continue;
+    out.back().demand = piece.loss->demand;
+    out.back().at = met_at(piece.loss->at, piece.box);
+  }
+  return out;
+}
+
 Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
   Examined out;
   const DesignsAt designs(question_, poses_, asked.box);

@@ -32,10 +32,13 @@ class Examiner {
   const std::vector<Demand>& names() const { return demands_.names; }
   /// Not finished where it was stopped.
   Examined examine(const ToExamine& asked, const Stop& stop) const;
+  /// With the poses at which limits are broken.
+  std::vector<DesignPiece> pieces_of(const std::vector<Piece>& pieces) const;
 
  private:
   Met meet(const DesignsAt& designs, const Spreads& spreads, const Loss& loss) const;
   std::vector<Box> roots_of(const Item& item) const;
+  MetAt met_at(const Box& point, const DesignBox& designs) const;
 
   const DesignQuestion& question_;
   Poses poses_;

@@ -30,30 +30,6 @@ struct LookedAt {
   bool finished = false;
 };
 
-/// Coordinates of a pose of the region; positions in its unit.
-MetAt met_at(const Box& point) {
-  MetAt out;
-  if (point.piece < 0) {
-    out.pose = -1 - point.piece;
-    return out;
-  }
-  out.shift = Vec3(point.low[0], point.low[1], point.low[2]);
-  out.tilt = Vec3(point.low[3], point.low[4], 0.0);
-  out.yaw = point.low[5];
-  return out;
-}
-
-std::vector<DesignPiece> pieces_of(const std::vector<Piece>& pieces) {
-  std::vector<DesignPiece> out;
-  for (const Piece& piece : pieces) {
-    out.push_back({piece.box.low, piece.box.high, piece.state, -1, {}});
-    if (piece.loss == nullptr) continue;
-    out.back().demand = piece.loss->demand;
-    out.back().at = met_at(piece.loss->at);
-  }
-  return out;
-}
-
 class Search {
  public:
   explicit Search(const DesignQuestion& question) : examiner_(question), dimensions_(question.varied.size()) {
@@ -82,11 +58,11 @@ class Search {
     if (!out.finished) return out;  // what was known stays
     out.boxes = found.boxes;
     const Divided parts = divided(one.asked.box, dimensions_, range_, found.known);
-    out.decided = pieces_of(parts.decided);
+    out.decided = examiner_.pieces_of(parts.decided);
     for (const Rest& rest : parts.rests) {
       ToExamine next = found.inherited;
       next.box = rest.box;
-      out.rests.push_back({std::move(next), rest.undecided, pieces_of(rest.pieces)});
+      out.rests.push_back({std::move(next), rest.undecided, examiner_.pieces_of(rest.pieces)});
     }
     return out;
   }
