@@ -58,6 +58,7 @@ from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.paper.sweeps import sweep_figure
 from ninedof.pareto import Front, pareto
 from ninedof.position.position import AssemblyModes, PositionStatus, Tracked, TrackStatus, forward_position, track
+from ninedof.proof.admissible import AdmissibleSet, admissible
 from ninedof.proof.bounds import (
     Bounds,
     DeterminantBounds,
@@ -130,6 +131,7 @@ __version__: str = _core.version
 
 __all__ = [
     "About",
+    "AdmissibleSet",
     "AssemblyModes",
     "Bounds",
     "Candidate",
@@ -186,6 +188,7 @@ __all__ = [
     "WorkspaceMap",
     "WorkspaceSlice",
     "WorkspaceStatus",
+    "admissible",
     "applicable_bounds",
     "atlas",
     "axis_condition_number_bounds",

@@ -193,8 +193,8 @@ class AdmissibleSet:
     @property
     def digest(self) -> str:
         """Digest of the question: another run goes on with the same question only."""
-        asked = (self.study.to_toml(), self.vary, self.ranges, sorted(self.at.items()), self.condition_number)
-        return sha256(repr(asked).encode())
+        asked = (self.study.to_dict(), self.vary, self.ranges, sorted(self.at.items()), self.condition_number)
+        return sha256(repr(asked).encode()).hexdigest()
 
 
 def admissible(

@@ -23,6 +23,7 @@ from ninedof.cli.options import (
     PlatformSide2,
     TwistDeg,
 )
+from ninedof.cli.posed import beyond_words
 from ninedof.design.indices import computed
 from ninedof.optimize.result import Status
 from ninedof.records.design_file import indices
@@ -73,6 +74,7 @@ def evaluate(options: EvaluateOptions) -> Answer:
         if chosen.result.status == Status.INFEASIBLE:
             parts.append(f"{chosen.result.status}: {chosen.result.reason}")
         of_run = sheet(chosen.result, characteristic_length=chosen.characteristic_length)
+        parts += beyond_words(chosen.geometry, chosen.configuration, of_run.configurations)
         parts += [poses_table(of_run)] if len(of_run.configurations) > 1 else []
         parts += [limits_table(of_run)] if of_run.limits else []
         values |= {"sheet": of_run.to_dict()}
