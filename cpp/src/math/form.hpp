@@ -143,10 +143,10 @@ struct Form {
   }
   friend Form operator/(const Form& x, const Form& y) { return lower(y) > 0.0 ? x * inverse(y) : unknown(); }
   friend Form square(const Form& x) { return x * x; }
-  /// Of x > 0: |second derivative| is x^(-3/2) / 4, the least first.
+  /// Of x >= 0: |second derivative| is x^(-3/2) / 4. No slope where x may be 0.
   friend Form sqrt(const Form& x) {
-    const double w = radius(x), least = lower(x);
-    if (!(least > 0.0)) return unknown();
+    const double w = radius(x), least = lower(x), most = upper(x);
+    if (!(least > 0.0)) return std::isfinite(most) ? of(Interval(0.0, detail::above(std::sqrt(std::max(most, 0.0))))) : unknown();
     const double value = std::sqrt(x.c), part = w / least;
     const double rest = 0.125 * part * part * std::sqrt(least) * (1.0 + forms::grain);
     return linear(x, value, 0.5 / value, -rest, 0.0);

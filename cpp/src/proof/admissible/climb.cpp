@@ -9,7 +9,8 @@
 namespace ninedof::admissible {
 namespace {
 
-constexpr long most_boxes_of_item = 4000, most_boxes_of_condition = 40'000;
+constexpr double most_boxes_of_item = 4000.0, most_boxes_of_condition = 40'000.0, boxes_of_whole = 500.0;
+constexpr std::size_t most_cuts = 400;
 /// A plane is taken where it is off by less than this part of what the number changes over the designs, or by this many
 /// times what the designs alone leave open.
 constexpr double part_of_change = 0.02, times_open = 4.0;
@@ -48,9 +49,7 @@ class Descent {
     for (const Box& root : roots) add(root);
   }
   bool done() const { return open_.empty(); }
-  bool spent() const {
-    return boxes_ >= most_ + std::ssize(roots_) || (boxes_ % 64 < 2 && stop_());
-  }
+  bool spent() { return boxes_ >= most_ + std::ssize(roots_) || (++turns_ % 32 == 0 && stop_()); }
   long boxes() const { return boxes_; }
   double least() const { return open_.top().least; }
   Open take() {
@@ -97,7 +96,7 @@ class Descent {
   long most_;
   const Stop& stop_;
   std::priority_queue<Open> open_;
-  long boxes_ = 0;
+  long boxes_ = 0, turns_ = 0;
 };
 
 Plane lowered(const Plane& x, const Met& met) {
@@ -112,7 +111,7 @@ bool covered(const Plane& x, const std::vector<Plane>& by) {
 
 }  // namespace
 
-Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, const Stop& stop) {
+Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width, const Stop& stop) {
   Found out;
   const auto lost = [&](const Met& met, const Box& at) {
     if (!met.known || least_of(met.most) >= 0.0) return false;
@@ -120,7 +119,8 @@ Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& 
     return most_of(met.most) < 0.0;
   };
   const bool keeps_open = item.kind == Item::Kind::condition;
-  Descent<Item> descent(designs, item, roots, keeps_open ? most_boxes_of_condition : most_boxes_of_item, stop);
+  const double most = std::min(keeps_open ? most_boxes_of_condition : most_boxes_of_item, boxes_of_whole / width);
+  Descent<Item> descent(designs, item, roots, static_cast<long>(most), stop);
   const auto finish = [&](Found::Status status) {
     out.status = status;
     out.boxes = descent.boxes();
@@ -128,7 +128,7 @@ Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& 
     return out;
   };
   while (!descent.done() && !(descent.least() > 0.0)) {
-    if (descent.spent()) return finish(Found::Status::unknown);
+    if (descent.spent() || out.cuts.size() >= most_cuts) return finish(Found::Status::unknown);
     const Open one = descent.take();
     if (one.seen.known && covered(one.seen.kept, out.cuts)) {
       if (keeps_open) out.open.push_back(one.box);
@@ -152,7 +152,7 @@ Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& 
 Envelope envelope(const DesignsAt& designs, const Length& length, const std::vector<Box>& roots, double allowed,
                   const Stop& stop) {
   Envelope out;
-  Descent<Length> descent(designs, length, roots, most_boxes_of_item, stop);
+  Descent<Length> descent(designs, length, roots, static_cast<long>(most_boxes_of_item), stop);
   while (!descent.done()) {
     const Open one = descent.take();
     out.boxes = descent.boxes();

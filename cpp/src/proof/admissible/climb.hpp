@@ -34,7 +34,8 @@ struct Found {
 /// Asked now and then; the search then ends with what is known.
 using Stop = std::function<bool()>;
 
-Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, const Stop& stop);
+/// `width`: of the box of designs, as a part of all: large boxes are hardly ever proved, and searched for less long.
+Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width, const Stop& stop);
 
 /// Planes none of whose least is above the length, or less the length, and the poses that they were found at.
 struct Envelope {

@@ -1,5 +1,7 @@
 #include "proof/admissible/examine.hpp"
 
+#include <algorithm>
+
 namespace ninedof::admissible {
 namespace {
 
@@ -72,6 +74,9 @@ Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
   std::vector<char>& kept = out.inherited.kept;
   kept.resize(demands_.items.size() + demands_.spreads.size() + demands_.alone.size(), 0);
   bool complete = designs.known();
+  double width = 0.0;
+  for (std::size_t k = 0; k < question_.varied.size(); ++k)
+    width = std::max(width, (asked.box.high[k] - asked.box.low[k]) / (question_.high[k] - question_.low[k]));
   // Takes what was found; whether no design of the box is inside.
   const auto took = [&](std::size_t n, Found found) {
     out.boxes += found.boxes;
@@ -105,8 +110,8 @@ Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
     }
     for (const Item& item : demands_.items) {
       const auto left = asked.open.find(n);
-      if (kept[n] == 0 && took(n, climb(designs, item, left != asked.open.end() ? *left->second : roots_of(item), stop)))
-        return;
+      const std::vector<Box> roots = left != asked.open.end() ? *left->second : roots_of(item);
+      if (kept[n] == 0 && took(n, climb(designs, item, roots, width, stop))) return;
       ++n;
     }
   };
