@@ -55,7 +55,7 @@ RESULTS = {
         "Ellipsoid",
     ),
     *("ErrorBounds", "Followed", "Front", "InternalPoint", "InternalPointMap", "InverseDynamics"),
-    *("LegForces", "LimitBreak", "LimitProof", "Payload", "Failure", "RegionMap"),
+    *("LegForces", "LimitBreak", "LimitProof", "Payload", "Comparison", "Failure", "RegionMap"),
     *("LowerBound", "MachineCertificate", "MapAudit", "NearestSingularity", "OptimumProof", "PathLimits", "Result"),
     *("Sheet", "Singularity", "SingularityDistance", "SingularityMargins", "SweepResult", "Trace", "Tracked"),
     *("VelocityMatrices", "WorkspaceCells", "WorkspaceMap", "WorkspaceSlice"),
