@@ -132,7 +132,7 @@ RETURNING = (
         "best_internal_map",
     ),
     *("singularity", "singularity_margins", "distance_to_singularity", "nearest_singularity"),
-    *("follow", "path_limits", "failure", "region_map", "sheet", "largest_payload", "sweep", "trace"),
+    *("compare", "follow", "path_limits", "failure", "region_map", "sheet", "largest_payload", "sweep", "trace"),
     *("Study.evaluate", "check"),
     *("applicable_bounds", "WorkspaceMap.slice"),
 )
