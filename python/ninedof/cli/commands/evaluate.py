@@ -92,7 +92,9 @@ def evaluate(options: EvaluateOptions) -> Answer:
 def _changed(options: EvaluateOptions) -> Answer:
     """Return the run beside its design with other values of some variables."""
     plot_argument(options.plot)
-    given = [name for name in ("a1", "a2", "b1", "b2", "zp", "zs", "theta_z_deg", "lc") if getattr(options, name)]
+    given = [
+        name for name in ("a1", "a2", "b1", "b2", "zp", "zs", "theta_z_deg", "lc") if getattr(options, name) is not None
+    ]
     if given:
         raise ValueError(f"--set: got --{given[0].replace('_', '-')} beside it, expected a run alone")
     result = None if options.design is None else chosen_design(options.design, {}, None).result
