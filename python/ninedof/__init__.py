@@ -81,6 +81,7 @@ from ninedof.report.report import report
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.allotment import tolerances_for
+from ninedof.sheet.comparison import Comparison, compare
 from ninedof.sheet.failure.failure import failure
 from ninedof.sheet.failure.result import Failure
 from ninedof.sheet.path_limits import PathLimits, path_limits
@@ -136,6 +137,7 @@ __all__ = [
     "Bounds",
     "Candidate",
     "CertifiedWorkspace",
+    "Comparison",
     "Configuration",
     "Design",
     "DesignPoint",
@@ -200,6 +202,7 @@ __all__ = [
     "characteristic_length",
     "check",
     "check_certificate",
+    "compare",
     "condition_number",
     "condition_number_bounds",
     "determinant_bounds",

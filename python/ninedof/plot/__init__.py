@@ -19,6 +19,7 @@ if "matplotlib" not in _sys.modules and (_backend := _os.environ.pop("MPLBACKEND
         _matplotlib.rcParams["backend"] = _backend
 
 from ninedof.plot.atlas import atlas
+from ninedof.plot.compare import compare
 from ninedof.plot.convergence import convergence
 from ninedof.plot.drawing import drawing
 from ninedof.plot.files import save
@@ -39,6 +40,7 @@ __all__ = [
     "Section",
     "atlas",
     "certified_workspace",
+    "compare",
     "condition_curves",
     "convergence",
     "drawing",

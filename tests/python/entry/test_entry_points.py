@@ -55,7 +55,7 @@ RESULTS = {
         "Ellipsoid",
     ),
     *("ErrorBounds", "Followed", "Front", "InternalPoint", "InternalPointMap", "InverseDynamics"),
-    *("LegForces", "LimitBreak", "LimitProof", "Payload", "Failure", "RegionMap"),
+    *("LegForces", "LimitBreak", "LimitProof", "Payload", "Comparison", "Failure", "RegionMap"),
     *("LowerBound", "MachineCertificate", "MapAudit", "NearestSingularity", "OptimumProof", "PathLimits", "Result"),
     *("Sheet", "Singularity", "SingularityDistance", "SingularityMargins", "SweepResult", "Trace", "Tracked"),
     *("VelocityMatrices", "WorkspaceCells", "WorkspaceMap", "WorkspaceSlice"),
@@ -132,7 +132,7 @@ RETURNING = (
         "best_internal_map",
     ),
     *("singularity", "singularity_margins", "distance_to_singularity", "nearest_singularity"),
-    *("follow", "path_limits", "failure", "region_map", "sheet", "largest_payload", "sweep", "trace"),
+    *("compare", "follow", "path_limits", "failure", "region_map", "sheet", "largest_payload", "sweep", "trace"),
     *("Study.evaluate", "check"),
     *("applicable_bounds", "WorkspaceMap.slice"),
 )

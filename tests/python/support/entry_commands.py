@@ -9,7 +9,12 @@ LINES = {
         "{study} --against radius_ratio --value 1.9 --starts 1 --threads 1 --out {out} --no-report",
         "{study} --against radius_ratio --points 2 --starts 1 --out {out} --no-report",
     ],
-    "evaluate": ["{design} --lc 1.0", "--a1 0 --a2 5 --b1 3 --b2 0 --zp 4 --zs 2 --theta-z-deg 0"],
+    "evaluate": [
+        "{design} --lc 1.0",
+        "--a1 0 --a2 5 --b1 3 --b2 0 --zp 4 --zs 2 --theta-z-deg 0",
+        "{run} --set a2=5 --plot x.png",
+    ],
+    "compare": ["{run} {run} --plot x.png"],
     "report": ["{run} --out {page}"],
     "sheet": [
         "{design} --speed 1 --turn-deg 1 --internal least --load 0,0,0,0,0,1 --mass 1 --centre 0,0,0 --gravity 0,0,-9 "

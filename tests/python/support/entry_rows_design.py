@@ -486,3 +486,7 @@ row("WorkspaceMap.slice", lambda **a: it.workspace().slice(**a), words={"axis": 
 row("WorkspaceMap.surface", lambda **a: it.workspace().surface(**a))(lambda: {"most": 1000})
 row("WorkspaceMap.to_dict", lambda: it.workspace().to_dict())(dict)
 row("spread_rotations", huge=("count",))(lambda: {"count": 3, "angle": 1.0})
+row("compare", lambda **a: nd.compare(it.result(), it.result(), **a))(lambda: {"names": ["one", "other"]})
+row("Comparison.parts", lambda: nd.compare(it.result(), it.result()).parts())(dict)
+row("Comparison.to_dict", lambda: nd.compare(it.result(), it.result()).to_dict())(dict)
+row("Result.with_changes", lambda **a: it.result().with_changes(**a))(lambda: {"a2": 5.0})
