@@ -7,20 +7,20 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol, TypedDict, Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ninedof import _core
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
-from ninedof.optimize.result import Result
 from ninedof.proof.machine_record import ProofPose
 from ninedof.support.arguments import finite, instance, pair, shown, table, text, whole
 from ninedof.support.arrays import MOST_THREADS, Floats, as_floats
 from ninedof.support.files import sha256
 from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.structs import Fixed, options_of
 from ninedof.support.units import amount
 
 INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
@@ -28,6 +28,31 @@ STATES = (INSIDE, OUTSIDE, UNDECIDED)
 MOST_VARIED = 4
 ENOUGH = 1e-5  # of the volume: what is undecided below it is not looked at
 AROUND_SECONDS = 20.0
+LONGEST = 1e9  # seconds
+
+
+class HasDesign(Protocol):
+    """A result of a study: what `Result` has."""
+
+    @property
+    def study(self) -> Study:
+        """The study."""
+
+    @property
+    def variables(self) -> Mapping[str, float] | None:
+        """The design; None without one."""
+
+
+class AdmissibleArguments(TypedDict, total=False):
+    """Options of `admissible`, which says what they mean."""
+
+    at: Mapping[str, float] | None
+    condition_number: float | None
+    time_limit: float | None
+    resolution: float
+    threads: int
+    resume: AdmissibleSet | None
+    progress: Progress | None
 
 
 class Reason(NamedTuple):
@@ -41,26 +66,61 @@ class Reason(NamedTuple):
     """Where all designs of the box break it; of a spread of lengths where the leg is longest."""
 
 
-@dataclass(frozen=True, eq=False)
-class AdmissibleSet:
-    """A box of designs, divided. Lengths in the unit of the study, angles in radians."""
+@dataclass(frozen=True)
+class DesignRange:
+    """The designs that are asked for, and what they have to keep."""
 
     study: Study
     vary: tuple[str, ...]
     """The variables that vary."""
     ranges: tuple[tuple[float, float], ...]
-    """The ends of the box."""
+    """The ends of each; angles in radians."""
     at: Mapping[str, float]
-    """All variables: of those that vary the design that is marked, or the middle of the box."""
+    """All variables: of those that vary the design that is marked, or the middle."""
     condition_number: float | None
-    """The bound that was asked for beside the limits of the study."""
+    """A bound besides the limits of the study."""
+
+    def for_core(self) -> _core.DesignQuestion:
+        """Return the question as the core takes it."""
+        names, region = list(self.study.variables), self.study.objective.region
+        return _core.DesignQuestion(
+            problem=self.study.problem(),
+            region=[] if region is None else [region.for_core()],
+            at=[self.at[name] for name in names],
+            varied=[names.index(name) for name in self.vary],
+            low=[low for low, _ in self.ranges],
+            high=[high for _, high in self.ranges],
+            condition=math.inf if self.condition_number is None else float(self.condition_number),
+        )
+
+    @property
+    def digest(self) -> str:
+        """Digest of the question: another run goes on with the same question only."""
+        asked = (self.study.to_dict(), self.vary, self.ranges, sorted(self.at.items()), self.condition_number)
+        return sha256(repr(asked).encode()).hexdigest()
+
+    @property
+    def words(self) -> str:
+        """The ranges in words."""
+        parts = []
+        for name, ends in zip(self.vary, self.ranges, strict=True):
+            low, high = (f"{self.study.shown(name, end):g}" for end in ends)
+            parts.append(f"{name} from {low} to {amount(high, self.study.unit_of(name))}")
+        return ", ".join(parts)
+
+
+@dataclass(frozen=True, eq=False)
+class AdmissibleSet:
+    """A box of designs, divided into pieces. Lengths in the unit of the study, angles in radians."""
+
+    of: DesignRange
     low: Floats
     """The lower ends of the pieces, shape (n, d); they are a partition of the box."""
     high: Floats
     """The upper ends."""
-    state: np.ndarray[Any, Any]
+    state: NDArray[np.int8]
     """0 inside, 1 outside, 2 undecided, shape (n,)."""
-    demand: np.ndarray[Any, Any]
+    demand: NDArray[np.int32]
     """Of those outside the index into `demands`, else -1."""
     demands: tuple[tuple[str, str], ...]
     """All limits with their parts."""
@@ -74,6 +134,16 @@ class AdmissibleSet:
     """Boxes of poses, for a box of designs each."""
     seconds: float
     interrupted: bool = False
+
+    @property
+    def study(self) -> Study:
+        """The study."""
+        return self.of.study
+
+    @property
+    def vary(self) -> tuple[str, ...]:
+        """The variables that vary."""
+        return self.of.vary
 
     @property
     def inside(self) -> Floats:
@@ -95,14 +165,14 @@ class AdmissibleSet:
         """Why each box outside is outside."""
         chosen = self.state == 1
         return tuple(
-            Reason(*self.demands[demand], _pose(row))
+            Reason(self.demands[demand][0], self.demands[demand][1], _pose(row))
             for demand, row in zip(self.demand[chosen].tolist(), self.poses[chosen].tolist(), strict=True)
         )
 
     @cached_property
     def excluded(self) -> dict[str, float]:
         """The share of the volume that each limit excludes, the greatest first; a design counts for one limit only."""
-        volume = np.prod(self.high - self.low, axis=1) / math.prod(high - low for low, high in self.ranges)
+        volume = np.prod(self.high - self.low, axis=1) / math.prod(high - low for low, high in self.of.ranges)
         out: dict[str, float] = {}
         for n, (limit, _) in enumerate(self.demands):
             share = float(volume[(self.state == 1) & (self.demand == n)].sum())
@@ -124,7 +194,7 @@ class AdmissibleSet:
         return out
 
     def around(
-        self, design: Result | Mapping[str, float] | None = None, proportions: Mapping[str, float] | None = None
+        self, design: HasDesign | Mapping[str, float] | None = None, proportions: Mapping[str, float] | None = None
     ) -> dict[str, tuple[float, float]]:
         """Return how far each variable may go at once: the largest box around a design that is proved inside.
 
@@ -142,7 +212,7 @@ class AdmissibleSet:
             If the design is not inside: the message names the limit that it breaks, if that is proved.
 
         """
-        values = self.at if design is None else _values(design)
+        values = self.of.at if design is None else _values(design)
         missing = [name for name in self.vary if name not in values]
         if missing:
             raise ValueError(f"design: got no {missing[0]}, expected a value of {', '.join(self.vary)}")
@@ -153,7 +223,7 @@ class AdmissibleSet:
             if set(given) != set(self.vary):
                 raise ValueError(f"proportions: got {shown(list(given))}, expected {', '.join(self.vary)}")
             half = [finite(f"proportions.{name}", given[name]) for name in self.vary]
-        found, low, high, broken = _core.room_around(_question(self), x, half, seconds=AROUND_SECONDS)
+        found, low, high, broken = _core.room_around(self.of.for_core(), x, half, seconds=AROUND_SECONDS)
         if found:
             return dict(zip(self.vary, zip(low, high, strict=True), strict=True))
         words = ", ".join(f"{name} = {value:g}" for name, value in zip(self.vary, x, strict=True))
@@ -172,13 +242,13 @@ class AdmissibleSet:
 
     def sentences(self) -> list[str]:
         """Return what is proved, in words."""
-        box = ", ".join(
-            f"{name} from {self.study.shown(name, low):g} to {amount(f'{self.study.shown(name, high):g}', self.study.unit_of(name))}"
-            for name, (low, high) in zip(self.vary, self.ranges, strict=True)
+        bound = (
+            ""
+            if self.of.condition_number is None
+            else f" and a condition number of at most {self.of.condition_number:g}"
         )
-        bound = "" if self.condition_number is None else f" and a condition number of at most {self.condition_number:g}"
         out = [
-            f"Proved, of all designs with {box}: {self.shares[INSIDE]:.3%} keep every limit{bound} at every pose, "
+            f"Proved, of all designs with {self.of.words}: {self.shares[INSIDE]:.3%} keep every limit{bound} at every pose, "
             f"{self.shares[OUTSIDE]:.3%} break one; {self.shares[UNDECIDED]:.3%} are not decided."
         ]
         if self.excluded:
@@ -186,28 +256,26 @@ class AdmissibleSet:
             out.append(f"Excluded by: {by}.")
         return out
 
+    def for_core(self) -> dict[str, Any]:
+        """Return the pieces as the core takes them, for a run that goes on."""
+        return {
+            "low": self.low,
+            "high": self.high,
+            "state": self.state.tolist(),
+            "demand": self.demand.tolist(),
+            "pose": self.poses[:, 0].astype(int).tolist(),
+            "at": np.ascontiguousarray(self.poses[:, 1:]),
+        }
+
     def _boxes(self, state: int) -> Floats:
         chosen = self.state == state
         return np.stack([self.low[chosen], self.high[chosen]], axis=-1)
 
-    @property
-    def digest(self) -> str:
-        """Digest of the question: another run goes on with the same question only."""
-        asked = (self.study.to_dict(), self.vary, self.ranges, sorted(self.at.items()), self.condition_number)
-        return sha256(repr(asked).encode()).hexdigest()
-
 
 def admissible(
-    of: Study | Result,
+    of: Study | HasDesign,
     vary: Collection[str] | Mapping[str, tuple[float, float] | None],
-    *,
-    at: Mapping[str, float] | None = None,
-    condition_number: float | None = None,
-    time_limit: float | None = None,
-    resolution: float = 0.01,
-    threads: int = 0,
-    resume: AdmissibleSet | None = None,
-    progress: Progress | None = None,
+    **options: Unpack[AdmissibleArguments],
 ) -> AdmissibleSet:
     """Divide a box of designs into what keeps every limit at every pose, what breaks one, and the rest; proved.
 
@@ -257,10 +325,12 @@ def admissible(
     >>> study = nd.Study(variables={"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0})
     >>> found = nd.admissible(study, ("a2", "b1"), at={"zp": 4.9752, "zs": 3.1681}, condition_number=3.911)
     >>> f"{found.shares['inside']:.1%}"
-    '10.2%'
+    '18.2%'
 
     """
-    study, values = _asked(of, at)
+    chosen = options_of("admissible", AdmissibleArguments, options, resolution=0.01, threads=0)
+    condition_number, resume = chosen["condition_number"], chosen["resume"]
+    study, values = _asked(of, chosen["at"])
     given = dict(vary) if isinstance(vary, Mapping) else dict.fromkeys(tuple(vary))
     if isinstance(vary, str) or not 1 <= len(given) <= MOST_VARIED:
         raise ValueError(f"vary: got {shown(vary)}, expected names of one to {MOST_VARIED} variables")
@@ -275,54 +345,53 @@ def admissible(
         raise ValueError(f"at: got no {missing[0]}, expected a value: it is free in the study and does not vary")
     if condition_number is not None:
         finite("condition_number", condition_number, 1.0)
-    limit = math.inf if time_limit is None else finite("time_limit", time_limit, 0.0)
-    finite("resolution", resolution, 0.0, 1.0)
-    whole("threads", threads, 0, MOST_THREADS)
+    seconds = LONGEST if chosen["time_limit"] is None else finite("time_limit", chosen["time_limit"], 0.0)
+    resolution = finite("resolution", chosen["resolution"], 0.0, 1.0)
+    threads = whole("threads", chosen["threads"], 0, MOST_THREADS)
     begin = perf_counter()
-    asked = AdmissibleSet(
-        study, tuple(given), ranges, middles | values, condition_number, *[np.empty(0)] * 4, (), np.empty(0), {}, 0, 0, 0.0
-    )
-    if resume is not None and instance("resume", resume, AdmissibleSet).digest != asked.digest:
+    asked = DesignRange(study, tuple(given), ranges, Fixed(middles | values), condition_number)
+    if resume is not None and instance("resume", resume, AdmissibleSet).of.digest != asked.digest:
         raise ValueError("resume: got the designs of another question, expected those of this one")
     found = _core.admissible_designs(
-        _question(asked),
+        asked.for_core(),
         threads=threads,
-        seconds=min(limit, 1e9),
-        resolution=float(resolution),
+        seconds=min(seconds, LONGEST),
+        resolution=resolution,
         undecided=ENOUGH,
-        earlier=None if resume is None else _arrays(resume),
-        progress=progress_argument(progress),
+        earlier=None if resume is None else resume.for_core(),
+        progress=progress_argument(chosen["progress"]),
     )
     return AdmissibleSet(
-        study,
-        asked.vary,
-        ranges,
-        asked.at,
-        condition_number,
-        *(found[name] for name in ("low", "high", "state", "demand", "demands")),
-        np.column_stack([found["pose"], found["at"]]),
-        {name: found[name] for name in STATES},
-        found["looked_at"] + (0 if resume is None else resume.designs),
-        found["boxes"] + (0 if resume is None else resume.boxes),
-        perf_counter() - begin + (0.0 if resume is None else resume.seconds),
-        found["interrupted"],
+        asked,
+        low=found["low"],
+        high=found["high"],
+        state=found["state"],
+        demand=found["demand"],
+        demands=found["demands"],
+        poses=np.column_stack([found["pose"], found["at"]]),
+        shares=Fixed({name: found[name] for name in STATES}),
+        designs=found["looked_at"] + (0 if resume is None else resume.designs),
+        boxes=found["boxes"] + (0 if resume is None else resume.boxes),
+        seconds=perf_counter() - begin + (0.0 if resume is None else resume.seconds),
+        interrupted=found["interrupted"],
     )
 
 
-def _values(of: Result | Mapping[str, float]) -> Mapping[str, float]:
-    if not isinstance(of, Result):
-        return table("design", of)
-    if of.variables is None:
+def _values(of: HasDesign | Mapping[str, float]) -> Mapping[str, float]:
+    values = getattr(of, "variables", of)
+    if values is None:
         raise ValueError("design: got a result without a design, expected one with a best candidate")
-    return of.variables
+    return table("design", values)
 
 
-def _asked(of: Study | Result, at: Mapping[str, float] | None) -> tuple[Study, dict[str, float]]:
+def _asked(of: Study | HasDesign, at: Mapping[str, float] | None) -> tuple[Study, dict[str, float]]:
     """Return the study and the known values of its variables."""
-    study = of.study if isinstance(of, Result) else instance("of", of, Study)
+    study = of if isinstance(of, Study) else getattr(of, "study", None)
+    if not isinstance(study, Study):
+        raise ValueError(f"of: got {shown(of)}, expected a Study or a Result")
     values = {name: ends for name, ends in study.variables.items() if not isinstance(ends, tuple)}
-    if isinstance(of, Result):
-        values |= {name: x for name, x in _values(of).items() if name in study.variables}
+    if of is not study:
+        values |= {name: x for name, x in _values(of).items() if name in study.variables}  # type: ignore[arg-type]
     for name, value in ({} if at is None else table("at", at)).items():
         if name not in study.variables:
             raise ValueError(f"at: got {shown(name)}, expected variables of the study: {', '.join(study.variables)}")
@@ -343,31 +412,6 @@ def _range(study: Study, name: str, ends: object) -> tuple[float, float]:
     if not low < high:
         raise ValueError(f"vary.{name}: got ({low:g}, {high:g}), expected low < high")
     return low, high
-
-
-def _question(of: AdmissibleSet) -> _core.DesignQuestion:
-    names, region = list(of.study.variables), of.study.objective.region
-    return _core.DesignQuestion(
-        problem=of.study.problem(),
-        region=[] if region is None else [region.for_core()],
-        at=[of.at[name] for name in names],
-        varied=[names.index(name) for name in of.vary],
-        low=[low for low, _ in of.ranges],
-        high=[high for _, high in of.ranges],
-        condition=math.inf if of.condition_number is None else float(of.condition_number),
-    )
-
-
-def _arrays(of: AdmissibleSet) -> dict[str, Any]:
-    pose = of.poses[:, 0].astype(int).tolist()
-    return {
-        "low": of.low,
-        "high": of.high,
-        "state": of.state.tolist(),
-        "demand": of.demand.tolist(),
-        "pose": pose,
-        "at": np.ascontiguousarray(of.poses[:, 1:]),
-    }
 
 
 def _pose(row: list[float]) -> ProofPose:

@@ -1,7 +1,6 @@
 """Sets of admissible designs, held against designs drawn at random and evaluated in numpy at poses drawn at random."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -72,7 +71,8 @@ CASES = {
                 "leg_ratio": (None, 2.6),
                 "joint_spacing": {"min": 0.3, "of": "radius"},
                 "joint_height": (None, 0.4),
-                "leg_clearance": (0.1, None), "external_length": (None, 7.0),
+                "leg_clearance": (0.1, None),
+                "external_length": (None, 7.0),
             },
             objective={"region": BOX | {"unit": "zp", "box": (0.06, 0.05, 0.06)}},
         ),
@@ -90,7 +90,10 @@ CASES = {
                 ],
             },
             objective={
-                "poses": [{"position": (0.1, 0.0, 0.05), "rotation": (0.1, 0.2, 0.0), "unit": "zp"}, {"position": (0, 0.5, 0)}],
+                "poses": [
+                    {"position": (0.1, 0.0, 0.05), "rotation": (0.1, 0.2, 0.0), "unit": "zp"},
+                    {"position": (0, 0.5, 0)},
+                ],
                 "condition_limit": 6.0,
             },
         ),
@@ -124,16 +127,16 @@ def drawn_in(boxes, count, rng):
 
 
 def variables_of(found, row):
-    return dict(found.at) | dict(zip(found.vary, row.tolist(), strict=True))
+    return dict(found.of.at) | dict(zip(found.vary, row.tolist(), strict=True))
 
 
 def test_pieces_are_a_partition(case):
     volume = np.prod(case.high - case.low, axis=1)
-    whole = math.prod(high - low for low, high in case.ranges)
+    whole = math.prod(high - low for low, high in case.of.ranges)
     assert volume.sum() == pytest.approx(whole, rel=1e-9)
     assert sum(case.shares.values()) == pytest.approx(1.0, abs=1e-9)
     rng = np.random.default_rng(1)
-    ends = np.array(case.ranges)
+    ends = np.array(case.of.ranges)
     x = ends[:, 0] + rng.random((300, len(ends))) * np.ptp(ends, axis=1)
     inner = ((case.low[None] < x[:, None]) & (x[:, None] < case.high[None])).all(axis=2)
     assert (inner.sum(axis=1) == 1).all()
@@ -153,8 +156,8 @@ def test_no_design_inside_breaks_a_limit(case):
         every, index = everything(case.study, poses, variables_of(case, row))
         for name, values in every.items():
             assert values.size == 0 or values.min() > -ROUNDING, (name, row)
-        if case.condition_number is not None:
-            assert index.max() <= case.condition_number * (1.0 + ROUNDING)
+        if case.of.condition_number is not None:
+            assert index.max() <= case.of.condition_number * (1.0 + ROUNDING)
 
 
 def test_every_design_outside_breaks_the_limit_that_is_named_at_the_pose_that_is_named(case):
@@ -179,7 +182,7 @@ def test_every_design_outside_breaks_the_limit_that_is_named_at_the_pose_that_is
             continue  # two poses: see the next test
         every, index = everything(case.study, there, variables)
         if reason.limit == "condition_number":
-            limit = min(x for x in (case.condition_number, case.study.objective.condition_limit) if x is not None)
+            limit = min(x for x in (case.of.condition_number, case.study.objective.condition_limit) if x is not None)
             assert index.max() > limit * (1.0 - ROUNDING)
         elif reason.limit == "no singularity":
             continue
