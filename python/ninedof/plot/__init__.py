@@ -18,6 +18,7 @@ if "matplotlib" not in _sys.modules and (_backend := _os.environ.pop("MPLBACKEND
     with _suppress(ValueError):
         _matplotlib.rcParams["backend"] = _backend
 
+from ninedof.plot.admissible import admissible
 from ninedof.plot.atlas import atlas
 from ninedof.plot.compare import compare
 from ninedof.plot.convergence import convergence
@@ -38,6 +39,7 @@ __all__ = [
     "DesignCurves",
     "Robot",
     "Section",
+    "admissible",
     "atlas",
     "certified_workspace",
     "compare",

@@ -203,8 +203,8 @@ class AdmissibleSet:
         design : Result or mapping, optional
             The design; `at` by default.
         proportions : mapping, optional
-            The half widths of the box by variable, up to a factor: tolerances of manufacture. By default the box of
-            greatest volume that a local search finds.
+            The half widths of the box by variable, up to a factor: tolerances of manufacture. By default the box for
+            which the product of the room to all sides is greatest: there is room to each.
 
         Raises
         ------
@@ -242,14 +242,12 @@ class AdmissibleSet:
 
     def sentences(self) -> list[str]:
         """Return what is proved, in words."""
-        bound = (
-            ""
-            if self.of.condition_number is None
-            else f" and a condition number of at most {self.of.condition_number:g}"
-        )
+        most = self.of.condition_number
+        bound = "" if most is None else f" and a condition number of at most {most:g}"
+        inside, outside, undecided = (f"{self.shares[name]:.3%}" for name in STATES)
         out = [
-            f"Proved, of all designs with {self.of.words}: {self.shares[INSIDE]:.3%} keep every limit{bound} at every pose, "
-            f"{self.shares[OUTSIDE]:.3%} break one; {self.shares[UNDECIDED]:.3%} are not decided."
+            f"Proved, of all designs with {self.of.words}: {inside} keep every limit{bound} at every pose, "
+            f"{outside} break one; {undecided} are not decided."
         ]
         if self.excluded:
             by = ", ".join(f"{name.replace('_', ' ')} {share:.2%}" for name, share in self.excluded.items())
@@ -329,27 +327,11 @@ def admissible(
 
     """
     chosen = options_of("admissible", AdmissibleArguments, options, resolution=0.01, threads=0)
-    condition_number, resume = chosen["condition_number"], chosen["resume"]
-    study, values = _asked(of, chosen["at"])
-    given = dict(vary) if isinstance(vary, Mapping) else dict.fromkeys(tuple(vary))
-    if isinstance(vary, str) or not 1 <= len(given) <= MOST_VARIED:
-        raise ValueError(f"vary: got {shown(vary)}, expected names of one to {MOST_VARIED} variables")
-    ranges = tuple(_range(study, name, ends) for name, ends in given.items())
-    for name in values.keys() & given.keys():
-        low, high = ranges[list(given).index(name)]
-        if not low <= values[name] <= high:
-            values.pop(name)
-    middles = {name: 0.5 * (low + high) for name, (low, high) in zip(given, ranges, strict=True)}
-    missing = [name for name in study.variables if name not in values and name not in middles]
-    if missing:
-        raise ValueError(f"at: got no {missing[0]}, expected a value: it is free in the study and does not vary")
-    if condition_number is not None:
-        finite("condition_number", condition_number, 1.0)
+    asked = design_range(of, vary, chosen["at"], chosen["condition_number"])
     seconds = LONGEST if chosen["time_limit"] is None else finite("time_limit", chosen["time_limit"], 0.0)
     resolution = finite("resolution", chosen["resolution"], 0.0, 1.0)
     threads = whole("threads", chosen["threads"], 0, MOST_THREADS)
-    begin = perf_counter()
-    asked = DesignRange(study, tuple(given), ranges, Fixed(middles | values), condition_number)
+    resume, begin = chosen["resume"], perf_counter()
     if resume is not None and instance("resume", resume, AdmissibleSet).of.digest != asked.digest:
         raise ValueError("resume: got the designs of another question, expected those of this one")
     found = _core.admissible_designs(
@@ -375,6 +357,29 @@ def admissible(
         seconds=perf_counter() - begin + (0.0 if resume is None else resume.seconds),
         interrupted=found["interrupted"],
     )
+
+
+def design_range(
+    of: Study | HasDesign,
+    vary: Collection[str] | Mapping[str, tuple[float, float] | None],
+    at: Mapping[str, float] | None = None,
+    condition_number: float | None = None,
+) -> DesignRange:
+    """Return what `admissible` is asked for, checked; it says what the arguments mean."""
+    study, values = _asked(of, at)
+    given = dict(vary) if isinstance(vary, Mapping) else dict.fromkeys(tuple(vary))
+    if isinstance(vary, str) or not 1 <= len(given) <= MOST_VARIED:
+        raise ValueError(f"vary: got {shown(vary)}, expected names of one to {MOST_VARIED} variables")
+    ranges = tuple(_range(study, name, ends) for name, ends in given.items())
+    for name, (low, high) in zip(given, ranges, strict=True):
+        if not low <= values.get(name, math.nan) <= high:
+            values[name] = 0.5 * (low + high)
+    missing = [name for name in study.variables if name not in values]
+    if missing:
+        raise ValueError(f"at: got no {missing[0]}, expected a value: it is free in the study and does not vary")
+    if condition_number is not None:
+        finite("condition_number", condition_number, 1.0)
+    return DesignRange(study, tuple(given), ranges, Fixed(values), condition_number)
 
 
 def _values(of: HasDesign | Mapping[str, float]) -> Mapping[str, float]:

@@ -75,7 +75,8 @@ struct DesignRoom {
 };
 
 /// The largest box around a design, within the ends of the question: its half widths are in the given proportions, or
-/// without them its volume is greatest. A local search of boxes each of which is proved; `seconds` of wall time.
+/// without them the product of the room to all sides is greatest, so that there is room to each. A local search of boxes
+/// each of which is proved; `seconds` of wall time.
 DesignRoom room_around(const DesignQuestion& question, const std::vector<double>& design,
                        const std::vector<double>& proportions, double seconds, const Control& control = {});
 

@@ -51,33 +51,32 @@ double reach_along(const std::vector<Bound>& bounds, const Vector& along) {
   return most;
 }
 
-/// The x of greatest product of the widths, by Newton's method on a logarithmic barrier: the problem is concave.
+/// The x of greatest product, by Newton's method on a logarithmic barrier: the problem is concave. Sides that start at 0
+/// stay there.
 Vector widest(const std::vector<Bound>& bounds, const Vector& start) {
   Vector x = start;
-  const Eigen::Index n = x.size() / 2;
   for (double weight = 1.0; weight > 1e-7; weight *= 0.3)
     for (int step = 0; step < 20; ++step) {
-      Vector gradient = Vector::Zero(2 * n);
-      Eigen::MatrixXd bend = 1e-12 * Eigen::MatrixXd::Identity(2 * n, 2 * n);
-      for (Eigen::Index k = 0; k < n; ++k) {
-        const double inverse = 1.0 / (x[k] + x[n + k]);
-        for (const Eigen::Index i : {k, n + k}) {
-          gradient[i] += inverse + weight / x[i];
-          bend(i, i) += weight / (x[i] * x[i]);
-          for (const Eigen::Index j : {k, n + k}) bend(i, j) += inverse * inverse;
+      Vector gradient = Vector::Zero(x.size());
+      Eigen::MatrixXd bend = Eigen::MatrixXd::Identity(x.size(), x.size());
+      for (Eigen::Index k = 0; k < x.size(); ++k)
+        if (x[k] > 0.0) {
+          gradient[k] = 1.0 / x[k];
+          bend(k, k) = gradient[k] * gradient[k];
         }
-      }
       for (const Bound& one : bounds) {
-        const double inverse = 1.0 / (one.room - one.slope.dot(x));
-        gradient -= weight * inverse * one.slope;
-        bend += weight * inverse * inverse * one.slope * one.slope.transpose();
+        const Vector slope = (x.array() > 0.0).select(one.slope, 0.0);
+        const double inverse = 1.0 / (one.room - slope.dot(x));
+        if (slope.isZero(0.0)) continue;
+        gradient -= weight * inverse * slope;
+        bend += weight * inverse * inverse * slope * slope.transpose();
       }
       const Vector along = bend.ldlt().solve(gradient);
       double most = 1.0;
       for (const Bound& one : bounds)
         if (const double slope = one.slope.dot(along); slope > 0.0)
           most = std::min(most, 0.9 * (one.room - one.slope.dot(x)) / slope);
-      for (Eigen::Index k = 0; k < 2 * n; ++k)
+      for (Eigen::Index k = 0; k < x.size(); ++k)
         if (along[k] < 0.0) most = std::min(most, -0.9 * x[k] / along[k]);
       x += most * along;
       if (along.cwiseAbs().maxCoeff() < 1e-9) break;
@@ -172,15 +171,15 @@ class RoomSearch {
         const auto i = static_cast<std::size_t>(k);
         along[k] = along[n + k] = proportions_[i] / (outer.high[i] - outer.low[i]);
       }
-    const double most = reach_along(bounds, along);
     // A design at an end of the range has room to one side alone.
-    if (most > 0.0 && !proportions_.empty()) return Vector((1.0 - 1e-9) * most * along);
-    if (std::ranges::any_of(bounds, [](const Bound& one) { return one.room < 0.0; })) return std::nullopt;
-    if (!proportions_.empty()) return std::nullopt;
-    std::vector<Bound> open = bounds;
-    for (Bound& one : open) one.room = std::max(one.room, 1e-12);
-    const double start = 0.3 * reach_along(open, along);
-    return Vector((1.0 - 1e-9) * widest(open, start * along));
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const double t = at[static_cast<std::size_t>(k)];
+      if (t <= -1.0) along[k] = 0.0;
+      if (t >= 1.0) along[n + k] = 0.0;
+    }
+    const double most = reach_along(bounds, along);
+    if (!(most > 0.0)) return std::nullopt;
+    return Vector((1.0 - 1e-9) * (proportions_.empty() ? widest(bounds, 0.3 * most * along) : Vector(most * along)));
   }
   DesignBox inside(const DesignBox& outer, const Vector& x) const {
     DesignBox out;
