@@ -25,9 +25,6 @@ OTHERS = ("#E69F00", "#56B4E9", "#F0E442", "#CC79A7", "#009E73", "#999933")  # l
 PALE = 0.55  # of a limit's colour that is left: outside is ground, not figure
 POSES, SIDE = 400, 25  # for the iso-lines: poses of the region, designs along a side
 MARK: dict[str, Any] = {
-    **{"marker": "D", "ms": 5.0, "color": style.INK, "mec": "white", "mew": 0.9, "ls": ""},
-    **{"zorder": 8, "clip_on": False},
-}
     "marker": "D",
     "ms": 5.0,
     "color": style.INK,
