@@ -16,7 +16,7 @@ from ninedof import _core
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine_record import ProofPose
-from ninedof.support.arguments import finite, instance, pair, shown, table, text, whole
+from ninedof.support.arguments import finite, instance, items, pair, shown, table, text, whole
 from ninedof.support.arrays import MOST_THREADS, Floats, as_floats
 from ninedof.support.files import sha256
 from ninedof.support.progress import Progress, progress_argument
@@ -228,8 +228,9 @@ class AdmissibleSet:
             return dict(zip(self.vary, zip(low, high, strict=True), strict=True))
         words = ", ".join(f"{name} = {value:g}" for name, value in zip(self.vary, x, strict=True))
         if broken >= 0:
-            raise ValueError(f"design: got {words}, which breaks {' '.join(self.demands[broken]).strip()}")
-        raise ValueError(f"design: got {words}, around which no box is proved inside")
+            broke = " ".join(self.demands[broken]).strip().replace("_", " ")
+            raise ValueError(f"design: got {words}, expected one that is inside: it breaks {broke}")
+        raise ValueError(f"design: got {words}, expected one around which a box is proved to be inside")
 
     def __repr__(self) -> str:
         """Show the shares."""
@@ -367,9 +368,14 @@ def design_range(
 ) -> DesignRange:
     """Return what `admissible` is asked for, checked; it says what the arguments mean."""
     study, values = _asked(of, at)
-    given = dict(vary) if isinstance(vary, Mapping) else dict.fromkeys(tuple(vary))
-    if isinstance(vary, str) or not 1 <= len(given) <= MOST_VARIED:
-        raise ValueError(f"vary: got {shown(vary)}, expected names of one to {MOST_VARIED} variables")
+    expected = f"names of one to {MOST_VARIED} variables"
+    given = (
+        {_name(name): ends for name, ends in vary.items()}
+        if isinstance(vary, Mapping)
+        else dict.fromkeys(map(_name, items("vary", vary, expected)))
+    )
+    if not 1 <= len(given) <= MOST_VARIED:
+        raise ValueError(f"vary: got {shown(vary)}, expected {expected}")
     ranges = tuple(_range(study, name, ends) for name, ends in given.items())
     for name, (low, high) in zip(given, ranges, strict=True):
         if not low <= values.get(name, math.nan) <= high:
@@ -378,7 +384,7 @@ def design_range(
     if missing:
         raise ValueError(f"at: got no {missing[0]}, expected a value: it is free in the study and does not vary")
     if condition_number is not None:
-        finite("condition_number", condition_number, 1.0)
+        condition_number = finite("condition_number", condition_number, 1.0)
     return DesignRange(study, tuple(given), ranges, Fixed(values), condition_number)
 
 
@@ -407,8 +413,12 @@ def _asked(of: Study | HasDesign, at: Mapping[str, float] | None) -> tuple[Study
     return study, values
 
 
+def _name(name: object) -> str:
+    return text("vary", name)
+
+
 def _range(study: Study, name: str, ends: object) -> tuple[float, float]:
-    if text("vary", name) not in study.variables:
+    if name not in study.variables:
         raise ValueError(f"vary: got {shown(name)}, expected variables of the study: {', '.join(study.variables)}")
     bounds = study.variables[name] if ends is None else pair(f"vary.{name}", ends, "(low, high)")
     if not isinstance(bounds, tuple):

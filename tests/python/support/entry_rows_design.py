@@ -369,6 +369,25 @@ row("failure", few=3, huge=("samples",))(
 )
 for name in ("summary", "to_dict"):
     row(f"Failure.{name}", lambda name=name: getattr(nd.failure(it.design(), it.stack()), name)())(dict)
+row("admissible", few=3, words={"vary": ("vary",)})(
+    lambda: {
+        "of": it.study(),
+        "vary": {"a2": (4.0, 8.0), "b1": (2.0, 4.0)},
+        "at": {"zp": 4.0, "zs": 2.4, "theta_z": 0.0},
+        "condition_number": 9.0,
+        "time_limit": 5.0,
+        "resolution": 0.2,
+        "threads": 1,
+        "resume": None,
+        "progress": None,
+    }
+)
+row("AdmissibleSet.state_of", lambda **a: it.admissible_set().state_of(**a))(lambda: {"designs": [[5.0, 3.0]]})
+row("AdmissibleSet.around", lambda **a: it.admissible_set().around(**a), few=3)(
+    lambda: {"design": {"a2": 5.0, "b1": 3.0}, "proportions": {"a2": 2.0, "b1": 1.0}}
+)
+row("AdmissibleSet.sentences", lambda: it.admissible_set().sentences())(dict)
+row("AdmissibleSet.for_core", lambda: it.admissible_set().for_core())(dict)
 row("sweep", few=20, dear=("out",), huge=("over",), words={"over": ("x_p",)})(
     lambda: {
         "geometry": it.g(),
