@@ -81,7 +81,8 @@ double PointLook::side(int which) const {
   return determinant_of<true>(PointLook(home_, home_, axis_), which) < 0.0 ? -1.0 : 1.0;
 }
 
-FormHome::FormHome(const Geometry& g, const Configuration& home, const Vec3& given) {
+FormHome::FormHome(const Geometry& g, const Configuration& home, const LimitOptions& options) : duty(options.duty) {
+  const Vec3& given = options.axis;
   const FormPose at_home = form_pose(home);
   for (const bool platform : {false, true})
     for (int k = 0; k < legs_at_body; ++k) {

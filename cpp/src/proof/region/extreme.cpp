@@ -44,7 +44,7 @@ class Sought {
         row_(checked_row(wanted)),
         item_(wanted.item),
         limit_(wanted.limit),
-        home_(domain.machine().geometry, domain.machine().neutral, wanted.axis),
+        home_(domain.machine().geometry, domain.machine().neutral, wanted.options),
         sign_(!row_.pairs && wanted.greatest != row_.falls ? 1.0 : -1.0) {}
 
   /// At least every value at the poses of the domain in the box.
