@@ -9,6 +9,31 @@ namespace {
 
 constexpr double upward = 1.0 + 0x1p-40;  // more than the roundings of a few hundred positive terms
 
+Eigen::Index index(std::size_t k) {
+  return static_cast<Eigen::Index>(k);
+}
+
+/// The sum of nine forms with these factors, which is faster than form by form.
+template <class Forms>
+PoseForm sum(const Vec9& factors, const Forms& forms_of) {
+  PoseForm out;
+  double moduli = 0.0;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const PoseForm& f = forms_of(k);
+    const double factor = factors[index(k)];
+    double size = std::abs(f.c);
+    out.c += factor * f.c;
+    for (std::size_t n = 0; n < PoseForm::size; ++n) {
+      out.a[n] += factor * f.a[n];
+      size += std::abs(f.a[n]);
+    }
+    out.r += std::abs(factor) * f.r;
+    moduli += std::abs(factor) * size;
+  }
+  out.r = (out.r + forms::grain * moduli) * (1.0 + forms::grain) + forms::tiny;
+  return out;
+}
+
 double most_of(const PoseForm& f) {
   return std::max(upper(f), -lower(f));
 }
@@ -16,43 +41,46 @@ double most_of(const PoseForm& f) {
 }  // namespace
 
 BoxSystem::BoxSystem(const std::array<NineForms, 9>& h) : h_(h) {
-  Mat9 middle, away;
-  for (Eigen::Index i = 0; i < 9; ++i)
-    for (Eigen::Index j = 0; j < 9; ++j) {
-      const PoseForm& f = h_[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-      middle(i, j) = f.c;
-      away(i, j) = radius(f) + forms::grain * std::abs(f.c);
-    }
+  Mat9 middle;
+  for (std::size_t i = 0; i < 9; ++i)
+    for (std::size_t j = 0; j < 9; ++j) middle(index(i), index(j)) = h_[i][j].c;
   inverse_ = middle.inverse();
-  const Mat9 size = inverse_.cwiseAbs();
-  const Mat9 error = (Mat9::Identity() - inverse_.lazyProduct(middle)).cwiseAbs() + size.lazyProduct(away) +
-                     forms::grain * (Mat9::Identity() + size.lazyProduct(middle.cwiseAbs()));
-  sums_ = upward * error.rowwise().sum();
-  norm_ = sums_.allFinite() ? sums_.maxCoeff() : 1.0;
+  Mat9 error;
+  for (std::size_t i = 0; i < 9; ++i)
+    for (std::size_t j = 0; j < 9; ++j) {
+      const PoseForm seen = sum(inverse_.row(index(i)), [&](std::size_t k) -> auto& { return h_[k][j]; });
+      error(index(i), index(j)) = most_of(PoseForm(i == j ? 1.0 : 0.0) - seen);
+    }
+  // Near the eigenvector of the greatest eigenvalue: the norm that it weighs is the least.
+  weight_.setOnes();
+  for (int n = 0; n < 4; ++n) {
+    weight_ = error.lazyProduct(weight_).eval();
+    weight_.array() += 0.01 * weight_.maxCoeff() + forms::tiny;
+    weight_ /= weight_.maxCoeff();
+  }
+  moved_ = upward * error.lazyProduct(weight_);
+  shrinks_ = moved_.allFinite() ? upward * moved_.cwiseQuotient(weight_).maxCoeff() : 1.0;
 }
 
 PoseForm BoxSystem::component(int k, const NineForms& b) const {
-  if (!(norm_ < 1.0)) return PoseForm::unknown();
+  if (!(shrinks_ < 1.0)) return PoseForm::unknown();
   Vec9 middle;
-  for (std::size_t i = 0; i < 9; ++i) middle[static_cast<Eigen::Index>(i)] = b[i].c;
+  for (std::size_t i = 0; i < 9; ++i) middle[index(i)] = b[i].c;
   const Vec9 x = inverse_.transpose().lazyProduct(middle), y = inverse_.col(k);
-  PoseForm out(x[k]);
-  Vec9 left_of_b, left_of_unit;
+  NineForms left_of_b, left_of_unit;
   for (std::size_t i = 0; i < 9; ++i) {
-    const auto n = static_cast<Eigen::Index>(i);
-    PoseForm of_b = b[i], of_unit(n == k ? 1.0 : 0.0);
-    for (std::size_t j = 0; j < 9; ++j) {
-      of_b = of_b - x[static_cast<Eigen::Index>(j)] * h_[j][i];
-      of_unit = of_unit - y[static_cast<Eigen::Index>(j)] * h_[i][j];
-    }
-    out = out + y[n] * of_b;
-    left_of_b[n] = most_of(of_b);
-    left_of_unit[n] = most_of(of_unit);
+    left_of_b[i] = b[i] - sum(x, [&](std::size_t j) -> auto& { return h_[j][i]; });
+    left_of_unit[i] = PoseForm(index(i) == k ? 1.0 : 0.0) - sum(y, [&](std::size_t j) -> auto& { return h_[i][j]; });
   }
-  // z = h^-1 (e_k - A^T y) has |z| <= |inverse left| + |E| |z|, and no entry above `most`.
-  const Vec9 first = inverse_.cwiseAbs().lazyProduct(left_of_unit);
-  const double most = first.maxCoeff() / (1.0 - norm_);
-  out.r += upward * upward * left_of_b.dot(first + most * sums_) + forms::tiny;
+  PoseForm out = PoseForm(x[k]) + sum(y, [&](std::size_t i) -> auto& { return left_of_b[i]; });
+  // z = h^-1 (e_k - A^T y) is first + E z, so that |z| <= |first| + |E| z, and in the norm of weight_ at most `most`.
+  Vec9 first, most_of_b;
+  for (std::size_t i = 0; i < 9; ++i) {
+    first[index(i)] = most_of(sum(inverse_.row(index(i)), [&](std::size_t j) -> auto& { return left_of_unit[j]; }));
+    most_of_b[index(i)] = most_of(left_of_b[i]);
+  }
+  const double most = first.cwiseQuotient(weight_).maxCoeff() / (1.0 - shrinks_);
+  out.r += upward * upward * most_of_b.dot(first + most * moved_) + forms::tiny;
   return out;
 }
 

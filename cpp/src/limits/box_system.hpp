@@ -23,9 +23,9 @@ class BoxSystem {
  private:
   std::array<NineForms, 9> h_;
   Mat9 inverse_;  ///< of h in the middle
-  // h^-1 = (1 - E)^-1 inverse_: sums of the rows of |E|, and the greatest.
-  Vec9 sums_;
-  double norm_;
+  // h^-1 = (1 - E)^-1 inverse_ with |E| weight_ <= moved_ <= shrinks_ weight_, entry by entry, for a positive weight_.
+  Vec9 weight_, moved_;
+  double shrinks_;
 };
 
 }  // namespace ninedof

@@ -54,6 +54,14 @@ Wrench<T> unit_force(const Look& look, int leg) {
   return out;
 }
 
+/// Of the platform's mass, from p.
+template <class Look>
+auto centre_of_mass(const Look& look) {
+  const Vec3& c = look.duty().masses.centre;
+  const auto& q = look.q();
+  return c.x() * q[0] + c.y() * q[1] + c.z() * q[2];
+}
+
 /// The weights of all masses, for the platform's centre of mass seen from p: inertial_load at rest.
 template <class Look, class T = typename Look::Number>
 Wrench<T> weights(const Look& look, const Xyz<T>& arm) {

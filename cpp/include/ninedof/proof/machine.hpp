@@ -40,6 +40,7 @@ struct PoseQuantity {
   double relative = 1e-7;    ///< width of its enclosure at which the search ends
   /// Where this is within the enclosure, the search goes on to ProofSettings::relative.
   double limit = std::numeric_limits<double>::quiet_NaN();
+  double scale = 0.0;  ///< `relative` is a share of this where the number is less
 };
 
 /// Where a number was met: the piece of the domain, and its place in it.
