@@ -128,7 +128,8 @@ class Study:
         lengths: stroke, leg_length, external_length, upper_length, lower_length and leg_clearance (`of` "length" or
         "zp"), joint_height and joint_spacing (`of` "length" or "radius"), height, footprint. leg_clearance takes the
         `radius` of a leg in place of min. angles: base_cone and platform_cone (`axis` of the cone, by default the
-        leg's own neutral direction). singularity_free (min, `steps`): no singular pose on the way to any pose.
+        leg's own neutral direction). singularity_free (min, `steps`): no singular pose on the way to any pose. force,
+        rate and power of each leg, under `loads` and `masses` and for the `speeds` of the tool.
     objective : Objective or mapping
         What is minimized; by default the condition number at the neutral pose. A mapping is read as the table
         [objective] of a study file.
