@@ -259,12 +259,19 @@ def force_ellipsoid_rotation(g: Geometry, c: _Poses, length: _Floats, threads: i
 def force_ellipsoid_translation(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
 def design_family_names() -> list[str]: ...
 
-_Row = tuple[str, str, tuple[str, ...], tuple[str, ...], tuple[str, ...], float | None]
+_Row = tuple[str, str, tuple[str, ...], tuple[str, ...], tuple[str, ...], float | None, tuple[str, ...]]
 constraint_table: tuple[_Row, ...]
 criterion_table: tuple[_Row, ...]
 singularity_free_steps: tuple[int, int]
 
 def family_variables(family: str, /) -> list[tuple[str, str, float, float]]: ...
+
+class Duty:
+    loads: Any
+    masses: Masses
+    gravity: _Floats
+    motion: PlatformMotion
+    def __init__(self, **attributes: Any) -> None: ...
 
 class Limit:
     name: str
@@ -274,6 +281,7 @@ class Limit:
     axis: _Floats
     steps: int
     at: str
+    duty: Duty | None
     def __init__(self, **attributes: Any) -> None: ...
     @property
     def label(self) -> str: ...
@@ -338,7 +346,7 @@ limits_over_lengths: tuple[str, ...]
 margin_tolerance: float
 
 def limit_numbers(
-    name: str, axis: ArrayLike, geometry: Geometry, home: _Poses, c: _Poses, characteristic_length: float, /
+    limit: Limit, geometry: Geometry, home: _Poses, c: _Poses, characteristic_length: float, /
 ) -> _Floats: ...
 def pairs_sharing_a_joint(geometry: Geometry, /) -> list[bool]: ...
 
@@ -763,7 +771,7 @@ class PayloadLimits:
     def __init__(self, **attributes: Any) -> None: ...
 
 class SheetQuestion:
-    limits: Sequence[tuple[str, _Floats]]
+    limits: Sequence[Limit]
     exempt: Sequence[bool]
     motion: PlatformMotion | None
     loads: Any

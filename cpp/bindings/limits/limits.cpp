@@ -1,6 +1,7 @@
 #include "ninedof/limits/limits.hpp"
 
 #include "ninedof/limits/numbers.hpp"
+#include "support/loads.hpp"
 #include "support/module.hpp"
 #include "support/struct.hpp"
 #include "support/without_gil.hpp"
@@ -8,6 +9,14 @@
 namespace ninedof::python {
 
 void bind_limits(py::module_& m) {
+  request<Duty>(m, "Duty", "What legs push and how the platform moves.")
+      .def_property(
+          "loads", [](const Duty& d) { return d.loads.size(); },
+          [](Duty& d, const std::vector<Vec6>& rows) { d.loads = loads_from(rows); },
+          "Rows (moment about p, force), base axes; their number is read.")
+      .def_readwrite("masses", &Duty::masses, "Their weights are added to each load.")
+      .def_readwrite("gravity", &Duty::gravity, "Force per mass, base axes.")
+      .def_readwrite("motion", &Duty::motion, "The speeds of the platform, and how O moves.");
   auto limit = request<Limit>(m, "Limit", "low <= a named quantity <= high, in lengths, radians or ratios.");
   limit.def_readwrite("name", &Limit::name, "As in the table of limits.")
       .def_readwrite("low", &Limit::low, "0 or minus infinity: an open side.")
@@ -15,6 +24,10 @@ void bind_limits(py::module_& m) {
       .def_readwrite("axis", &Limit::axis, "Of a cone, in the frame of its body; zero: each leg's neutral direction.")
       .def_readwrite("steps", &Limit::steps, "Parts of the way to each pose that singularity_free tests.")
       .def_property_readonly("label", &Limit::label, "The name, followed by \" at neutral\" for that pose alone.");
+  limit.def_property(
+      "duty", [](const Limit& l) { return l.duty ? std::optional(*l.duty) : std::nullopt; },
+      [](Limit& l, const std::optional<Duty>& duty) { l.duty = duty ? std::make_shared<const Duty>(*duty) : nullptr; },
+      "Of forces, rates and powers, or None.");
   word_attribute(limit, "of", &Limit::of, std::array{"length", "zp", "radius"}, "What a length is a fraction of.");
   word_attribute(limit, "at", &Limit::at, std::array{"poses", "neutral"}, "Where it holds.");
 
@@ -23,9 +36,9 @@ void bind_limits(py::module_& m) {
   m.attr("limit_parts") = parts;
   m.attr("limits_over_lengths") = py::tuple(py::cast(limits_over_lengths()));
   m.attr("margin_tolerance") = margin_tolerance;
-  m.def("limit_numbers", [](const std::string& name, const Vec3& axis, const Geometry& g, const Configuration& home,
-                            const ConfigurationStack& c, double characteristic_length) {
-    const LimitNumbers numbers(name, g, home, axis, {}, characteristic_length);
+  m.def("limit_numbers", [](const Limit& one, const Geometry& g, const Configuration& home, const ConfigurationStack& c,
+                            double characteristic_length) {
+    const LimitNumbers numbers(one.name, g, home, one.options(), {}, characteristic_length);
     return for_each_row(c.count(), numbers.items(), 0, py::none(), [&](long k, double* out) { numbers.at(c[k], out); });
   });
   m.def("pairs_sharing_a_joint", [](const Geometry& g) { return pairs_sharing_a_joint(g); });

@@ -9,7 +9,7 @@
 namespace ninedof::python {
 namespace {
 
-/// The rows of a table as (name, kind, sides, units, options, default low side).
+/// The rows of a table as (name, kind, sides, units, options, default low side, what of a duty it needs).
 py::tuple rows_of(const std::vector<ConstraintInfo>& table) {
   py::list out;
   for (const ConstraintInfo& row : table) {
@@ -20,8 +20,8 @@ py::tuple rows_of(const std::vector<ConstraintInfo>& table) {
     if (row.of != Unit::length) units.append(to_string(row.of));
     if (*row.option != '\0') options.append(row.option);
     const py::object low = row.default_low > 0.0 ? py::object(py::float_(row.default_low)) : py::none();
-    out.append(
-        py::make_tuple(row.name, to_string(row.kind), py::tuple(sides), py::tuple(units), py::tuple(options), low));
+    out.append(py::make_tuple(row.name, to_string(row.kind), py::tuple(sides), py::tuple(units), py::tuple(options),
+                              low, py::tuple(py::str(row.needs).attr("split")())));
   }
   return py::tuple(out);
 }

@@ -1,5 +1,6 @@
 #include "ninedof/domains/region_sample.hpp"
 #include "ninedof/sheet/sheet_region.hpp"
+#include "support/loads.hpp"
 #include "support/module.hpp"
 #include "support/placing.hpp"
 #include "support/without_gil.hpp"
@@ -67,15 +68,12 @@ void bind_question(py::module_& m) {
       .def(py::init([](const Geometry& g, const Configuration& neutral, const py::kwargs& given) {
         return with_keywords(SheetQuestion{.geometry = g, .neutral = neutral}, given);
       }))
-      .def_readwrite("limits", &SheetQuestion::limits, "Names of limits at poses, with the axes of cones.")
+      .def_readwrite("limits", &SheetQuestion::limits, "Limits at poses.")
       .def_readwrite("exempt", &SheetQuestion::exempt, "The pairs of legs that may meet.")
       .def_readwrite("motion", &SheetQuestion::motion)
       .def_property(
           "loads", [](const SheetQuestion& q) { return q.loads.size(); },
-          [](SheetQuestion& q, const std::vector<Vec6>& rows) {
-            q.loads.clear();
-            for (const Vec6& row : rows) q.loads.push_back({row.head<3>(), row.tail<3>(), Vec3::Zero()});
-          },
+          [](SheetQuestion& q, const std::vector<Vec6>& rows) { q.loads = loads_from(rows); },
           "Rows (moment about p, force), base axes; their number is read.")
       .def_readwrite("weight", &SheetQuestion::weight, "Added to each load, or None.")
       .def_readwrite("masses", &SheetQuestion::masses, "Their weights are added too, or None.")

@@ -9,10 +9,6 @@
 namespace ninedof {
 namespace {
 
-bool is_balanced(const LegForces& f) {
-  return f.unbalanced.moment.isZero(0.0) && f.unbalanced.force.isZero(0.0) && f.unbalanced.force_at_o.isZero(0.0);
-}
-
 double share(double per_mass, double room) {
   if (room == infinity) return 0.0;
   return room > 0.0 ? per_mass / room : infinity;
@@ -32,7 +28,7 @@ Vec18 payload_shares(const Geometry& g, const Configuration& c, const PayloadLim
   const Vec3 arm = c.rotation * limits.centre;
   const LegForces own = leg_forces(g, c, without);
   const LegForces per_mass = leg_forces(g, c, {arm.cross(limits.gravity), limits.gravity, Vec3::Zero()});
-  if (!is_balanced(own) || !is_balanced(per_mass)) return Vec18::Constant(infinity);
+  if (!own.balanced() || !per_mass.balanced()) return Vec18::Constant(infinity);
   Vec18 out;
   for (Eigen::Index k = 0; k < 9; ++k) {
     out[k] = share(per_mass.forces[k], limits.push[k] - own.forces[k]);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "ninedof/limits/limits.hpp"
 #include "ninedof/math/dual.hpp"
 #include "robot/joint_cones.hpp"
 #include "robot/pose_of.hpp"
@@ -44,9 +45,10 @@ Xyz<T> in_body(bool platform, const std::array<Xyz<T>, 3>& q, const Xyz<T>& v) {
 class PointLook {
  public:
   using Number = double;
-  /// `axis` of a cone: in the frame of its body, zero for the leg's own direction at home.
-  PointLook(const PosedPoints& here, const PosedPoints& home, const Vec3& axis, double characteristic_length = 1.0)
-      : here_(here), home_(home), axis_(axis), length_(characteristic_length) {}
+  /// The duty of the options must stay.
+  PointLook(const PosedPoints& here, const PosedPoints& home, const LimitOptions& options,
+            double characteristic_length = 1.0)
+      : here_(here), home_(home), axis_(options.axis), duty_(options.duty.get()), length_(characteristic_length) {}
 
   Xyz<double> at(int point) const { return xyz(here_.at[at_index(point)]); }
   Xyz<double> direction(int leg) const { return xyz(here_.legs.direction[at_index(leg)]); }
@@ -67,6 +69,7 @@ class PointLook {
   const PosedPoints& here() const { return here_; }
   const PosedPoints& home() const { return home_; }
   const Vec3& given_axis() const { return axis_; }
+  const Duty& duty() const { return *duty_; }
   double characteristic_length() const { return length_; }
 
   static Xyz<double> xyz(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -76,6 +79,7 @@ class PointLook {
   const PosedPoints& here_;
   const PosedPoints& home_;
   Vec3 axis_;
+  const Duty* duty_;
   double length_;
 };
 
@@ -175,14 +179,15 @@ class DualLook {
   const std::array<int, P>& touched_;
 };
 
-/// The axes and sides of a robot as forms: the same in every box of poses.
+/// The axes and sides of a robot as forms, and its duty: the same in every box of poses.
 template <class T>
 struct HomeOf {
   std::array<std::array<Xyz<T>, 6>, 2> axis;  ///< of base and platform
   std::array<double, 3> side;
+  std::shared_ptr<const Duty> duty;
 };
 struct FormHome : HomeOf<PoseForm> {
-  FormHome(const Geometry& g, const Configuration& home, const Vec3& axis);
+  FormHome(const Geometry& g, const Configuration& home, const LimitOptions& options);
 };
 /// `given` is zero for the directions of the legs at home.
 template <class T, class Robot>
@@ -209,6 +214,7 @@ class FormLookOf {
   const std::array<Vector, 3>& q() const { return pose_.q; }
   const Vector& axis(bool platform, int k) const { return home_.axis[platform][at_index(k)]; }
   double side(int which) const { return home_.side[at_index(which)]; }
+  const Duty& duty() const { return *home_.duty; }
   Ends<T> ends(int leg) const { return ends_of(g_, pose_, leg); }
 
  private:

@@ -27,12 +27,13 @@ std::vector<std::string> limit_parts(const std::string& name) {
   return out;
 }
 
-LimitNumbers::LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const Vec3& axis,
-                           const std::array<bool, 21>& exempt, double characteristic_length)
+LimitNumbers::LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home,
+                           const LimitOptions& options, const std::array<bool, 21>& exempt,
+                           double characteristic_length)
     : row_(pose_row("limit", name)),
       geometry_(g),
       home_(posed_points(g, home)),
-      axis_(axis),
+      options_(options),
       exempt_(exempt),
       length_(characteristic_length) {}
 
@@ -42,7 +43,7 @@ int LimitNumbers::items() const {
 
 void LimitNumbers::at(const Configuration& pose, double* out) const {
   const PosedPoints here = posed_points(geometry_, pose);
-  const PointLook look(here, home_, axis_, length_);
+  const PointLook look(here, home_, options_, length_);
   for (int item = 0; item < row_.items; ++item)
     out[item] = row_.pairs && exempt_[at_index(item)] ? infinity : row_.number(look, item);
 }

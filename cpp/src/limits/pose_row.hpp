@@ -62,7 +62,8 @@ struct PoseRow {
 
 extern const PoseRow leg_length_row, external_length_row, upper_length_row, lower_length_row, base_cone_row,
     platform_cone_row, base_cone_external_row, base_cone_internal_row, platform_cone_external_row,
-    platform_cone_internal_row, leg_clearance_row, singularity_free_row, fault_tolerant_row;
+    platform_cone_internal_row, leg_clearance_row, singularity_free_row, fault_tolerant_row, force_row, rate_row,
+    power_row;
 
 /// "l1" to "r3", in the order of leg_lengths.
 const char* leg_name(int leg);
@@ -110,8 +111,10 @@ constexpr PoseRow pose_row_of() {
   if constexpr (requires { Row::read; }) {
     out.form = [](const FormLook& look, int item) { return Row::u(look, item); };
     out.moves = [](const FormLook& look, int item, Moves& moves) { Row::moves(look, item, moves); };
-    out.design_form = [](const DesignLook& look, int item) { return Row::u(look, item); };
-    out.design_moves = [](const DesignLook& look, int item, Moves& moves) { Row::moves(look, item, moves); };
+    if constexpr (requires(const DesignLook& look, Moves& moves) { Row::u(look, 0), Row::moves(look, 0, moves); }) {
+      out.design_form = [](const DesignLook& look, int item) { return Row::u(look, item); };
+      out.design_moves = [](const DesignLook& look, int item, Moves& moves) { Row::moves(look, item, moves); };
+    }
     out.read = Row::read;
     out.smooth = Row::smooth;
     out.falls = Row::falls;

@@ -71,6 +71,7 @@ void Limit::validate() const {
   if (!axis.allFinite() || (!axis.isZero(0.0) && row.kind != LimitKind::angle))
     throw InvalidArgument(label, "an axis",
                           row.kind == LimitKind::angle ? "three finite numbers" : "none: only cones have one");
+  if (*row.needs != '\0' && duty == nullptr) throw InvalidArgument(label, "no duty", std::string("its ") + row.needs);
   if (steps < 1 || steps > most_steps)
     throw InvalidArgument(label, std::to_string(steps) + " steps", "1 to " + std::to_string(most_steps));
   if (at != LimitAt::neutral) return;
@@ -95,6 +96,8 @@ const char* to_string(LimitKind kind) {
     case LimitKind::length: return "length";
     case LimitKind::angle: return "angle";
     case LimitKind::sign: return "sign";
+    case LimitKind::number: return "number";
+    case LimitKind::rate: return "rate";
   }
   return "";
 }

@@ -10,7 +10,7 @@ namespace ninedof {
 inline constexpr SpreadRow leg_ratio_row{true, false}, stroke_ratio_row{true, true}, stroke_row{false, true};
 
 /// Name, kind, sides; unit besides "length", option besides `of` and `at`, low side if none is given, whether it
-/// compares poses.
+/// compares poses, what of a Duty it needs.
 inline constexpr std::array known_limits = [] {
   using enum LimitKind;
   using enum LimitSides;
@@ -49,6 +49,9 @@ inline constexpr std::array known_limits = [] {
       LimitRow{{"condition_number", ratio, only_high}},
       of_pose({"singularity_free", sign, only_low, {}, "steps", 1e-3}, plain, singularity_free_row),
       of_pose({"fault_tolerant", ratio, only_high}, logarithm, fault_tolerant_row),
+      of_pose({"force", number, only_high, {}, "", 0.0, false, "loads"}, mixed, force_row),
+      of_pose({"rate", rate, only_high, {}, "", 0.0, false, "speeds"}, mixed, rate_row),
+      of_pose({"power", number, only_high, {}, "", 0.0, false, "loads speeds"}, mixed, power_row),
   };
 }();
 

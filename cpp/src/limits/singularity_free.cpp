@@ -83,10 +83,11 @@ double PointLook::side(int which) const {
   return determinant_of<true>(PointLook(home_, home_, axis_), which) < 0.0 ? -1.0 : 1.0;
 }
 
-FormHome::FormHome(const Geometry& g, const Configuration& home, const Vec3& given) {
-  set_axes(g, form_pose(home), given, *this);
+FormHome::FormHome(const Geometry& g, const Configuration& home, const LimitOptions& options) {
+  duty = options.duty;
+  set_axes(g, form_pose(home), options.axis, *this);
   const PosedPoints points = posed_points(g, home);
-  for (int which = 0; which < 3; ++which) side[at_index(which)] = PointLook(points, points, given).side(which);
+  for (int which = 0; which < 3; ++which) side[at_index(which)] = PointLook(points, points, options.axis).side(which);
 }
 
 constinit const PoseRow singularity_free_row = pose_row_of<Determinants>();

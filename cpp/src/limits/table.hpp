@@ -21,7 +21,8 @@ struct SpreadRow {
 enum class SolverMargin {
   logarithm,  ///< log(high / v), log(v / low): for positive values
   linear,     ///< 1 - v / high, v / low - 1
-  plain       ///< v - low
+  plain,      ///< v - low
+  mixed       ///< 1 - v / high where it is kept, log(high / v) beyond: for values that may be 0 or infinite
 };
 
 struct LimitRow {

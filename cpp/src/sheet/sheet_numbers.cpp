@@ -22,10 +22,10 @@ WorstEnd worst_end(const std::string& limit) {
 }  // namespace
 
 SheetNumbers::SheetNumbers(const SheetQuestion& question) : question_(question) {
-  for (const auto& [name, axis] : question_.limits) {
-    limits_.emplace_back(name, question_.geometry, question_.neutral, axis, question_.exempt,
+  for (const Limit& limit : question_.limits) {
+    limits_.emplace_back(limit.name, question_.geometry, question_.neutral, limit.options(), question_.exempt,
                          question_.characteristic_length.value_or(1.0));
-    groups_.push_back({name, limits_.back().items(), worst_end(name)});
+    groups_.push_back({limit.name, limits_.back().items(), worst_end(limit.name)});
   }
   using enum WorstEnd;
   if (question_.motion) {

@@ -8,6 +8,7 @@
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/characteristic_length.hpp"
 #include "ninedof/math/error.hpp"
+#include "statics/balance.hpp"
 
 namespace ninedof {
 namespace {
@@ -44,6 +45,10 @@ void require_stiffness(const Vec9& k) {
 
 LegForces leg_forces(const Geometry& g, const Configuration& c, const Load& load) {
   const auto [length, h] = scaled_rates(g, c);
+  return leg_forces(h, length, load);
+}
+
+LegForces leg_forces(const Mat9& h, double length, const Load& load) {
   Vec9 wanted;
   wanted << -load.moment / length, -load.force, -load.force_at_o;
   if (!h.allFinite() || !wanted.allFinite()) {

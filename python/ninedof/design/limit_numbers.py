@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -33,30 +32,23 @@ LEGS = {
 
 
 def limit_numbers(
-    name: str,
-    g: Geometry,
-    c: Configuration,
-    home: Configuration,
-    axis: Any = (0, 0, 0),
-    characteristic_length: float = 1.0,
+    limit: _core.Limit, g: Geometry, c: Configuration, home: Configuration, characteristic_length: float = 1.0
 ) -> Floats:
     """Return what a limit is about at each pose, shape (n, items): lengths, radians, distances, determinants, ratios.
 
     Parameters
     ----------
-    name : str
-        One of `PARTS`.
+    limit : Limit
+        Of the core, one of `PARTS`.
     g : Geometry
     c : Configuration, shape (n,)
     home : Configuration
         A single one: determinants are positive on its side, and cones without an axis are about its legs.
-    axis : array_like, shape (3,), optional
-        Of a cone, in the frame of its body; by default each leg's own direction at home.
     characteristic_length : float
         For condition numbers.
 
     """
-    return _core.limit_numbers(name, axis, g, home, c, characteristic_length)
+    return _core.limit_numbers(limit, g, home, c, characteristic_length)
 
 
 def cone_limits(study: Study | None) -> dict[str, Limit | None]:

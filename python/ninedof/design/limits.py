@@ -16,6 +16,7 @@ from ninedof.support.angles import angle_entry, degrees_of, half_turn, in_radian
 from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
 from ninedof.support.schema import Check, plain, within
 from ninedof.support.structs import Fixed
+from ninedof.support.units import per
 
 
 class Row(NamedTuple):
@@ -23,7 +24,7 @@ class Row(NamedTuple):
 
     name: str
     kind: str
-    """"ratio", "length", "angle" or "sign"."""
+    """"ratio", "length", "angle", "sign", "number" or "rate"."""
     sides: tuple[str, ...]
     """"min", "max" or both."""
     units: tuple[str, ...]
@@ -32,6 +33,8 @@ class Row(NamedTuple):
     """Further options: "radius", "axis", "steps"."""
     default_low: float | None
     """min where none is given."""
+    needs: tuple[str, ...]
+    """What a study must state for it: "loads", "speeds"."""
 
     @property
     def is_angle(self) -> bool:
@@ -83,7 +86,7 @@ class Limit:
 
     def unit(self, of_lengths: str = "") -> str:
         """Return the unit in which it is shown: "deg" for an angle, that of lengths for a length, "" for a ratio."""
-        return {"angle": "deg", "length": of_lengths}.get(self.kind, "")
+        return kind_unit(self.kind, of_lengths)
 
     @property
     def options(self) -> dict[str, Any]:
@@ -108,10 +111,10 @@ class Limit:
         """Return the axis in the frame of geometries: that of a cone of the platform is seen from the tool's frame."""
         return tool.turned(self.axis) if self.axis and self.name.startswith("platform_cone") and tool else self.axis
 
-    def for_core(self, tool: Tool) -> _core.Limit:
+    def for_core(self, tool: Tool, duty: _core.Duty | None = None) -> _core.Limit:
         """Return the limit as the core takes it: the axis of unit length, in the frame of geometries."""
         axis = self.axis_in(tool)
-        return _core.Limit(**vars(self) | {"axis": _unit(axis) if axis else (0.0, 0.0, 0.0)})
+        return _core.Limit(**vars(self) | {"axis": _unit(axis) if axis else (0.0, 0.0, 0.0), "duty": duty})
 
 
 def parse(name: str, value: Any) -> tuple[Limit, ...]:
@@ -149,6 +152,11 @@ def split_label(text: str) -> tuple[str, str]:
     """Return the name and the place of a label."""
     name, _, at = text.partition(" at ")
     return name, at or AT[0]
+
+
+def kind_unit(kind: str, of_lengths: str) -> str:
+    """Return the unit of values of a kind: "deg", that of lengths or a rate, "" for others."""
+    return {"angle": "deg", "length": of_lengths, "rate": per(of_lengths, "s")}.get(kind, "")
 
 
 def kind_of(name: str) -> str:

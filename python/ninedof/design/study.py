@@ -15,6 +15,7 @@ from ninedof.conditioning.characteristic_length import characteristic_length as 
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.design_point import DesignPoint, design_point
 from ninedof.design.duty import DUTIES, About, Loads, Masses, Speeds, Tolerances, Tool, duty
+from ninedof.design.leg_duty import LegDuty, leg_duty, require_stated
 from ninedof.design.limits import ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
 from ninedof.robot.configuration import Configuration
@@ -127,7 +128,8 @@ class Study:
         lengths: stroke, leg_length, external_length, upper_length, lower_length and leg_clearance (`of` "length" or
         "zp"), joint_height and joint_spacing (`of` "length" or "radius"), height, footprint. leg_clearance takes the
         `radius` of a leg in place of min. angles: base_cone and platform_cone (`axis` of the cone, by default the
-        leg's own neutral direction). singularity_free (min, `steps`): no singular pose on the way to any pose.
+        leg's own neutral direction). singularity_free (min, `steps`): no singular pose on the way to any pose. force,
+        rate and power of each leg, under `loads` and `masses` and for the `speeds` of the tool.
     objective : Objective or mapping
         What is minimized; by default the condition number at the neutral pose. A mapping is read as the table
         [objective] of a study file.
@@ -321,13 +323,27 @@ class Study:
         """Return the study as the core's problem, validated there; of a region, without it, or to be solved over it."""
         if flag("over_region", over_region) not in self._problems:
             bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
-            limits = [limit.for_core(self.tool) for limit in self.limits]
+            require_stated(self.limits, self.loads, self.masses, self.speeds)
+            limits = [self.limit_for_core(limit) for limit in self.limits]
             objective, tool = self.objective.for_core(over_region), self.tool
             problem = _core.Problem(
                 self.family, bounds, limits, self.characteristic_length, objective, tool.position, tool.rotation
             )
             self._problems[over_region] = problem
         return self._problems[over_region]
+
+    def limit_for_core(self, limit: Limit) -> _core.Limit:
+        """Return a limit of the study as the core takes it: in the tool's frame, and with loads and speeds."""
+        return instance("limit", limit, Limit).for_core(self.tool, self._duty if limit.row.needs else None)
+
+    @property
+    def leg_duty(self) -> LegDuty:
+        """What limits of the forces, rates and powers of legs are about."""
+        return leg_duty(self.objective, self.tool, self.loads, self.masses, self.speeds)
+
+    @cached_property
+    def _duty(self) -> _core.Duty:
+        return self.leg_duty.for_core()
 
     @cached_property
     def _problems(self) -> dict[bool, _core.Problem]:

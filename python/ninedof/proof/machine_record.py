@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ninedof import _core
+from ninedof.design.limits import kind_unit
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.arguments import flag, number, table, text, whole
@@ -78,7 +79,7 @@ class LimitProof:
 
     def unit(self, length: str) -> str:
         """Return the unit of shown values."""
-        return {"angle": "deg", "length": text("length", length)}.get(self.kind, "")
+        return kind_unit(self.kind, text("length", length))
 
     def worded(self, digits: int = 6) -> str:
         """Return the bound that is proved, rounded to the safe side."""

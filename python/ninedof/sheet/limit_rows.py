@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ninedof.design.limits import kind_unit
 from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import Study
 from ninedof.support.units import amount
@@ -29,14 +30,15 @@ class LimitRow:
     part: str
     """The leg, the pair of legs ("l1-q2") or the determinant that reaches it; "" for a limit without parts."""
     unit: str
-    """"ratio", "length", "angle" or "sign" as in the table of constraints; "ratio" for a length over zp or a radius."""
+    """"ratio", "length", "angle", "sign", "number" or "rate" as in the table of constraints; "ratio" for a length over
+    zp or a radius."""
 
 
 def limit_amount(row: LimitRow, value: float, number: Callable[[float], str], unit: str, degree: str = "°") -> str:
     """Return a value of a limit with its unit, as `number` writes it; an angle in degrees."""
     if row.unit == "angle":
         return f"{math.degrees(value):.2f}{degree}"
-    return amount(number(value), unit if row.unit == "length" else "")
+    return amount(number(value), kind_unit(row.unit, unit))
 
 
 def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, ...]:
@@ -45,7 +47,7 @@ def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, 
     for limit in study.limits:
         for side, bound in limit.sides.items():
             low, high = (bound, math.inf) if side == "min" else (0.0, bound)
-            alone = problem.with_limits([replace(limit, low=low, high=high).for_core(study.tool)], math.inf, math.inf)
+            alone = problem.with_limits([study.limit_for_core(replace(limit, low=low, high=high))], math.inf, math.inf)
             rows.append(_row(side, bound, limit.kind, alone.evaluate(x)))
     for name in CONDITION_LIMITS:
         if (bound := getattr(study.objective, name)) is not None:

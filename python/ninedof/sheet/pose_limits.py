@@ -76,11 +76,10 @@ def pose_limits(
             continue
         unit = study.zp(neutral) if limit.of == "zp" else 1.0
         if name == CLEARANCE:
-            numbers = limit_numbers(name, g, c, neutral)[:, apart(g, study)].min(axis=1, initial=math.inf)
-            values = [("", numbers)]
+            numbers = limit_numbers(study.limit_for_core(limit), g, c, neutral)
+            values = [("", numbers[:, apart(g, study)].min(axis=1, initial=math.inf))]
         elif name in PARTS:
-            axis = limit.for_core(study.tool).axis
-            numbers = limit_numbers(name, g, c, neutral, axis, characteristic_length)
+            numbers = limit_numbers(study.limit_for_core(limit), g, c, neutral, characteristic_length)
             values = list(zip(PARTS[name], numbers.T, strict=True))
         else:
             values = _spreads(name, leg_lengths(g, c), beside) if name in SPREADS else []

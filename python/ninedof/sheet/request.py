@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CONES, JOINTS, PARTS, cone_limits, exempt_pairs
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
@@ -148,22 +147,22 @@ def internal_over(c: Configuration) -> str:
     return "least"
 
 
-def _limits(study: Study | None) -> list[tuple[str, Floats]]:
-    """Return limits at poses and axes of cones: of each kind of joint about its axis, then all that the study has.
+def _limits(study: Study | None) -> list[_core.Limit]:
+    """Return limits at poses: of each kind of joint about its axis, then all that the study has.
 
-    Ratios, which the sheet has no table of, only where the study limits them.
+    Ratios, which the sheet has no table of, only where the study limits them. Forces, rates and powers of legs are
+    numbers of the sheet anyhow.
     """
     limits = study.limits if study is not None else ()
-    tool = Tool() if study is None else study.tool
     own = {limit.name for limit in limits}
-    cones = [limit.for_core(tool) for limit in limits if limit.row.is_angle]
-    joints = [
-        (name, np.zeros(3) if limit is None else limit.for_core(tool).axis)
-        for name, limit in cone_limits(study).items()
-    ]
-    names = [name for name in PARTS if len(ROWS[name].sides) == 1 and (ROWS[name].kind != "ratio" or name in own)]
-    others = [(name, np.zeros(3)) for name in names if name not in CONES]
-    return others + joints + [(c.name, c.axis) for c in cones if c.name not in JOINTS]
+    cones = [study.limit_for_core(one) for one in limits if one.row.is_angle] if study is not None else []
+    joints = []
+    for name, one in cone_limits(study).items():
+        axis = (0.0, 0.0, 0.0) if one is None or study is None else study.limit_for_core(one).axis
+        joints.append(_core.Limit(name=name, axis=axis))
+    names = [name for name in PARTS if len(ROWS[name].sides) == 1 and name not in CONES and not ROWS[name].needs]
+    others = [_core.Limit(name=name) for name in names if ROWS[name].kind != "ratio" or name in own]
+    return others + joints + [one for one in cones if one.name not in JOINTS]
 
 
 def _six(name: str, value: ArrayLike) -> tuple[float, ...]:

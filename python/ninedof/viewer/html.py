@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from html import escape
 
+from ninedof.design.limits import kind_unit
 from ninedof.plot.style import LEG_COLOURS
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.limit_rows import LimitRow
@@ -112,7 +113,8 @@ def _leg(numbers: Numbers, k: int) -> str:
 
 def _limit(row: LimitRow, unit: str) -> str:
     red = f"color:{RED};font-weight:650;" if is_violated(row.margin, row.unit, row.limit) else ""
-    of = {"length": f" {unit}" if unit else "", "angle": "°"}.get(row.unit, "")
+    name = kind_unit(row.unit, unit)
+    of = "°" if row.unit == "angle" else f" {name}" if name else ""
     here, end = "", "of the design"
     if row.side:
         value, limit = (number(math.degrees(x) if row.unit == "angle" else x) + of for x in (row.value, row.limit))

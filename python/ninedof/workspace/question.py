@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
+from ninedof.design.duty import duty
+from ninedof.design.leg_duty import LegDuty
 from ninedof.design.limit_numbers import PARTS
 from ninedof.design.limits import Row
 from ninedof.redundancy.redundancy import leg_limits
@@ -224,12 +226,17 @@ def _limit(row: Row, value: Any) -> list[_core.Limit]:
     if not isinstance(value, Mapping):
         both = pair(row.name, value, "(low, high)") if len(row.sides) == 2 else (value,)
         entries = dict(zip(row.sides, both, strict=True))
-    known_keys(row.name, entries, (*row.sides, *(("axis",) if row.is_angle else ("exempt",))))
+    option = "axis" if row.is_angle else "duty" if row.needs else "exempt"
+    known_keys(row.name, entries, (*row.sides, option))
     ends = {ENDS[side]: _number(row.name, entries[side]) for side in row.sides if entries.get(side) is not None}
     if not ends:
         raise ValueError(f"{row.name}: got {shown(value)}, expected a number as {' or '.join(map(repr, row.sides))}")
+    if row.needs and "duty" not in entries:
+        needs = " and ".join(row.needs)
+        raise ValueError(f"{row.name}: got no {needs}, expected the limit of a study, with {needs} of its own")
     if "axis" not in entries:
-        return [_core.Limit(name=row.name, **ends)]
+        own = duty(LegDuty)(f"{row.name} (duty)", entries["duty"]).for_core() if row.needs else None
+        return [_core.Limit(name=row.name, duty=own, **ends)]
     name = f"{row.name} (axis)"
     axis = as_floats(name, vector(name, entries["axis"]), (3,))
     if not np.any(axis):

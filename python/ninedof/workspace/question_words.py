@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ninedof.design.limits import kind_unit
 from ninedof.redundancy.rules import where_o
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.leg_names import LEGS as LEG_NAMES
@@ -77,8 +78,7 @@ def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> It
             about = f"the axis {_point(entries['axis'])}" if "axis" in entries else "each leg's direction at home"
             yield f"{name.replace('_', ' ')} {math.degrees(entries[side]):.6g} degrees about {about}"
         else:
-            of = unit if row.kind == "length" else ""
-            yield amount(f"{name.replace('_', ' ')} {words[side]} {entries[side]:.6g}", of)
+            yield amount(f"{name.replace('_', ' ')} {words[side]} {entries[side]:.6g}", kind_unit(row.kind, unit))
 
 
 def _point(values: Sequence[float] | Floats) -> str:

@@ -106,7 +106,7 @@ def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[s
             criterion = _criterion(name, low, high, limit.axis_in(study.tool))
             if criterion is None:  # a min of 0
                 continue
-            criteria[name] = criterion
+            criteria[name] = {"max": high, "duty": study.leg_duty.to_dict()} if ROWS[name].needs else criterion
             if name == CLEARANCE and (collide := _collisions(study, g)):
                 exempt = [pair for pair in PARTS[name] if pair not in collide]
                 criteria[name] = {"min": low, "exempt": exempt}

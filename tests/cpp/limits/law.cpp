@@ -20,11 +20,28 @@ using namespace support;
 
 namespace {
 
+/// Two loads with masses of all bodies and each motion of O in turn; of every third case a platform that only turns.
+Duty random_duty(int n) {
+  Random random(static_cast<unsigned>(n) + 1);  // its own: that of the poses stays
+  Duty out;
+  for (int k = 0; k < n % 2; ++k) out.loads.push_back({random.matrix<Vec3>(), random.matrix<Vec3>(), Vec3::Zero()});
+  out.loads.front() = {random.matrix<Vec3>(), random.matrix<Vec3>(), Vec3::Zero()};
+  Masses& m = out.masses;
+  m.platform = 0.5;
+  m.centre = random.matrix<Vec3>();
+  m.internal_point = 0.1;
+  for (Vec9* each : {&m.cylinder, &m.rod, &m.cylinder_centre, &m.rod_centre}) *each = random.matrix<Vec9>().cwiseAbs();
+  out.gravity = random.matrix<Vec3>();
+  using enum InternalMotion;
+  out.motion = {std::array{least, held, shifted, carried}[at_index(n % 4)], n % 3 == 0 ? 0.0 : 0.7, 0.4, {}};
+  return out;
+}
+
 /// A robot at a pose and at home; the axis is that of every second case.
 struct Case {
   Geometry g;
   Configuration home, here;
-  Vec3 axis = Vec3::Zero();
+  LimitOptions options;
 
   Case(Random& random, int n) : Case(random_robot(random), random, n) {}
   Case(const Robot& robot, Random& random, int n)
@@ -32,7 +49,8 @@ struct Case {
     here.position += 0.2 * random.matrix<Vec3>();
     here.rotation = exp_rotation(0.2 * random.matrix<Vec3>()) * home.rotation;
     here.internal_point += 0.2 * random.matrix<Vec3>();
-    if (n % 2 == 0) axis = random.matrix<Vec3>();
+    if (n % 2 == 0) options.axis = random.matrix<Vec3>();
+    options.duty = std::make_shared<const Duty>(random_duty(n));
   }
 };
 
@@ -67,12 +85,12 @@ Vec3 quotient(const Moved& number) {
 int wrong_slopes(const PoseRow& row, const Case& one) {
   const PosedPoints here = posed_points(one.g, one.here), home = posed_points(one.g, one.home);
   const auto number = [&](const PosedPoints& at, const PosedPoints& at_home, int item) {
-    return row.number(PointLook(at, at_home, one.axis), item);
+    return row.number(PointLook(at, at_home, one.options), item);
   };
   int out = 0;
   for (int item = 0; item < row.items; ++item) {
     PointSlopes slopes;
-    const double value = row.slopes(PointLook(here, home, one.axis), item, slopes);
+    const double value = row.slopes(PointLook(here, home, one.options), item, slopes);
     out += !(std::abs(value - number(here, home, item)) <= 1e-14 * (1.0 + std::abs(value)));
     const auto differ = [&](const Vec3& a, const Vec3& b) { return !((a - b).norm() <= 1e-7 * (1.0 + a.norm())); };
     for (int point = 0; point < point_count; ++point) {
@@ -86,7 +104,7 @@ int wrong_slopes(const PoseRow& row, const Case& one) {
     }
     const Vec3 turn = slopes.turns ? slopes.turn : Vec3::Zero(), back = slopes.turns ? slopes.home_turn : Vec3::Zero();
     const auto by_length = [&](const Vec3& by) {  // the same along every axis
-      return row.number(PointLook(here, home, one.axis, 1.0 + by.sum()), item);
+      return row.number(PointLook(here, home, one.options, 1.0 + by.sum()), item);
     };
     out += differ(Vec3::Constant(slopes.length), quotient(by_length));
     out += differ(turn, quotient([&](const Vec3& w) { return number(turned_alone(here, w), home, item); }));
@@ -136,7 +154,7 @@ Interval at(const PoseForm& f, const Vec6& t) {
 int wrong_forms(const PoseRow& row, const Case& one, double half, Random& random) {
   const PoseBox box{one, half};
   const FormPose pose = box.forms();
-  const FormHome form_home(one.g, one.home, one.axis);
+  const FormHome form_home(one.g, one.home, one.options);
   const FormLook look(one.g, pose, form_home);
   const PosedPoints home = posed_points(one.g, one.home);
   int out = 0;
@@ -146,7 +164,7 @@ int wrong_forms(const PoseRow& row, const Case& one, double half, Random& random
     for (int n = 0; n < 1000 / row.items; ++n) {
       const Vec6 t = random.matrix<Vec6>().cwiseMax(-1.0).cwiseMin(1.0);
       const PosedPoints here = posed_points(one.g, box.pose(t));
-      const double number = row.number(PointLook(here, home, one.axis), item);
+      const double number = row.number(PointLook(here, home, one.options), item);
       const Interval read = row.read(at(u, t)), all = row.read({lower(u), upper(u)});
       const double room = 1e-13 * (1.0 + std::abs(number));
       out +=
@@ -159,7 +177,7 @@ int wrong_forms(const PoseRow& row, const Case& one, double half, Random& random
 int wrong_distances(const Case& one, double half, Random& random) {
   const PoseBox box{one, half};
   const FormPose pose = box.forms();
-  const FormHome form_home(one.g, one.home, one.axis);
+  const FormHome form_home(one.g, one.home, one.options);
   const FormLook look(one.g, pose, form_home);
   const PosedPoints home = posed_points(one.g, one.home);
   int out = 0;
@@ -172,7 +190,7 @@ int wrong_distances(const Case& one, double half, Random& random) {
       for (int n = 0; n < 20; ++n) {
         const Vec6 t = random.matrix<Vec6>().cwiseMax(-1.0).cwiseMin(1.0);
         const PosedPoints here = posed_points(one.g, box.pose(t));
-        const double distance = leg_clearance_row.number(PointLook(here, home, one.axis), pair);
+        const double distance = leg_clearance_row.number(PointLook(here, home, one.options), pair);
         double least = std::numeric_limits<double>::infinity();
         for (const PoseForm& end : ends.along) least = std::min(least, at(end, t).lo);
         out += !(distance * distance <= at(above, t).hi + 1e-13) || least > distance + 1e-13;
@@ -280,7 +298,7 @@ TEST_SUITE("law") {
     for (int n = 0; n < 200; ++n) {
       const Case one(random, n);
       const PosedPoints here = posed_points(one.g, one.here), home = posed_points(one.g, one.home);
-      const PointLook look(here, home, one.axis);
+      const PointLook look(here, home, one.options);
       const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> q = one.here.rotation;
       const batch::Configurations c{one.here.position.data(), q.data(), one.here.internal_point.data(), 1, 0, 0, 0};
       std::array<double, 9> lengths;
@@ -289,7 +307,7 @@ TEST_SUITE("law") {
       batch::singularity_margins(one.g, c, det.data());
       for (int leg = 0; leg < 9; ++leg)
         CHECK(leg_length_row.number(look, leg) == doctest::Approx(lengths[at_index(leg)]).epsilon(1e-13));
-      const FormHome form_home(one.g, one.home, one.axis);
+      const FormHome form_home(one.g, one.home, one.options);
       const FormPose pose = form_pose(one.here);
       for (int k = 0; k < 3; ++k) {
         const double value = singularity_free_row.number(look, k), side = look.side(k);
@@ -306,14 +324,14 @@ TEST_SUITE("law") {
     const Case one(random, 0);
     const PosedPoints here = posed_points(one.g, one.here), home = posed_points(one.g, one.home);
     for (const std::string& name : limits_of_poses()) {
-      const LimitNumbers numbers(name, one.g, one.home, one.axis);
+      const LimitNumbers numbers(name, one.g, one.home, one.options);
       const PoseRow& row = *limit_row(name).pose;
       REQUIRE(numbers.items() == row.items);
       REQUIRE(limit_parts(name).size() == static_cast<std::size_t>(row.items));
       std::vector<double> found(limit_parts(name).size());
       numbers.at(one.here, found.data());
       for (int item = 0; item < row.items; ++item)
-        CHECK(found[at_index(item)] == row.number(PointLook(here, home, one.axis), item));
+        CHECK(found[at_index(item)] == row.number(PointLook(here, home, one.options), item));
     }
     CHECK(limits_over_lengths() == std::vector<std::string>{"leg_ratio", "stroke_ratio", "stroke"});
     CHECK_THROWS_WITH_AS(LimitNumbers("height", one.g, one.home), doctest::Contains("height"), InvalidArgument);

@@ -13,6 +13,7 @@
 #include "ninedof/optimize/evaluate.hpp"
 #include "optimize/minimax/design_evaluation.hpp"
 #include "support/designs.hpp"
+#include "support/hand.hpp"
 
 using namespace ninedof;
 using namespace designs;
@@ -44,6 +45,7 @@ Problem study(const std::string& family, std::vector<Limit> limits) {
 /// A limit of a row of the table, with every side that it has.
 Limit limit_of(const ConstraintInfo& row) {
   Limit out{.name = row.name};
+  if (*row.needs != '\0') out.duty = hand::duty();
   if (row.sides != LimitSides::only_low) out.high = row.kind == LimitKind::angle ? 0.8 : 3.0;
   if (row.sides != LimitSides::only_high) out.low = 0.05;
   out.steps = 3;

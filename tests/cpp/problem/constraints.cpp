@@ -68,7 +68,10 @@ const std::vector<Limit> listed{{"radius_ratio", 0.5, 2.0},
                                 {.name = "platform_cone_external", .high = 0.8, .axis = {0.1, 0.2, -0.7}},
                                 {.name = "platform_cone_internal", .high = 0.8},
                                 {.name = "fault_tolerant", .high = 6.0},
-                                {.name = "singularity_free", .low = 0.05, .steps = 3}};
+                                {.name = "singularity_free", .low = 0.05, .steps = 3},
+                                {.name = "force", .high = 30.0, .duty = hand::duty()},
+                                {.name = "rate", .high = 1.0, .duty = hand::duty()},
+                                {.name = "power", .high = 20.0, .duty = hand::duty()}};
 
 bool is_cone(const Limit& limit) {
   return limit.name.find("_cone") != std::string::npos;
@@ -92,8 +95,8 @@ const std::vector<Limit> limits = [] {
 
 bool has_side(const std::string& name, bool low) {
   try {
-    if (low) Limit{.name = name, .low = 0.5}.validate();
-    else Limit{.name = name, .high = 0.5}.validate();
+    if (low) Limit{.name = name, .low = 0.5, .duty = hand::duty()}.validate();
+    else Limit{.name = name, .high = 0.5, .duty = hand::duty()}.validate();
     return true;
   } catch (const InvalidArgument&) {
     return false;
@@ -232,11 +235,11 @@ TEST_SUITE("constraints") {
       const std::string name = row.name;
       CAPTURE(name);
       Random random(134);
-      Problem p = study("hexagonal", {{.name = name}}, false);
+      Problem p = study("hexagonal", {{.name = name, .duty = hand::duty()}}, false);
       const Eigen::VectorXd x = random_full(p, random);
       CHECK(evaluate(p, x).margins.empty());
       if (row.kind == LimitKind::sign) continue;
-      p.limits = {{.name = name, .low = -1.0}};
+      p.limits = {{.name = name, .low = -1.0, .duty = hand::duty()}};
       CHECK(evaluate(p, x).margins.empty());
       if (!has_side(name, true) || !has_side(name, false)) continue;
       const auto margin = [&](double low, double high) {
@@ -314,7 +317,7 @@ TEST_SUITE("constraints") {
       const std::string name = row.name;
       CAPTURE(name);
       const auto refused = [&](double low, double high) {
-        return refuses(name, [&] { Limit{name, low, high}.validate(); });
+        return refuses(name, [&] { Limit{.name = name, .low = low, .high = high, .duty = hand::duty()}.validate(); });
       };
       CHECK(refused(not_a_number, 1.0));
       CHECK(refused(0.0, not_a_number));
@@ -325,6 +328,7 @@ TEST_SUITE("constraints") {
       CHECK(refused(infinity, infinity));
       CHECK((has_side(name, true) || has_side(name, false)));
       CHECK(refuses(name, [&] { Limit{.name = name, .steps = 0}.validate(); }));
+      CHECK((*row.needs != '\0') == refuses(name, [&] { Limit{.name = name, .low = row.default_low}.validate(); }));
       CHECK(refuses(name, [&] { Limit{.name = name, .axis = {not_a_number, 0, 1}}.validate(); }));
       if (row.kind != LimitKind::angle)
         CHECK(refuses(name, [&] { Limit{.name = name, .axis = {0, 0, 1}}.validate(); }));
@@ -332,7 +336,8 @@ TEST_SUITE("constraints") {
         for (const Unit of : {Unit::zp, Unit::radius})
           CHECK(refuses(name, [&] { Limit{.name = name, .of = of}.validate(); }));
     }
-    for (const char* most_only : {"stroke", "stroke_ratio", "joint_height", "base_cone", "platform_cone"})
+    for (const char* most_only :
+         {"stroke", "stroke_ratio", "joint_height", "base_cone", "platform_cone", "force", "rate", "power"})
       CHECK_FALSE(has_side(most_only, true));
     for (const char* least_only : {"joint_spacing", "leg_clearance", "singularity_free"})
       CHECK_FALSE(has_side(least_only, false));

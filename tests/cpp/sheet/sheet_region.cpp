@@ -20,7 +20,7 @@ namespace {
 SheetQuestion everything(const Geometry& g, const Configuration& neutral) {
   SheetQuestion q{.geometry = g, .neutral = neutral};
   q.characteristic_length = 1.3;
-  q.limits = {{"base_cone", Vec3::Zero()}, {"platform_cone", Vec3(0, 0.2, -1)}, {"leg_clearance", Vec3::Zero()}};
+  q.limits = {{.name = "base_cone"}, {.name = "platform_cone", .axis = {0, 0.2, -1}}, {.name = "leg_clearance"}};
   q.exempt[4] = true;
   q.motion = PlatformMotion{InternalMotion::carried, 1.5, 0.4, TwistMotion{Vec6::Ones(), Vec6::Ones()}};
   q.loads = {{Vec3(1, 2, 3), Vec3(0, 0, -5), Vec3::Zero()}, {}};

@@ -133,6 +133,22 @@ struct Range {
   }
 };
 
+/// Two loads, weights of every body, and O where its legs are slowest.
+inline std::shared_ptr<const ninedof::Duty> duty() {
+  ninedof::Duty out;
+  out.loads = {{{1.0, -0.5, 2.0}, {3.0, 2.0, -8.0}, Vec3::Zero()}, {{0.0, 3.0, 0.0}, {-4.0, 1.0, 2.0}, Vec3::Zero()}};
+  out.masses.platform = 0.7;
+  out.masses.centre = {0.1, -0.2, 0.4};
+  out.masses.cylinder.setConstant(0.2);
+  out.masses.rod.setConstant(0.1);
+  out.masses.cylinder_centre.setConstant(0.5);
+  out.masses.rod_centre.setConstant(0.3);
+  out.masses.internal_point = 0.05;
+  out.gravity = {0.5, 0.0, -9.81};
+  out.motion = {ninedof::InternalMotion::least, 0.6, 0.4, {}};
+  return std::make_shared<const ninedof::Duty>(out);
+}
+
 inline Range measured(const Limit& limit, const Design& d) {
   const Geometry& g = d.geometry;
   const double zp = d.at.front().position.z();
@@ -180,6 +196,15 @@ inline Range measured(const Limit& limit, const Design& d) {
         const Eigen::VectorXd sigma = Eigen::JacobiSVD<Eigen::MatrixXd>(j).singularValues();
         out.add(sigma[0] / sigma[5]);
       }
+  if (limit.duty != nullptr)
+    for (const Configuration& c : d.looked(limit)) {
+      const ninedof::Duty& duty = *limit.duty;
+      ninedof::Vec9 force = ninedof::Vec9::Zero(), one = ninedof::Vec9::Ones();
+      for (const ninedof::Load& load : duty.loads)
+        force = force.cwiseMax(ninedof::inverse_dynamics(g, {c}, duty.masses, duty.gravity, load).forces.cwiseAbs());
+      const ninedof::Vec9 rate = name == "force" ? one : ninedof::largest_leg_rates(g, c, duty.motion);
+      out.add((name == "rate" ? one : force).cwiseProduct(rate).maxCoeff());
+    }
   if (name == "leg_clearance")
     for (const Configuration& c : d.looked(limit)) {
       const auto legs = segments(g, c);

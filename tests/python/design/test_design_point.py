@@ -11,6 +11,7 @@ import math
 import numpy as np
 import pytest
 from design_oracle import TRIPLES, Oracle, family_names, is_angle, joints
+from duty_oracle import DUTY
 from numpy.testing import assert_allclose
 from sizes import size
 
@@ -33,6 +34,8 @@ LIMITS = (
         "base_cone": {"max_deg": 70.0, "axis": [0.1, -0.2, 2.0]},
         "platform_cone": {"max_deg": 60.0},
         "singularity_free": {},
+        "force": {"max": 60.0},
+        "power": {"max": 80.0},
     },
     {
         "radius_ratio": {"min": 0.9},
@@ -50,6 +53,7 @@ LIMITS = (
         "base_cone": {"max_deg": 50.0},
         "platform_cone": {"max_deg": 80.0, "axis": [0.0, 0.3, -1.0]},
         "singularity_free": {"min": 1e-2, "steps": 3},
+        "rate": {"max": 1.2},
     },
 )
 # (characteristic length, index and aggregate, how many poses, whether O is placed by the tool at the last of them)
@@ -112,6 +116,7 @@ def random_study(family, asked, limits, rng):
         "design": {"family": family, "characteristic_length": length},
         "variables": variables,
         "constraints": limits,
+        **DUTY,
         "objective": objective | ({"poses": poses} if poses else {}),
     }
     if length == "optimal" or isinstance(length, list):

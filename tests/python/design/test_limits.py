@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from duty_oracle import DUTY
 
 import ninedof as nd
 from ninedof.design import limits
@@ -48,7 +49,7 @@ def test_sides(name):
     for side, limit, names in (("min", (0.5, None), BOTH | LEAST), ("max", (None, 0.6), BOTH | MOST)):
         if name in names:
             assert parsed(name, limit) == parsed(name, {side: max(x for x in limit if x)}) == limit
-            assert nd.Study(constraints={name: limit}).constraints[name] == limit
+            assert nd.Study(constraints={name: limit}, **DUTY).constraints[name] == limit
         else:
             for value in (limit, {side: 0.5}):
                 with pytest.raises(ValueError, match=rf"^constraints.{name}: got the entry '{side}', expected only"):

@@ -11,6 +11,7 @@ import pickle
 import numpy as np
 import pytest
 from design_oracle import is_angle
+from duty_oracle import DUTY
 from limit_oracle import between_segments
 from sizes import size
 
@@ -46,6 +47,9 @@ LIMITS = (
         "platform_cone_internal": {"max_deg": 65.0, "axis": [0.2, -0.3, -1.0]},
         "singularity_free": {"min": 0.01},
         "fault_tolerant": {"max": 9.0},
+        "force": {"max": 100.0},
+        "rate": {"max": 1.5},
+        "power": {"max": 150.0},
     },
     {
         "leg_length": {"min": 0.2, "max": 2.0, "of": "zp"},
@@ -81,7 +85,7 @@ def random_design(family, rng):
 
 def study(family, design, constraints, poses=POSES):
     variables = {name: (-9.0, 9.0) if signed(name) else (1e-3, 50.0) for name in design}
-    return nd.Study(family, variables=variables, constraints=constraints, objective={"poses": poses})
+    return nd.Study(family, variables=variables, constraints=constraints, objective={"poses": poses}, **DUTY)
 
 
 def cases():

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from duty_oracle import DUTY
 from limit_oracle import limits_of, margins, robot_of
 from region_oracle import condition_margins
 from scipy.spatial.transform import Rotation
@@ -48,13 +49,16 @@ LIMITS = {
     "platform_cone_internal": {"max_deg": 50, "axis": [0, 0, -1]},
     "singularity_free": {"min": 0.01, "steps": 1},
     "fault_tolerant": (None, 30.0),
+    "force": (None, 200.0),
+    "rate": (None, 2.0),
+    "power": (None, 300.0),
 }
 
 
 def machine(seed):
     """A random design, its study with every limit, and its poses."""
     objective = {"poses": nd.poses.box(half=(0.1, 0.15, 0.1)), "condition_limit": 40.0}
-    study = nd.Study(family="symmetric_nonplanar", constraints=LIMITS, objective=objective, characteristic_length=1.0)
+    study = nd.Study(family="symmetric_nonplanar", constraints=LIMITS, objective=objective, **DUTY)
     problem = study.problem()
     variables = dict(zip(problem.names, problem.starts(1, seed)[0].tolist(), strict=True))
     return study, variables, study.evaluate(variables)
@@ -105,7 +109,7 @@ def test_every_place_has_the_same_margin(seed):
         for one in numbers_of(variant, point.configurations[k]).limits:
             key = one.name.split(" ")[0] if one.side else one.name, one.side
             shown.setdefault(key, []).append(one.margin)
-    assert len(shown) > 15
+    assert len(shown) > 18
     for (name, side), found in shown.items():
         if name == "singularity_free":  # the study looks at the ways to the poses too
             assert min(found) >= expected[name, "min"] - 1e-9
@@ -155,7 +159,7 @@ def test_every_place_has_the_same_text(seed):
     assert cells == [text(one.margin, one.kind) for one in proved.limits]
 
 
-@pytest.mark.parametrize("kind", ["ratio", "length", "angle", "sign"])
+@pytest.mark.parametrize("kind", ["ratio", "length", "angle", "sign", "number", "rate"])
 @pytest.mark.parametrize("side", ["min", "max"])
 def test_a_margin_is_negative_beyond_the_limit(kind, side):
     rng = np.random.default_rng(5)

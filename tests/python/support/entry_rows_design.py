@@ -7,6 +7,7 @@ from entry_rows import RATES, row
 import ninedof as nd
 from ninedof import poses
 from ninedof.design.duty import DUTIES
+from ninedof.design.limits import Limit
 
 TRIPLE = [[1.0, 0.0, 0.0], [-0.5, 1.0, 0.0], [-0.5, -1.0, 0.0]]
 TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
@@ -79,6 +80,7 @@ row("Study.paper", nd.Study.paper)(dict)
 row("Study.from_dict", nd.Study.from_dict, words={"data": ("study", *OF_ROBOT)})(lambda: {"data": it.study().to_dict()})
 row("Study.to_dict", lambda: it.study().to_dict())(dict)
 row("Study.problem", lambda **how: it.study().problem(**how))(lambda: {"over_region": False})
+row("Study.limit_for_core", lambda **a: it.study().limit_for_core(**a))(lambda: {"limit": Limit("leg_ratio", high=3.0)})
 DESIGN = {"a2": 5.0, "b1": 3.0, "zp": 4.0, "zs": 2.0, "theta_z": 0.0}
 row("Study.evaluate", lambda **a: it.study().evaluate(**a), nan=("variables",), words={"variables": OF_ROBOT})(
     lambda: {"variables": dict(DESIGN)}

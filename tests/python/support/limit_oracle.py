@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass, replace
 from itertools import combinations
 
+import duty_oracle
 import numpy as np
 
 import ninedof as nd
@@ -81,6 +82,7 @@ class Limit:
     axis: tuple[float, ...] = ()
     steps: int = 4
     at: str = "poses"
+    study: nd.Study | None = None  # of loads, masses and speeds
 
     @property
     def label(self):
@@ -88,8 +90,8 @@ class Limit:
 
 
 def limits_of(study):
-    axes = (tuple(one.for_core(study.tool).axis.tolist()) if one.axis else () for one in study.limits)
-    return [Limit(**vars(one) | {"axis": axis}) for one, axis in zip(study.limits, axes, strict=True)]
+    axes = (tuple(study.limit_for_core(one).axis.tolist()) if one.axis else () for one in study.limits)
+    return [Limit(**vars(one) | {"axis": axis, "study": study}) for one, axis in zip(study.limits, axes, strict=True)]
 
 
 def margins(limit, robot):
@@ -191,6 +193,21 @@ def _fault_tolerant(robot, limit):
     return np.concatenate([(s[..., 0] / s[..., 5]).reshape(-1) for s in sigma])
 
 
+def _of_duty(*numbers):
+    """Products of forces and rates of the legs at every pose."""
+
+    def at_poses(robot, limit):
+        poses = [robot.poses[k] for k in range(len(robot.poses))]
+        of_poses = [[one(limit.study, robot.geometry, c) for one in numbers] for c in poses]
+        return np.prod(of_poses, axis=1).reshape(-1)
+
+    return at_poses, None
+
+
+def _rates(study, g, c):
+    return duty_oracle.rates(study, g, c, study.leg_duty.internal)
+
+
 def _alone(value):
     return (lambda r, limit: np.array([value(r)]),) * 2
 
@@ -222,6 +239,9 @@ RULES = {  # the values that must be at most the high limit, and those that must
         for kind, legs in (("external", slice(0, 3)), ("internal", slice(3, 6)))
     },
     "fault_tolerant": (_fault_tolerant, None),
+    "force": _of_duty(duty_oracle.forces),
+    "rate": _of_duty(_rates),
+    "power": _of_duty(duty_oracle.forces, _rates),
     "singularity_free": (None, lambda r, limit: determinants(r, limit.steps if limit.at == "poses" else 0)),
 }
 

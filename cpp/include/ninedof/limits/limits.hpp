@@ -3,9 +3,12 @@
 /// and relative to the limit: 0.01 is one per cent to spare.
 
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "ninedof/limits/duty.hpp"
 #include "ninedof/math/types.hpp"
 
 namespace ninedof {
@@ -20,6 +23,8 @@ enum class LimitKind {
   length,  ///< see Limit::of
   angle,   ///< radians
   sign,    ///< a determinant of singularity.hpp, in [-1, 1]
+  number,  ///< in units of the study that are no lengths: forces, powers
+  rate,    ///< a length over time
 };
 
 /// What a length is a fraction of.
@@ -33,6 +38,19 @@ enum class Unit {
 enum class LimitAt {
   poses,    ///< at every pose of the objective, or at the neutral one if it has none
   neutral,  ///< at the neutral pose alone
+};
+
+/// What a limit at a pose is about besides the pose.
+struct LimitOptions {
+  /// Of joint cones, in the body's frame, that of geometries; zero: the leg's direction at the neutral configuration.
+  Vec3 axis = Vec3::Zero();
+  /// Of forces, rates and powers of legs; null for other limits.
+  std::shared_ptr<const Duty> duty = nullptr;
+
+  LimitOptions() = default;
+  LimitOptions(const Vec3& given, std::shared_ptr<const Duty> machine = nullptr)  // NOLINT: most have an axis alone
+      : axis(given), duty(std::move(machine)) {}
+  bool operator==(const LimitOptions&) const = default;
 };
 
 /// low <= named quantity <= high; -infinity (or, for ratios and lengths, 0) and infinity leave a side open.
@@ -50,12 +68,16 @@ struct Limit {
   static constexpr int most_steps = 1000;
   /// A limit of the design alone, such as radius_ratio, is the same at either.
   LimitAt at = LimitAt::poses;
+  /// Of forces, rates and powers, as in LimitOptions.
+  std::shared_ptr<const Duty> duty = nullptr;
+
+  LimitOptions options() const { return {axis, duty}; }
 
   /// What margins, prices and messages call it: its name, followed by " at neutral" for the neutral pose alone.
   std::string label() const;
 
   /// Throws InvalidArgument for an unknown name, a limit that is not a number, low > high, or a side or option the
-  /// constraint does not have; at the neutral pose also for what compares poses: strokes, and cones without an axis.
+  /// constraint does not have, or none where it needs it; at the neutral pose also for what compares poses: strokes, and cones without an axis.
   void validate() const;
 };
 
@@ -74,6 +96,7 @@ struct ConstraintInfo {
   const char* option = "";   ///< "axis", "radius" or "steps"; what else a study file may say of it
   double default_low = 0.0;  ///< its low side where none is given
   bool compares_poses = false;  ///< it has no value at a single pose
+  const char* needs = "";       ///< what of Limit::duty it is about: "loads", "speeds" or "loads speeds"
 };
 
 /// The constraints of designs.
@@ -82,7 +105,7 @@ std::vector<ConstraintInfo> constraint_table();
 /// The criteria of workspaces, in the order of limit_names().
 std::vector<ConstraintInfo> criterion_table();
 
-/// "ratio", "length", "angle" or "sign".
+/// "ratio", "length", "angle", "sign", "number" or "rate".
 const char* to_string(LimitKind kind);
 
 /// "length", "zp" or "radius".

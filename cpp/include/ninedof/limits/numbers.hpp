@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ninedof/limits/limits.hpp"
 #include "ninedof/math/types.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"
@@ -24,12 +25,11 @@ std::vector<std::string> limits_over_lengths();
 std::vector<std::string> limit_parts(const std::string& name);
 
 /// The numbers that a limit at poses is about, an item each: lengths, angles in radians, distances of legs, determinants,
-/// positive on the side of the neutral pose, or condition numbers with a leg locked.
+/// positive on the side of the neutral pose, condition numbers with a leg locked, or forces, rates and powers of legs.
 class LimitNumbers {
  public:
-  /// `axis` of a cone: in the frame of its body, zero for the leg's own neutral direction. Pairs of legs that are
-  /// `exempt` have an infinite distance.
-  LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const Vec3& axis = Vec3::Zero(),
+  /// Pairs of legs that are `exempt` have an infinite distance.
+  LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const LimitOptions& options = {},
                const std::array<bool, 21>& exempt = {}, double characteristic_length = 1.0);
   int items() const;
   /// `out` has room for them.
@@ -39,7 +39,7 @@ class LimitNumbers {
   const PoseRow& row_;
   Geometry geometry_;
   PosedPoints home_;
-  Vec3 axis_;
+  LimitOptions options_;
   std::array<bool, 21> exempt_;
   double length_;
 };

@@ -35,11 +35,12 @@ struct PosedRobot {
 struct PoseQuantity {
   std::string limit_name = "leg_length";  ///< a limit that has a value at every pose
   int item = 0;                           ///< a leg, a pair of legs (leg_pairs.hpp), det N, B or C
-  Vec3 axis = Vec3::Zero();  ///< of cones; zero: the leg's direction at the neutral configuration
+  LimitOptions options = {};
   bool greatest = true;      ///< which end of its range is asked for
   double relative = 1e-7;    ///< width of its enclosure at which the search ends
   /// Where this is within the enclosure, the search goes on to ProofSettings::relative.
   double limit = std::numeric_limits<double>::quiet_NaN();
+  double scale = 0.0;  ///< `relative` is a share of this where the number is less
 };
 
 /// Where a number was met: the piece of the domain, and its place in it.

@@ -5,7 +5,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "ninedof/conditioning/locked_legs.hpp"
@@ -21,8 +20,7 @@ namespace ninedof {
 struct SheetQuestion {
   Geometry geometry;
   Configuration neutral;
-  /// Limits at poses whose numbers are asked for, with the axis of cones: see LimitNumbers.
-  std::vector<std::pair<std::string, Vec3>> limits = {};
+  std::vector<Limit> limits = {};  ///< those at poses whose numbers are asked for
   std::array<bool, 21> exempt{};  ///< pairs of legs that may meet
   std::optional<PlatformMotion> motion = {};
   std::vector<Load> loads = {};  ///< the weight is added to each

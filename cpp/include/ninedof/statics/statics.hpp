@@ -32,6 +32,10 @@ struct Weight {
 struct LegForces {
   Vec9 forces;      ///< l1 l2 l3 q1 q2 q3 r1 r2 r3, positive if the leg pushes
   Load unbalanced;  ///< the part that no leg forces balance; exactly zero unless the configuration is singular
+
+  bool balanced() const {
+    return unbalanced.moment.isZero(0.0) && unbalanced.force.isZero(0.0) && unbalanced.force_at_o.isZero(0.0);
+  }
 };
 
 /// The leg forces that balance a load. At a singular configuration those of least norm that balance load - unbalanced,

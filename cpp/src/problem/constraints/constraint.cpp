@@ -1,5 +1,6 @@
 #include "problem/constraints/constraint.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ninedof {
@@ -35,6 +36,7 @@ double Constraint::item_margin(const DesignState& v, Side side, int item) const 
     case SolverMargin::logarithm: return sign * std::log(limit / now);
     case SolverMargin::linear: return sign * (1.0 - now / limit);
     case SolverMargin::plain: return now - limit;
+    case SolverMargin::mixed: return now > limit ? std::log(limit / now) : 1.0 - now / limit;
   }
   return 0.0;
 }
@@ -45,6 +47,7 @@ double Constraint::value_at(Side side, double margin) const {
     case SolverMargin::logarithm: return bound(side) * std::exp(away);
     case SolverMargin::linear: return bound(side) * (1.0 + away);
     case SolverMargin::plain: return bound(side) + margin;
+    case SolverMargin::mixed: return bound(side) * (margin < 0.0 ? std::exp(-margin) : 1.0 - margin);
   }
   return 0.0;
 }
@@ -57,6 +60,7 @@ void Constraint::add_item_gradient(const DesignState& v, Side side, int item, Ro
       return;
     case SolverMargin::linear: return add_value_gradient(v, side, item, -sign / limit, out);
     case SolverMargin::plain: return add_value_gradient(v, side, item, 1.0, out);
+    case SolverMargin::mixed: return add_value_gradient(v, side, item, -1.0 / std::max(now, limit), out);
   }
 }
 

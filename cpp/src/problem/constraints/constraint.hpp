@@ -37,7 +37,8 @@ class Constraint {
   virtual std::vector<int> poses_of(const DesignState& v, int row) const { return {pose_of(v, row)}; }
   /// Of a row with this margin: 1 - value / high or value / low - 1; of a determinant, which has no scale, value - low.
   ShownMargin shown(int row, double margin) const {
-    return form() == SolverMargin::logarithm ? share_of_limit(side_of(row), margin) : ShownMargin{margin, 1.0};
+    const bool logarithm = form() == SolverMargin::logarithm || (form() == SolverMargin::mixed && margin < 0.0);
+    return logarithm ? share_of_limit(side_of(row), margin) : ShownMargin{margin, 1.0};
   }
   /// The limited value of a design whose margin on that side is given.
   double value_at(Side side, double margin) const;

@@ -16,10 +16,11 @@ class PoseLimit : public Constraint {
       : Constraint(limit),
         row_(row),
         poses_(row.on_the_way() ? 1 + poses * limit.steps : std::max(poses, 1)),
-        exempt_(exempt) {}
+        exempt_(exempt),
+        options_(limit.options()) {}
 
-  /// Which points of two legs are nearest changes from design to design.
-  bool analytic() const override { return !row_.pose->pairs; }
+  /// Which points of two legs are nearest changes from design to design, and so does the load that rules.
+  bool analytic() const override { return !row_.pose->pairs && *row_.info.needs == '\0'; }
 
  private:
   SolverMargin form() const override { return row_.solver; }
@@ -32,7 +33,7 @@ class PoseLimit : public Constraint {
   }
   bool exempt(int item) const { return row_.pose->pairs && exempt_[at_index(index(item))]; }
   PointLook look(const DesignState& v, int item) const {
-    return {v.pose(pose(v, item)), v.pose(0), limit().axis, v.characteristic_length};
+    return {v.pose(pose(v, item)), v.pose(0), options_, v.characteristic_length};
   }
 
   double value(const DesignState& v, Side, int item) const override {
@@ -60,6 +61,7 @@ class PoseLimit : public Constraint {
   const LimitRow& row_;
   int poses_;
   std::array<bool, leg_pairs> exempt_;
+  LimitOptions options_;
 };
 
 }  // namespace

@@ -44,7 +44,7 @@ class Sought {
         row_(checked_row(wanted)),
         item_(wanted.item),
         limit_(wanted.limit),
-        home_(domain.machine().geometry, domain.machine().neutral, wanted.axis),
+        home_(domain.machine().geometry, domain.machine().neutral, wanted.options),
         sign_(!row_.pairs && wanted.greatest != row_.falls ? 1.0 : -1.0) {}
 
   /// At least every value at the poses of the domain in the box.
@@ -120,7 +120,8 @@ class Climb {
     while (!open_.empty()) {
       const Open top = open_.top();
       const bool near = contains(sought_.number({met_, top.bound}), wanted_.limit);
-      if (top.bound <= met_ + (near ? settings_.relative : wanted_.relative) * std::abs(met_)) break;
+      const double size = std::max(std::abs(met_), near ? 0.0 : wanted_.scale);
+      if (top.bound <= met_ + (near ? settings_.relative : wanted_.relative) * size) break;
       if (boxes >= most_boxes_ || (boxes % 256 == 0 && stopped())) break;
       open_.pop();
       if (top.divide < 0) {

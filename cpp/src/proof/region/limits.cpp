@@ -42,7 +42,7 @@ class Statements {
     std::array<std::pair<std::size_t, std::size_t>, 9> ends;
     for (int leg = 0; leg < 9; ++leg) ends[at_index(leg)] = questions_.ends_of_leg(leg, false);
     for (const LimitRow& row : limit_rows())
-      if (row.info.kind == LimitKind::sign) add_pose_limit("no singularity", row, Side::low, 0.0, Vec3::Zero(), false);
+      if (row.info.kind == LimitKind::sign) add_pose_limit("no singularity", row, Side::low, 0.0, {}, false);
     for (const Limit& limit : limits) {
       limit.validate();
       add(limit);
@@ -102,17 +102,17 @@ class Statements {
       if (!(given > 0.0) || !std::isfinite(given)) continue;
       const double bound = limit.of == Unit::zp ? given * zp() : given;
       const bool at_neutral = limit.at == LimitAt::neutral;
-      if (row.pose != nullptr) add_pose_limit(limit.label(), row, side, bound, limit.axis, at_neutral);
+      if (row.pose != nullptr) add_pose_limit(limit.label(), row, side, bound, limit.options(), at_neutral);
       else if (row.design != nullptr) add_design_limit(limit, row, side);
       else add_stroke(limit.label(), row, side, bound, at_neutral);
     }
   }
-  void add_pose_limit(const std::string& label, const LimitRow& row, Side side, double bound, const Vec3& axis,
-                      bool at_neutral) {
+  void add_pose_limit(const std::string& label, const LimitRow& row, Side side, double bound,
+                      const LimitOptions& options, bool at_neutral) {
     Group group{out_.limits.size(), {}};
     for (int item = 0; item < row.pose->items; ++item) {
       if (row.pose->pairs && exempt_[at_index(item)]) continue;
-      const std::size_t asked = questions_.ask(row, item, {side == Side::high, at_neutral, edge(side, bound), axis});
+      const std::size_t asked = questions_.ask(row, item, {side == Side::high, at_neutral, edge(side, bound), options});
       group.of.emplace_back(asked, row.pose->part(item));
     }
     if (group.of.empty()) return;

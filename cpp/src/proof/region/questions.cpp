@@ -25,13 +25,15 @@ Questions::Questions(const PosedRobot& machine, const ProofSettings& settings, c
 std::size_t Questions::ask(const LimitRow& given, int item, const Question& question) {
   const bool of_length = given.pose->first_leg >= 0;
   const LimitRow& row = of_length ? leg_length_limit() : given;
-  const auto [greatest, at_neutral, limit, axis] = question;
+  const auto [greatest, at_neutral, limit, options] = question;
+  // Of legs that bear or do little it is enough that they are far from the limit.
+  const double scale = *row.info.needs == '\0' ? 0.0 : limit;
   const PoseQuantity quantity{
-      row.info.name, of_length ? given.pose->first_leg + item : item, axis, greatest, row.pose->width, limit};
+      row.info.name, of_length ? given.pose->first_leg + item : item, options, greatest, row.pose->width, limit, scale};
   for (std::size_t k = 0; k < asked_.size(); ++k) {
     PoseQuantity& old = asked_[k].quantity;
     if (old.limit_name != quantity.limit_name || old.item != quantity.item || old.greatest != greatest ||
-        asked_[k].at_neutral != at_neutral || old.axis != axis)
+        asked_[k].at_neutral != at_neutral || old.options != options)
       continue;
     if (std::isnan(old.limit)) old.limit = limit;
     else if (!std::isnan(limit)) old.relative = any_case;  // narrow in any case

@@ -14,7 +14,7 @@ struct Question {
   bool greatest;       ///< its greatest or its least value
   bool at_neutral;     ///< over the neutral pose alone
   double limit;        ///< the value that it is compared with; NaN: none
-  Vec3 axis = Vec3::Zero();
+  LimitOptions options = {};
 };
 
 class Questions {

@@ -49,7 +49,7 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
     std::vector<Interval> ranges;
     for (int k = 0; k < 9; ++k)
       ranges.emplace_back(criteria.legs->low[k] > 0.0 ? criteria.legs->low[k] : -infinity, criteria.legs->high[k]);
-    add(*leg_length_limit().pose, FormHome(g, home, Vec3::Zero()), ranges);
+    add(*leg_length_limit().pose, FormHome(g, home, {}), ranges);
   }
   const std::array<bool, leg_pairs> exempt = pairs_sharing_a_joint(g, criteria.exempt);
   for (const bool pairs : {false, true})
@@ -65,7 +65,7 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
       std::vector<Interval> ranges(at_index(row->items), Interval(c.low, no_limit ? infinity : c.high));
       for (int item = 0; pairs && item < row->items; ++item)
         if (exempt[at_index(item)]) ranges[at_index(item)] = Interval::whole();
-      add(*row, FormHome(g, home, c.axis), ranges);
+      add(*row, FormHome(g, home, c.options), ranges);
       if (row->on_the_way) require_kept(rows_.back(), home, c.row->info.name);
     }
   if (criteria.condition_number) conditions_.push_back({add_bit(), -1, *criteria.condition_number});

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string_view>
 
 #include "limits/table.hpp"
 #include "math/numbers.hpp"
@@ -16,6 +18,20 @@ Vec3 times(const Vec3& v, int exponent) {
 }
 Triple times(const Triple& t, int exponent) {
   return {times(t[0], exponent), times(t[1], exponent), times(t[2], exponent)};
+}
+
+/// Forces stay, and with them masses and gravity: powers are lengths then.
+bool has_lengths(const Limit& limit) {
+  const ConstraintInfo& row = limit_row(limit.name).info;
+  return row.kind == LimitKind::length || std::string_view(row.needs).ends_with("speeds");
+}
+Duty scaled(Duty duty, int exponent) {
+  const auto length = [&](double x) { return std::ldexp(x, exponent); };
+  for (Load& load : duty.loads) load.moment = times(load.moment, exponent);
+  duty.masses.centre = times(duty.masses.centre, exponent);
+  for (Vec9* centres : {&duty.masses.cylinder_centre, &duty.masses.rod_centre}) *centres = centres->unaryExpr(length);
+  duty.motion.linear_speed = length(duty.motion.linear_speed);
+  return duty;
 }
 
 /// Throws for a number that a double does not hold beside the size of the joints: the question would be another one.
@@ -42,9 +58,16 @@ void require_held(const Question& q, int exponent) {
   if (q.criteria.legs)
     for (const Vec9* ends : {&q.criteria.legs->low, &q.criteria.legs->high})
       for (const double x : *ends) require_held("leg_limits", x, exponent);
-  for (const Limit& limit : q.criteria.limits)
-    if (limit_row(limit.name).info.kind == LimitKind::length)
+  for (const Limit& limit : q.criteria.limits) {
+    if (has_lengths(limit))
       for (const double x : {limit.low, limit.high}) require_held(limit.name.c_str(), x, exponent);
+    if (limit.duty == nullptr) continue;
+    require_held("speeds", limit.duty->motion.linear_speed, exponent);
+    for (const Load& load : limit.duty->loads) require_held("loads", load.moment, exponent);
+    require_held("masses", limit.duty->masses.centre, exponent);
+    for (const Vec9* centres : {&limit.duty->masses.cylinder_centre, &limit.duty->masses.rod_centre})
+      for (const double x : *centres) require_held("masses", x, exponent);
+  }
   require_held("characteristic_length", q.criteria.characteristic_length, exponent);
   require_held("home", q.home.position, exponent);
   require_held("home", q.home.internal_point, exponent);
@@ -75,9 +98,11 @@ Question scaled(const Question& q, int exponent) {
   const auto length = [&](double x) { return std::ldexp(x, exponent); };
   if (out.criteria.legs)
     for (Vec9* ends : {&out.criteria.legs->low, &out.criteria.legs->high}) *ends = ends->unaryExpr(length);
-  for (Limit& limit : out.criteria.limits)
-    if (limit_row(limit.name).info.kind == LimitKind::length)
+  for (Limit& limit : out.criteria.limits) {
+    if (has_lengths(limit))
       for (double* x : {&limit.low, &limit.high}) *x = length(*x);
+    if (limit.duty != nullptr) limit.duty = std::make_shared<const Duty>(scaled(*limit.duty, exponent));
+  }
   out.criteria.characteristic_length = length(out.criteria.characteristic_length);
   out.home.position = times(q.home.position, exponent);
   out.home.internal_point = times(q.home.internal_point, exponent);

@@ -54,9 +54,9 @@ std::vector<PoseCriterion> criteria_besides_legs(const WorkspaceCriteria& criter
     if (!row.is_criterion()) continue;
     for (const Limit& limit : criteria.limits)
       if (limit.name == row.info.name)
-        out.push_back({&row, low_of(limit, row.info.kind), limit.high, limit.axis, name});
+        out.push_back({&row, low_of(limit, row.info.kind), limit.high, limit.options(), name});
     if (is_condition_number(row) && criteria.condition_number)
-      out.push_back({&row, -infinity, *criteria.condition_number, Vec3::Zero(), name});
+      out.push_back({&row, -infinity, *criteria.condition_number, {}, name});
     name += names_of(row);
   }
   return out;

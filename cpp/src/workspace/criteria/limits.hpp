@@ -13,7 +13,7 @@ namespace ninedof {
 struct PoseCriterion {
   const LimitRow* row;
   double low, high;  ///< infinite where that side is open
-  Vec3 axis;
+  LimitOptions options;
   int name;  ///< number of its first item
 };
 

@@ -24,6 +24,12 @@ double size_of(const Geometry& g) {
   return most;
 }
 
+/// Whether one margin stands for all items: of pairs of legs, and of forces, rates and powers, where room for nine each
+/// would be room at every point of every workspace.
+bool in_one(const LimitRow& row) {
+  return row.pose->pairs || *row.info.needs != '\0';
+}
+
 }  // namespace
 
 /// Poses of one block in the layout of batch.hpp, and the results of the kernels.
@@ -98,11 +104,11 @@ void Margins::list_groups() {
     looks_at_signs_ |= sign;
     looks_at_points_ |= row != nullptr && !sign;
     const int first = pose_groups_;
-    groups(row == nullptr || row->pairs ? 1 : row->items, c.row->info.kind == LimitKind::length ? size_ : 1.0);
+    groups(row == nullptr || in_one(*c.row) ? 1 : row->items, c.row->info.kind == LimitKind::length ? size_ : 1.0);
     if (row == nullptr || row->cone_body < 0 || placement_.searched()) continue;
     BodyCones body{row->cone_body == 1, c.high, row->first_at_body, {}};
     for (int k = 0; k < row->items; ++k) {
-      const PointLook look(home_points_, home_points_, c.axis);
+      const PointLook look(home_points_, home_points_, c.options);
       const Xyz<double> axis = look.axis(body.platform, row->first_at_body + k);
       body.axis.emplace_back(axis.x, axis.y, axis.z);
       with_bounds.push_back(at_index(first + k));
@@ -189,7 +195,17 @@ void Margins::put_limit(const PoseCriterion& c, const Block& b, long k, const Po
     }
     return;
   }
-  const PointLook look(here, home_points_, c.axis, criteria_.characteristic_length);
+  const PointLook look(here, home_points_, c.options, criteria_.characteristic_length);
+  if (*c.row->info.needs != '\0') {
+    double most = -infinity;
+    int worst = 0;
+    for (int item = 0; item < row->items; ++item)
+      if (const double number = row->number(look, item); number > most) {
+        most = number;
+        worst = item;
+      }
+    return m.put(next++, c.high / most - 1.0, c.name + worst);  // most may be infinite
+  }
   if (!row->pairs) {
     for (int item = 0; item < row->items; ++item) {
       const double number = row->number(look, item);

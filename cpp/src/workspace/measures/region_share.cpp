@@ -43,7 +43,7 @@ class Judge {
       // A determinant is positive on the side of home.
       const double low =
           c.row->info.kind == LimitKind::sign ? std::max(c.low, std::numeric_limits<double>::min()) : c.low;
-      limits_.push_back({LimitNumbers(names.back(), g, home, c.axis, exempt), low, c.high});
+      limits_.push_back({LimitNumbers(names.back(), g, home, c.options, exempt), low, c.high});
     }
     if (criteria.condition_number) names.emplace_back("condition_number");
   }

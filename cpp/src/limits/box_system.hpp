@@ -1,0 +1,31 @@
+#pragma once
+/// Nine linear equations over a box of poses.
+
+#include <array>
+
+#include "math/form.hpp"
+#include "ninedof/math/types.hpp"
+
+namespace ninedof {
+
+using NineForms = std::array<PoseForm, 9>;
+
+/// Equations A x = b with A = h^T, where h is given by rows. It is inverted in the middle of the box, in doubles: errors
+/// of that inverse count as those of any other approximate one.
+class BoxSystem {
+ public:
+  explicit BoxSystem(const std::array<NineForms, 9>& h);
+  /// Component k of x. With approximate x and y of A x = b and A^T y = e_k, constant over the box,
+  ///     x_k = x~_k + y~.(b - A x~) + (e_k - A^T y~).A^-1 (b - A x~),
+  /// of which the last is of second order. Unknown where h may be singular.
+  PoseForm component(int k, const NineForms& b) const;
+
+ private:
+  std::array<NineForms, 9> h_;
+  Mat9 inverse_;  ///< of h in the middle
+  // h^-1 = (1 - E)^-1 inverse_ with |E| weight_ <= moved_ <= shrinks_ weight_, entry by entry, for a positive weight_.
+  Vec9 weight_, moved_;
+  double shrinks_;
+};
+
+}  // namespace ninedof
