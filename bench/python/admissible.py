@@ -77,9 +77,8 @@ def main():
     parser.add_argument("--only", default="", help="questions that have this in their name")
     chosen = parser.parse_args().only
     print(f"{processor()}, {os.cpu_count()} processors.\n")
-    print(
-        "| question | after | inside | outside | undecided | undecided by halving |\n| --- | --- | --- | --- | --- | --- |"
-    )
+    print("| question | after | inside | outside | undecided | undecided by halving |")
+    print("| --- | --- | --- | --- | --- | --- |")
     wrong = 0
     for name, (study, vary, options, times) in QUESTIONS.items():
         if chosen not in name:
