@@ -9,12 +9,8 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from ninedof import _core
-from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.region_poses import configurations_at
 from ninedof.plot import style
 from ninedof.plot.workspace import KINDS
-from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
@@ -23,7 +19,6 @@ if TYPE_CHECKING:
 INSIDE, UNDECIDED = "#A9CCE3", "#B8BFC6"
 OTHERS = ("#E69F00", "#56B4E9", "#F0E442", "#CC79A7", "#009E73", "#999933")  # limits that have no colour elsewhere
 PALE = 0.55  # of a limit's colour that is left: outside is ground, not figure
-POSES, SIDE = 400, 25  # for the iso-lines: poses of the region, designs along a side
 MARK: dict[str, Any] = {
     "marker": "D",
     "ms": 5.0,
@@ -145,36 +140,16 @@ def _shown(found: AdmissibleSet, values: Floats, i: int, j: int) -> Floats:
 
 def _iso_lines(axes: Any, found: AdmissibleSet, i: int, j: int) -> bool:
     """Draw lines of the worst condition number over a sample of poses; return whether it could be computed."""
-    study = found.study
-    if not isinstance(study.characteristic_length, float | int):
+    sampled = found.of.sampled_condition(i, j)
+    if sampled is None:
         return False
-    problem, region = study.problem(), study.objective.region
-    places = [np.linspace(*found.of.ranges[k], SIDE) for k in (i, j)]
-    worst = np.full((SIDE, SIDE), np.nan)
-    for n, y in enumerate(places[1]):
-        for m, x in enumerate(places[0]):
-            values = dict(found.of.at) | {found.vary[i]: float(x), found.vary[j]: float(y)}
-            row = [values.get(name, 0.0) for name in problem.names]
-            try:
-                geometry = problem.geometry(row)
-            except ValueError:  # no robot there
-                continue
-            every = _poses(problem, row, region)
-            worst[n, m] = np.max(condition_number(geometry, every, float(study.characteristic_length)))
-    shown = _shown(found, np.column_stack(places), i, j)
+    x, y, worst = sampled
     finite = worst[np.isfinite(worst)]
     if not finite.size:
         return False
+    shown = _shown(found, np.column_stack([x, y]), i, j)
     low = float(finite.min())
     levels = style.round_levels(low, min(float(finite.max()), 3.0 * low), 7)
     drawn = axes.contour(shown[:, 0], shown[:, 1], worst, levels=levels, colors=style.INK, linewidths=0.7)
     axes.clabel(drawn, fontsize=style.SMALL_SIZE - 1, fmt="%g")
     return True
-
-
-def _poses(problem: Any, row: list[float], region: Any) -> Any:
-    """Return the poses of a design: those of its study, or a sample of its region."""
-    every = Configuration(*problem.configurations(row))
-    if region is None:
-        return every[1:] if len(every) > 1 else every
-    return configurations_at(region, every[0], _core.even_poses(region.for_core(), POSES))[1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from time import perf_counter
@@ -13,9 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ninedof import _core
-from ninedof.design.region_poses import places_o
+from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.region_poses import configurations_at, places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine_record import ProofPose
+from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import finite, instance, items, pair, shown, table, text, whole
 from ninedof.support.arrays import MOST_THREADS, Floats, as_floats
 from ninedof.support.files import sha256
@@ -29,6 +32,7 @@ MOST_VARIED = 4
 ENOUGH = 1e-5  # of the volume: what is undecided below it is not looked at
 AROUND_SECONDS = 20.0
 LONGEST = 1e9  # seconds
+POSES, SIDE = 400, 25  # of the sample: poses of the region, designs along a side
 
 
 class HasDesign(Protocol):
@@ -92,6 +96,31 @@ class DesignRange:
             high=[high for _, high in self.ranges],
             condition=math.inf if self.condition_number is None else float(self.condition_number),
         )
+
+    def sampled_condition(self, first: int, second: int) -> tuple[Floats, Floats, Floats] | None:
+        """Return the worst condition number over a sample of poses, at designs of the plane of two of the variables.
+
+        Values of the first variable (n,) and of the second (n,), and a row for each value of the second, NaN where
+        there is no robot; None where the characteristic length depends on the design. Nothing of it is proved.
+        """
+        length = self.study.characteristic_length
+        if not isinstance(length, float | int):
+            return None
+        problem = self.study.problem()
+        x, y = (np.linspace(*self.ranges[k], SIDE) for k in (first, second))
+        worst = np.full((SIDE, SIDE), np.nan)
+        for n, m in np.ndindex(SIDE, SIDE):
+            values = dict(self.at) | {self.vary[first]: float(x[m]), self.vary[second]: float(y[n])}
+            row = [values.get(name, 0.0) for name in problem.names]
+            with suppress(ValueError):  # no robot there
+                worst[n, m] = np.max(condition_number(problem.geometry(row), self._poses(row), float(length)))
+        return x, y, worst
+
+    def _poses(self, row: list[float]) -> Configuration:
+        every, region = Configuration(*self.study.problem().configurations(row)), self.study.objective.region
+        if region is None:
+            return every[1:] if len(every) > 1 else every
+        return configurations_at(region, every[0], _core.even_poses(region.for_core(), POSES))[1]
 
     @property
     def digest(self) -> str:

@@ -45,11 +45,11 @@ HEXAGON = nd.Study(variables=SIZES, constraints=ALL_LIMITS, objective={"region":
 AT = {"zp": 5.0, "zs": 3.0}
 CASES = {
     "all limits": (HEXAGON, ("a2", "b1"), {"at": AT}),
-    "three variables": (HEXAGON, ("a2", "b1", "zp"), {"at": {"zs": 3.0}, "resolution": 0.1}),
+    "three variables": (HEXAGON, ("a2", "b1", "zp"), {"at": {"zs": 3.0}, "resolution": 0.06}),
     "condition number": (
         nd.Study(variables=SIZES, constraints={"radius_ratio": (None, 2.0)}, objective={"region": {"ball": 0.2}}),
         ("b1", "zs"),
-        {"at": {"a2": 7.0, "zp": 5.0}, "condition_number": 5.0, "time_limit": 6.0, "resolution": 0.05},
+        {"at": {"a2": 7.0, "zp": 5.0}, "condition_number": 5.0, "resolution": 0.05},
     ),
     "tool, yaw, O held, zp": (
         nd.Study(
@@ -143,7 +143,7 @@ def test_pieces_are_a_partition(case):
 
 
 def test_something_is_proved_on_both_sides(case):
-    assert case.shares["inside"] > 0.005
+    assert case.shares["inside"] > 0.001
     assert case.shares["outside"] > 0.01
     assert case.shares["undecided"] < 0.35
 

@@ -182,12 +182,21 @@ class RoomSearch {
     if (!(most > 0.0)) return std::nullopt;
     return Vector((1.0 - 1e-9) * (proportions_.empty() ? widest(bounds, 0.3 * most * along) : Vector(most * along)));
   }
-  bool proved(const DesignBox& box) {
-    for (std::size_t k = 0; k < count(); ++k)
+  /// Whether all of a box is inside: looked at whole, then in halves, `halvings` times.
+  bool proved(const DesignBox& box, int halvings) {
+    std::size_t widest = 0;
+    for (std::size_t k = 0; k < count(); ++k) {
       if (!(box.low[k] < box.high[k])) return true;  // nothing was added
+      if ((box.high[k] - box.low[k]) / range(k) > (box.high[widest] - box.low[widest]) / range(widest)) widest = k;
+    }
     const Examined found = examiner_.examine({box, {}, {}, {}}, stop_);
     out_.boxes += found.boxes;
-    return found.finished && found.known.complete && found.known.cuts.empty();
+    if (!found.finished) return false;
+    if (found.known.complete && found.known.cuts.empty()) return true;
+    if (halvings == 0 || !found.known.losses.empty()) return false;
+    DesignBox below = box, above = box;
+    below.high[widest] = above.low[widest] = 0.5 * (box.low[widest] + box.high[widest]);
+    return proved(below, halvings - 1) && proved(above, halvings - 1);
   }
   DesignBox pushed(std::size_t side, double by) const {
     DesignBox out{out_.low, out_.high};
@@ -205,35 +214,35 @@ class RoomSearch {
     return out;
   }
   /// Planes of a whole box lose where limits are curved: sides go on by slabs, each proved alone; in given proportions all
-  /// sides at once.
+  /// sides at once. All keep step: a side on a limit leaves the slabs of others nothing that could be proved.
   void push_sides() {
-    constexpr double first = 0.25, last = 2e-3;
-    std::vector<double> step(proportions_.empty() ? 2 * count() : 1, first);
-    while (!stop_() && std::ranges::any_of(step, [](double x) { return x > last; }))
-      for (std::size_t n = 0; n < step.size() && !stop_(); ++n) {
-        if (!(step[n] > last)) continue;
+    for (double step = 0.25; step > 2e-3 && !stop_();) {
+      bool grew = false;
+      for (std::size_t n = 0; n < (proportions_.empty() ? 2 * count() : 1); ++n) {
         const DesignBox from{out_.low, out_.high};
         DesignBox to = from;
         if (proportions_.empty()) {
-          to = pushed(n, step[n] * (from.high[n / 2] - from.low[n / 2]));
+          to = pushed(n, step * (from.high[n / 2] - from.low[n / 2]));
         } else {
           for (std::size_t k = 0; k < count(); ++k) {
-            to.low[k] = from.low[k] - step[n] * (design_[k] - from.low[k]);
-            to.high[k] = from.high[k] + step[n] * (from.high[k] - design_[k]);
+            to.low[k] = from.low[k] - step * (design_[k] - from.low[k]);
+            to.high[k] = from.high[k] + step * (from.high[k] - design_[k]);
           }
         }
-        bool all = true;
+        bool all = to.low != from.low || to.high != from.high;
         for (std::size_t side = 0; side < 2 * count() && all; ++side) {
           const std::size_t k = side / 2;
           const bool moved = side % 2 == 0 ? to.low[k] < from.low[k] : to.high[k] > from.high[k];
-          all = to.low[k] >= question_.low[k] && to.high[k] <= question_.high[k] && (!moved || proved(slab(from, to, side)));
+          all = to.low[k] >= question_.low[k] && to.high[k] <= question_.high[k] &&
+                (!moved || proved(slab(from, to, side), 5));
         }
-        const bool grew = to.low != from.low || to.high != from.high;
-        step[n] *= all && grew ? 1.2 : 0.5;
         if (!all) continue;
+        grew = true;
         out_.low = to.low;
         out_.high = to.high;
       }
+      if (!grew) step *= 0.5;
+    }
   }
   DesignBox inside(const DesignBox& outer, const Vector& x) const {
     DesignBox out;
