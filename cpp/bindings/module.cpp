@@ -32,6 +32,7 @@ PYBIND11_MODULE(ninedof_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_bounds(m);
   ninedof::python::bind_machine(m);
   ninedof::python::bind_condition_search(m);
+  ninedof::python::bind_admissible(m);
   ninedof::python::bind_optimize(m);
   ninedof::python::bind_check(m);
   ninedof::python::bind_sheet(m);

@@ -58,6 +58,7 @@ from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.paper.sweeps import sweep_figure
 from ninedof.pareto import Front, pareto
 from ninedof.position.position import AssemblyModes, PositionStatus, Tracked, TrackStatus, forward_position, track
+from ninedof.proof.admissible import AdmissibleSet, admissible
 from ninedof.proof.bounds import (
     Bounds,
     DeterminantBounds,
@@ -80,6 +81,7 @@ from ninedof.report.report import report
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.allotment import tolerances_for
+from ninedof.sheet.comparison import Comparison, compare
 from ninedof.sheet.failure.failure import failure
 from ninedof.sheet.failure.result import Failure
 from ninedof.sheet.path_limits import PathLimits, path_limits
@@ -130,10 +132,12 @@ __version__: str = _core.version
 
 __all__ = [
     "About",
+    "AdmissibleSet",
     "AssemblyModes",
     "Bounds",
     "Candidate",
     "CertifiedWorkspace",
+    "Comparison",
     "Configuration",
     "Design",
     "DesignPoint",
@@ -186,6 +190,7 @@ __all__ = [
     "WorkspaceMap",
     "WorkspaceSlice",
     "WorkspaceStatus",
+    "admissible",
     "applicable_bounds",
     "atlas",
     "axis_condition_number_bounds",
@@ -197,6 +202,7 @@ __all__ = [
     "characteristic_length",
     "check",
     "check_certificate",
+    "compare",
     "condition_number",
     "condition_number_bounds",
     "determinant_bounds",

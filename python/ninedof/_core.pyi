@@ -4,7 +4,7 @@ A stack of configurations comes whole (`Configuration`), or as its three arrays:
 internal point (n, 3), C-contiguous float64 (`Flat`); characteristic lengths as one value or n.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from numpy import float64, int8, int16, int32, int64, intc, uint8, uint32
@@ -440,6 +440,30 @@ def search_condition(
     progress: _Progress | None,
     /,
 ) -> ConditionState: ...
+
+class DesignQuestion:
+    problem: Problem
+    region: Sequence[Region]
+    at: Sequence[float]
+    varied: Sequence[int]
+    low: Sequence[float]
+    high: Sequence[float]
+    condition: float
+    def __init__(self, **values: Any) -> None: ...
+
+def admissible_designs(
+    question: DesignQuestion,
+    *,
+    threads: int,
+    seconds: float,
+    resolution: float,
+    undecided: float,
+    earlier: Mapping[str, Any] | None = ...,
+    progress: _Progress | None = ...,
+) -> dict[str, Any]: ...
+def room_around(
+    question: DesignQuestion, design: Sequence[float], proportions: Sequence[float], *, seconds: float
+) -> tuple[bool, list[float], list[float], int]: ...
 def region_poses(region: Region, at: _Floats, /) -> _Floats: ...
 def search_region(
     problem: Problem, region: Region, variables: Sequence[float], samples: int, seed: int, threads: int, /

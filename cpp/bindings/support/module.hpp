@@ -31,6 +31,7 @@ void bind_interval(py::module_& m);
 void bind_bounds(py::module_& m);
 void bind_machine(py::module_& m);
 void bind_condition_search(py::module_& m);
+void bind_admissible(py::module_& m);
 void bind_optimize(py::module_& m);
 void bind_check(py::module_& m);
 void bind_rule_fit(py::module_& m);

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "math/form.hpp"
 #include "ninedof/limits/limits.hpp"
 #include "ninedof/math/dual.hpp"
 #include "ninedof/math/interval.hpp"
@@ -43,6 +44,7 @@ struct DesignRow {
   double (*number)(const Touched<double>&, int item);
   DesignSlopes (*slopes)(const Touched<double>&, int item);
   Interval (*enclosure)(const Touched<Interval>&, int item);
+  DesignForm (*form)(const Touched<DesignForm>&, int item);  ///< over a box of designs
 };
 
 extern const DesignRow radius_ratio_row, zs_fraction_row, height_row, footprint_row, joint_height_row,

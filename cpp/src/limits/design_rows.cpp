@@ -110,7 +110,8 @@ constexpr DesignRow design_row_of() {
             const auto& g = u.gradient;
             return DesignSlopes{u.value, {g[0], g[1], g[2]}, {g[3], g[4], g[5]}, g[6], g[7]};
           },
-          [](const Touched<Interval>& x, int item) { return Row::u(x, item); }};
+          [](const Touched<Interval>& x, int item) { return Row::u(x, item); },
+          [](const Touched<DesignForm>& x, int item) { return Row::u(x, item); }};
 }
 
 }  // namespace

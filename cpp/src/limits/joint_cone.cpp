@@ -53,8 +53,9 @@ struct JointCone {
     return {std::max(std::acos(most) * (1.0 - 0x1p-50), 0.0), std::acos(least) * (1.0 + 0x1p-50)};
   }
   static Interval smooth(const Interval& angle) { return cos(angle); }
-  static void moves(const FormLook& look, int item, Moves& out) {
-    const FormVector v = from_joint(platform, first + item, [&](int point) { return look.at(point); });
+  template <class Look>
+  static void moves(const Look& look, int item, Moves& out) {
+    const auto v = from_joint(platform, first + item, [&](int point) { return look.at(point); });
     out.add(v);
     out.add(axis(look, item), centre(v).norm());
   }

@@ -42,33 +42,37 @@ struct LegClearances {
 
 }  // namespace
 
-LegPairForms leg_pair_forms(const FormLook& look, int pair) {
+template <class T, class Robot>
+LegPairOf<T> leg_pair_forms(const FormLookOf<T, Robot>& look, int pair) {
   const auto [a, b] = leg_pair(pair);
-  const FormEnds one = look.ends(a), two = look.ends(b);
+  const Ends<T> one = look.ends(a), two = look.ends(b);
   return {one, two, nearest(centre(one.from), centre(one.to), centre(two.from), centre(two.to))};
 }
 
-PoseForm squared_distance_above(const LegPairForms& legs) {
-  const FormVector x = legs.one.from + PoseForm(legs.middle.s) * (legs.one.to - legs.one.from),
-                   y = legs.two.from + PoseForm(legs.middle.t) * (legs.two.to - legs.two.from);
+template <class T>
+T squared_distance_above(const LegPairOf<T>& legs) {
+  const Xyz<T> x = legs.one.from + T(legs.middle.s) * (legs.one.to - legs.one.from),
+                   y = legs.two.from + T(legs.middle.t) * (legs.two.to - legs.two.from);
   return dot(x - y, x - y);
 }
 
-FormVector fixed_direction(const LegPairForms& legs) {
+template <class T>
+Xyz<T> fixed_direction(const LegPairOf<T>& legs) {
   const double distance = legs.middle.apart.norm();
-  if (!(distance > 0.0)) return {PoseForm::unknown(), PoseForm::unknown(), PoseForm::unknown()};
-  return constant<PoseForm>(legs.middle.apart / (-distance * (1.0 + 0x1p-48)));
+  if (!(distance > 0.0)) return {T::unknown(), T::unknown(), T::unknown()};
+  return constant<T>(legs.middle.apart / (-distance * (1.0 + 0x1p-48)));
 }
 
 /// Across the legs that the shortest connection meets between their ends.
-FormVector turning_direction(const LegPairForms& legs) {
+template <class T>
+Xyz<T> turning_direction(const LegPairOf<T>& legs) {
   const auto between_ends = [](double part) { return 0.0 < part && part < 1.0; };
   const auto& [one, two, near] = legs;
   const bool first = between_ends(near.s), second = between_ends(near.t);
-  const FormVector u = one.to - one.from, v = two.to - two.from;
-  const FormVector from = near.s < 0.5 ? one.from : one.to, to = near.t < 0.5 ? two.from : two.to;
-  const auto across = [](const FormVector& w, const FormVector& leg) { return dot(leg, leg) * w - dot(w, leg) * leg; };
-  FormVector m;
+  const Xyz<T> u = one.to - one.from, v = two.to - two.from;
+  const Xyz<T> from = near.s < 0.5 ? one.from : one.to, to = near.t < 0.5 ? two.from : two.to;
+  const auto across = [](const Xyz<T>& w, const Xyz<T>& leg) { return dot(leg, leg) * w - dot(w, leg) * leg; };
+  Xyz<T> m;
   if (first && second) m = cross(u, v);
   else if (first) m = across(to - one.from, u);
   else if (second) m = across(two.from - from, v);
@@ -76,17 +80,29 @@ FormVector turning_direction(const LegPairForms& legs) {
   return unit(centre(m).dot(near.apart) > 0.0 ? -1.0 * m : m);  // `apart` is from the second to the first
 }
 
-EndDistances end_distances(const LegPairForms& legs, const FormVector& direction) {
-  EndDistances out;
+template <class T>
+EndDistancesOf<T> end_distances(const LegPairOf<T>& legs, const Xyz<T>& direction) {
+  EndDistancesOf<T> out;
   std::size_t k = 0;
-  for (const FormVector* a : {&legs.one.from, &legs.one.to})
-    for (const FormVector* b : {&legs.two.from, &legs.two.to}) {
+  for (const Xyz<T>* a : {&legs.one.from, &legs.one.to})
+    for (const Xyz<T>* b : {&legs.two.from, &legs.two.to}) {
       out.between[k] = *b - *a;
       out.along[k] = dot(direction, out.between[k]);
       ++k;
     }
   return out;
 }
+
+template LegPairOf<PoseForm> leg_pair_forms(const FormLook&, int);
+template PoseForm squared_distance_above(const LegPairOf<PoseForm>&);
+template Xyz<PoseForm> fixed_direction(const LegPairOf<PoseForm>&);
+template Xyz<PoseForm> turning_direction(const LegPairOf<PoseForm>&);
+template EndDistancesOf<PoseForm> end_distances(const LegPairOf<PoseForm>&, const Xyz<PoseForm>&);
+template LegPairOf<DesignForm> leg_pair_forms(const DesignLook&, int);
+template DesignForm squared_distance_above(const LegPairOf<DesignForm>&);
+template Xyz<DesignForm> fixed_direction(const LegPairOf<DesignForm>&);
+template Xyz<DesignForm> turning_direction(const LegPairOf<DesignForm>&);
+template EndDistancesOf<DesignForm> end_distances(const LegPairOf<DesignForm>&, const Xyz<DesignForm>&);
 
 constinit const PoseRow leg_clearance_row = pose_row_of<LegClearances>();
 

@@ -31,7 +31,8 @@ struct LegLengths {
   static double slope(double length) { return length > 0.0 ? 0.5 / length : 0.0; }
   static Interval read(const Interval& squared) { return sqrt(squared); }
   static Interval smooth(const Interval& length) { return square(length); }
-  static void moves(const FormLook& look, int item, Moves& out) { out.add(leg(look, item)); }
+  template <class Look>
+  static void moves(const Look& look, int item, Moves& out) { out.add(leg(look, item)); }
 };
 
 }  // namespace

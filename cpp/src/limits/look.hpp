@@ -5,7 +5,7 @@
 ///
 ///   PointLook   doubles
 ///   DualLook    their derivatives by the points that the limit touches, and by turns of the platform
-///   FormLook    linear forms over a box of poses
+///   FormLook    linear forms over a box of poses, and over a box of designs (DesignLook)
 
 #include <algorithm>
 #include <cassert>
@@ -179,32 +179,51 @@ class DualLook {
   const std::array<int, P>& touched_;
 };
 
-/// The axes and sides of a robot as forms, and its duty: the same in every box.
-struct FormHome {
-  FormHome(const Geometry& g, const Configuration& home, const LimitOptions& options);
-  std::array<std::array<FormVector, 6>, 2> axis;  ///< of base and platform
+/// The axes and sides of a robot as forms: the same in every box of poses; and its duty.
+template <class T>
+struct HomeOf {
+  std::array<std::array<Xyz<T>, 6>, 2> axis;  ///< of base and platform
   std::array<double, 3> side;
   std::shared_ptr<const Duty> duty;
 };
+struct FormHome : HomeOf<PoseForm> {
+  FormHome(const Geometry& g, const Configuration& home, const LimitOptions& options);
+};
+/// `given` is zero for the directions of the legs at home.
+template <class T, class Robot>
+void set_axes(const Robot& g, const PoseOf<T>& at_home, const Vec3& given, HomeOf<T>& out) {
+  for (const bool platform : {false, true})
+    for (int k = 0; k < legs_at_body; ++k) {
+      const auto point = [&](int index) { return point_at(g, at_home, index); };
+      const Xyz<T> along =
+          given.isZero(0.0) ? in_body(platform, at_home.q, from_joint(platform, k, point)) : constant<T>(given);
+      out.axis[platform][at_index(k)] = unit(along);
+    }
+}
 
-class FormLook {
+template <class T, class Robot>
+class FormLookOf {
  public:
-  using Number = PoseForm;
-  FormLook(const Geometry& g, const FormPose& pose, const FormHome& home) : g_(g), pose_(pose), home_(home) {}
+  using Number = T;
+  using Vector = Xyz<T>;
+  FormLookOf(const Robot& g, const PoseOf<T>& pose, const HomeOf<T>& home) : g_(g), pose_(pose), home_(home) {}
 
-  FormVector at(int point) const { return point_at(g_, pose_, point); }
-  FormVector direction(int leg) const { return towards(leg_ends(leg).from, leg_ends(leg).to); }
-  FormVector towards(int from, int to) const { return unit(at(to) - at(from)); }
-  const std::array<FormVector, 3>& q() const { return pose_.q; }
-  const FormVector& axis(bool platform, int k) const { return home_.axis[platform][at_index(k)]; }
+  Vector at(int point) const { return point_at(g_, pose_, point); }
+  Vector direction(int leg) const { return towards(leg_ends(leg).from, leg_ends(leg).to); }
+  Vector towards(int from, int to) const { return unit(at(to) - at(from)); }
+  const std::array<Vector, 3>& q() const { return pose_.q; }
+  const Vector& axis(bool platform, int k) const { return home_.axis[platform][at_index(k)]; }
   double side(int which) const { return home_.side[at_index(which)]; }
   const Duty& duty() const { return *home_.duty; }
-  FormEnds ends(int leg) const { return ends_of(g_, pose_, leg); }
+  Ends<T> ends(int leg) const { return ends_of(g_, pose_, leg); }
 
  private:
-  const Geometry& g_;
-  const FormPose& pose_;
-  const FormHome& home_;
+  const Robot& g_;
+  const PoseOf<T>& pose_;
+  const HomeOf<T>& home_;
 };
+/// Over a box of poses; over that and a box of designs.
+using FormLook = FormLookOf<PoseForm, Geometry>;
+using DesignLook = FormLookOf<DesignForm, JointsOf<DesignForm>>;
 
 }  // namespace ninedof

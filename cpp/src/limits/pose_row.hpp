@@ -45,6 +45,10 @@ struct PoseRow {
   PoseForm (*numerator)(const FormLook&, int item) = nullptr;
   /// The vectors that u is made of.
   void (*moves)(const FormLook&, int item, Moves&) = nullptr;
+  /// The same over a box of designs as well. Null as `form` is.
+  DesignForm (*design_form)(const DesignLook&, int item) = nullptr;
+  DesignForm (*design_numerator)(const DesignLook&, int item) = nullptr;
+  void (*design_moves)(const DesignLook&, int item, Moves&) = nullptr;
   /// The number, of u; and u, of the number.
   Interval (*read)(const Interval& u) = nullptr;
   Interval (*smooth)(const Interval& number) = nullptr;
@@ -106,14 +110,21 @@ constexpr PoseRow pose_row_of() {
   out.slopes = Row::slopes;
   if constexpr (requires { Row::read; }) {
     out.form = [](const FormLook& look, int item) { return Row::u(look, item); };
-    out.moves = Row::moves;
+    out.moves = [](const FormLook& look, int item, Moves& moves) { Row::moves(look, item, moves); };
+    if constexpr (requires(const DesignLook& look, Moves& moves) { Row::u(look, 0), Row::moves(look, 0, moves); }) {
+      out.design_form = [](const DesignLook& look, int item) { return Row::u(look, item); };
+      out.design_moves = [](const DesignLook& look, int item, Moves& moves) { Row::moves(look, item, moves); };
+    }
     out.read = Row::read;
     out.smooth = Row::smooth;
     out.falls = Row::falls;
   }
   if constexpr (requires { Row::pairs; }) out.pairs = Row::pairs;
   if constexpr (requires { Row::first_locked; }) out.first_locked = Row::first_locked;
-  if constexpr (requires { Row::numerator; }) out.numerator = Row::numerator;
+  if constexpr (requires(const FormLook& look) { Row::numerator(look, 0); }) {
+    out.numerator = [](const FormLook& look, int item) { return Row::numerator(look, item); };
+    out.design_numerator = [](const DesignLook& look, int item) { return Row::numerator(look, item); };
+  }
   return out;
 }
 

@@ -57,15 +57,17 @@ struct Determinants {
   static Interval read(const Interval& determinant) { return determinant; }
   static Interval smooth(const Interval& determinant) { return determinant; }
   /// Of rows that are not of unit length.
-  static PoseForm numerator(const FormLook& look, int item) {
+  template <class Look>
+  static auto numerator(const Look& look, int item) {
     return look.side(item) * determinant_of<false>(look, item);
   }
-  static void moves(const FormLook& look, int item, Moves& out) {
+  template <class Look>
+  static void moves(const Look& look, int item, Moves& out) {
     for (int k = 0; k < 3; ++k) {
       const LegEnds ends = leg_ends(first_leg(item) + k);
-      const FormVector from = look.at(ends.from), to = look.at(ends.to);
+      const auto from = look.at(ends.from), to = look.at(ends.to);
       if (item == det_n) {
-        const FormVector s = look.at(point_s);
+        const auto s = look.at(point_s);
         out.add(from - s);
         out.add(to - s);
       } else {
@@ -81,18 +83,11 @@ double PointLook::side(int which) const {
   return determinant_of<true>(PointLook(home_, home_, axis_), which) < 0.0 ? -1.0 : 1.0;
 }
 
-FormHome::FormHome(const Geometry& g, const Configuration& home, const LimitOptions& options) : duty(options.duty) {
-  const Vec3& given = options.axis;
-  const FormPose at_home = form_pose(home);
-  for (const bool platform : {false, true})
-    for (int k = 0; k < legs_at_body; ++k) {
-      const auto point = [&](int index) { return point_at(g, at_home, index); };
-      const FormVector along =
-          given.isZero(0.0) ? in_body(platform, at_home.q, from_joint(platform, k, point)) : constant<PoseForm>(given);
-      axis[platform][at_index(k)] = unit(along);
-    }
+FormHome::FormHome(const Geometry& g, const Configuration& home, const LimitOptions& options) {
+  duty = options.duty;
+  set_axes(g, form_pose(home), options.axis, *this);
   const PosedPoints points = posed_points(g, home);
-  for (int which = 0; which < 3; ++which) side[at_index(which)] = PointLook(points, points, given).side(which);
+  for (int which = 0; which < 3; ++which) side[at_index(which)] = PointLook(points, points, options).side(which);
 }
 
 constinit const PoseRow singularity_free_row = pose_row_of<Determinants>();

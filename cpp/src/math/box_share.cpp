@@ -37,8 +37,11 @@ Interval simplex_sum(const std::array<double, 3>& a, std::size_t n, const Interv
 
 }  // namespace
 
-double reach(const Slope3& slope) {
-  return (std::abs(slope[0]) + std::abs(slope[1]) + std::abs(slope[2])) * (1.0 + 0x1p-50);
+template <std::size_t N>
+double reach(const Slope<N>& slope) {
+  double sum = 0.0;
+  for (const double one : slope) sum += std::abs(one);
+  return sum * (1.0 + 0x1p-50);
 }
 
 Interval share_below(const Slope3& slope, double level) {
@@ -67,18 +70,23 @@ Interval share_below(const Slope3& slope, double level) {
   return {std::clamp(low.lo, 0.0, 1.0), std::clamp(high.hi, 0.0, 1.0)};
 }
 
-std::vector<Slope3> hull_above(const Slope3& slope, double level) {
-  std::vector<Slope3> out;
+template <std::size_t N>
+std::vector<Slope<N>> hull_above(const Slope<N>& slope, double level) {
+  std::vector<Slope<N>> out;
   // A plane a little below: what the points of edges lose in rounding is less.
   const double lower = level - 4.0 * plane_rounding * (reach(slope) + std::abs(level));
-  const auto value = [&](const Slope3& t) { return slope[0] * t[0] + slope[1] * t[1] + slope[2] * t[2]; };
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    Slope3 t;
-    for (std::size_t k = 0; k < 3; ++k) t[k] = (corner >> k) % 2 == 0 ? -1.0 : 1.0;
+  const auto value = [&](const Slope<N>& t) {
+    double sum = slope[0] * t[0];
+    for (std::size_t k = 1; k < N; ++k) sum += slope[k] * t[k];
+    return sum;
+  };
+  for (std::size_t corner = 0; corner < (std::size_t{1} << N); ++corner) {
+    Slope<N> t;
+    for (std::size_t k = 0; k < N; ++k) t[k] = (corner >> k) % 2 == 0 ? -1.0 : 1.0;
     if (value(t) < lower) continue;
     out.push_back(t);
-    for (std::size_t k = 0; k < 3; ++k) {
-      Slope3 other = t;
+    for (std::size_t k = 0; k < N; ++k) {
+      Slope<N> other = t;
       other[k] = -t[k];
       if (value(other) >= lower) continue;
       // From a corner above to one below: slope_k is not zero.
@@ -89,5 +97,10 @@ std::vector<Slope3> hull_above(const Slope3& slope, double level) {
   }
   return out;
 }
+
+template double reach(const Slope<3>&);
+template double reach(const Slope<4>&);
+template std::vector<Slope<3>> hull_above(const Slope<3>&, double);
+template std::vector<Slope<4>> hull_above(const Slope<4>&, double);
 
 }  // namespace ninedof::forms

@@ -10,16 +10,20 @@
 
 namespace ninedof::forms {
 
-using Slope3 = std::array<double, 3>;
+template <std::size_t N>
+using Slope = std::array<double, N>;
+using Slope3 = Slope<3>;
 
-/// At least the greatest slope . t of the box.
-double reach(const Slope3& slope);
+/// At least the greatest slope . t of the box, which has 3 or 4 coordinates.
+template <std::size_t N>
+double reach(const Slope<N>& slope);
 
 /// The share of the box where slope . t < level.
 Interval share_below(const Slope3& slope, double level);
 
 /// Points of the box whose hull holds all t of it with slope . t >= level: corners, and points of edges. They may lie
 /// below the level by rounding. None where no t of the box is above it.
-std::vector<Slope3> hull_above(const Slope3& slope, double level);
+template <std::size_t N>
+std::vector<Slope<N>> hull_above(const Slope<N>& slope, double level);
 
 }  // namespace ninedof::forms

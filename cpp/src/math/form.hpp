@@ -141,6 +141,16 @@ struct Form {
     const double rest = 0.375 * part * part / std::sqrt(least) * (1.0 + forms::grain);
     return linear(x, value, -0.5 * value / x.c, 0.0, rest);
   }
+  friend Form operator/(const Form& x, const Form& y) { return lower(y) > 0.0 ? x * inverse(y) : unknown(); }
+  friend Form square(const Form& x) { return x * x; }
+  /// Of x >= 0: |second derivative| is x^(-3/2) / 4. No slope where x may be 0.
+  friend Form sqrt(const Form& x) {
+    const double w = radius(x), least = lower(x), most = upper(x);
+    if (!(least > 0.0)) return std::isfinite(most) ? of(Interval(0.0, detail::above(std::sqrt(std::max(most, 0.0))))) : unknown();
+    const double value = std::sqrt(x.c), part = w / least;
+    const double rest = 0.125 * part * part * std::sqrt(least) * (1.0 + forms::grain);
+    return linear(x, value, 0.5 / value, -rest, 0.0);
+  }
   /// The second derivative of sines is at most 1.
   friend Form sin(const Form& x) {
     if constexpr (curved) return sine(x, std::sin(x.c), std::cos(x.c));
@@ -211,5 +221,8 @@ struct Form {
 /// Over a box of poses, whose six coordinates are those of a region.
 using PoseForm = Form<6>;
 using CurvedForm = Form<6, 2>;
+
+/// Over a box of poses and a box of designs, whose coordinates are the last four.
+using DesignForm = Form<10>;
 
 }  // namespace ninedof

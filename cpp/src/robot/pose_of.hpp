@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "math/form.hpp"
 #include "ninedof/math/xyz.hpp"
@@ -30,17 +31,35 @@ Xyz<T> turned(const PoseOf<T>& pose, const Vec3& body) {
   return body.x() * pose.q[0] + body.y() * pose.q[1] + body.z() * pose.q[2];
 }
 
-/// The joint of a robot with this index of Points, or p or s.
+/// Twelve joints in the order of Points, each in the frame of its body: those of a box of designs.
 template <class T>
-Xyz<T> point_at(const Geometry& g, const PoseOf<T>& pose, int point) {
-  if (point == point_p) return pose.p;
-  if (point == point_s) return pose.s;
+using JointsOf = std::array<Xyz<T>, 12>;
+
+template <class T>
+Xyz<T> turned(const PoseOf<T>& pose, const Xyz<T>& body) {
+  return body.x * pose.q[0] + body.y * pose.q[1] + body.z * pose.q[2];
+}
+template <class T>
+const Xyz<T>& joint_of(const JointsOf<T>& joints, int point) {
+  return joints[static_cast<std::size_t>(point)];
+}
+inline const Vec3& joint_of(const Geometry& g, int point) {
   const Triple& triple = point < point_r_hat     ? g.base_external()
                          : point < point_u       ? g.base_internal()
                          : point < point_u_tilde ? g.platform_external()
                                                  : g.platform_internal();
-  const Vec3& joint = triple[at_index(point % 3)];
-  return point < point_u ? constant<T>(joint) : pose.p + turned(pose, joint);
+  return triple[static_cast<std::size_t>(point % 3)];
+}
+
+/// The joint of a robot with this index of Points, or p or s. The robot is a Geometry or JointsOf<T>.
+template <class T, class Robot>
+Xyz<T> point_at(const Robot& g, const PoseOf<T>& pose, int point) {
+  if (point == point_p) return pose.p;
+  if (point == point_s) return pose.s;
+  const auto& joint = joint_of(g, point);
+  if (point >= point_u) return pose.p + turned(pose, joint);
+  if constexpr (std::is_same_v<Robot, Geometry>) return constant<T>(joint);
+  else return joint;
 }
 
 template <class T>
@@ -48,8 +67,8 @@ struct Ends {
   Xyz<T> from, to;
 };
 /// The ends of a leg, in the order of leg_ends.
-template <class T>
-Ends<T> ends_of(const Geometry& g, const PoseOf<T>& pose, int leg) {
+template <class T, class Robot>
+Ends<T> ends_of(const Robot& g, const PoseOf<T>& pose, int leg) {
   const LegEnds ends = leg_ends(leg);
   return {point_at(g, pose, ends.from), point_at(g, pose, ends.to)};
 }
@@ -60,7 +79,8 @@ using FormPose = PoseOf<PoseForm>;
 using FormEnds = Ends<PoseForm>;
 
 /// The middle of a vector of forms.
-inline Vec3 centre(const FormVector& v) {
+template <std::size_t N>
+Vec3 centre(const Xyz<Form<N>>& v) {
   return {v.x.c, v.y.c, v.z.c};
 }
 
@@ -71,13 +91,13 @@ std::array<FormVector, 3> rotation_columns(const Mat3& q);
 /// A configuration as a box of one pose.
 FormPose form_pose(const Configuration& c);
 
-/// How far vectors move along each coordinate of a box, the most of all: what a box is divided by.
+/// How far vectors move along each coordinate of a box of poses, the most of all: what a box is divided by.
 struct Moves {
   std::array<double, PoseForm::size> along{};
   template <class T>
   void add(const Xyz<T>& v, double scale = 1.0) {
     for (const T* x : {&v.x, &v.y, &v.z})
-      for (std::size_t k = 0; k < T::size; ++k) along[k] = std::max(along[k], scale * std::abs(x->a[k]));
+      for (std::size_t k = 0; k < along.size(); ++k) along[k] = std::max(along[k], scale * std::abs(x->a[k]));
   }
 };
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.design.duty import Tool
 from ninedof.design.study import Study
-from ninedof.optimize.result import Result
+from ninedof.optimize.result import Result, with_fixed_design
 from ninedof.paper.published import published_variables
 from ninedof.pareto import Front
 from ninedof.records.design_file import Design, hexagonal_design
@@ -61,6 +61,7 @@ def named_design(name: str | None) -> Chosen:
         raise ValueError(f"{name}: got a front, expected one of its points: {name}#1 to {name}#{len(run)}")
     if not isinstance(run, Result):
         raise ValueError(f"{name}: got a run without a design, expected one of `ninedof optimize` or `ninedof pareto`")
+    run = with_fixed_design(run)
     best = run.best
     if best is None:
         raise ValueError(f"{name}: the record holds no design: {run.reason}")

@@ -31,6 +31,7 @@ Out = Annotated[
     Path | None,
     typer.Option(help="Run folder; runs/<time> by default. The same command goes on with an unfinished run there."),
 ]
+Plot = Annotated[Path | None, typer.Option(help="Draw the plates over each other: a .png, .svg or .pdf file.")]
 Starts = Annotated[int | None, typer.Option(help="Starts, in place of the study's.")]
 Figures = Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")]
 Report = Annotated[bool, typer.Option("--report/--no-report", help="Write the report, with the figures.")]

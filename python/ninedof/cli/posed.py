@@ -13,15 +13,19 @@ import typer
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design
 from ninedof.cli.options import Design, Options, Three
-from ninedof.cli.screen import DONE
+from ninedof.cli.screen import DONE, bold
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.robot.geometry import Geometry
 from ninedof.sheet.pose_words import pose_words
+from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arguments import vector
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry
+
+NO_SIDE = 1e-12  # a determinant that is zero but for rounding
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,7 +111,23 @@ class DesignAtPoses:
             last = [f"pose {k}: {pose_words(c[k], c.rotation[0], unit)}" for k in sorted(set(used))]
         else:
             first, last = f"at {pose_words(c[0], self.chosen.configuration.rotation, unit)}", []
-        return Answer([first, *parts, *last], unit_entry(unit) | {"poses": poses_data(c)} | dict(data), status)
+        beyond = beyond_words(self.chosen.geometry, self.chosen.configuration, c)
+        return Answer([first, *beyond, *parts, *last], unit_entry(unit) | {"poses": poses_data(c)} | dict(data), status)
+
+
+def beyond_words(g: Geometry, home: Configuration, c: Configuration) -> list[Any]:
+    """Return a line for each determinant whose sign at some pose of a stack is not that of the neutral pose."""
+    parts = []
+    for name, here, there in zip("NBC", singularity_margins(g, c), singularity_margins(g, home), strict=True):
+        beyond = np.flatnonzero((here * np.sign(there) < -NO_SIDE) & (abs(there) > NO_SIDE)).tolist()
+        if beyond:
+            ends = ("positive", "negative") if there > 0.0 else ("negative", "positive")
+            where = "here" if len(c) == 1 else f"at {len(beyond)} of {len(c)} poses, the first {beyond[0]}"
+            signs = f"det {name} is {ends[0]} at the neutral pose, {ends[1]} {where}"
+            parts.append(
+                bold("beyond a singularity", f": {signs}; every way from the neutral pose passes det {name} = 0")
+            )
+    return parts
 
 
 def length_at_home(chosen: Chosen) -> float:

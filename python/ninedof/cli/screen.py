@@ -99,7 +99,7 @@ class Screen:
 
     @contextmanager
     def bar(self, kind: str, title: str) -> Iterator[Bar]:
-        """Show a progress bar, one of BARS, at once or from the first report on.
+        """Show a progress bar, one of BARS, at once or from the first report on; in a pipe or log a line now and then.
 
         Bad input raises before the first report: a bar that waits for it is then not shown.
         """
@@ -139,6 +139,7 @@ def _narrow() -> BarColumn:
     return BarColumn(bar_width=12)
 
 
+FIRST_LINE, LONGEST_SILENCE = 10.0, 300.0  # seconds: in a log lines at 10, 20, 40 ... s, then every five minutes
 VALUE, TO_GO = "{task.fields[value]}", (TimeRemainingColumn, "to go")
 # What a bar shows behind its title, the words for the value of a report, and whether it is shown at once.
 BARS: dict[str, tuple[Sequence[Callable[[], ProgressColumn] | str], Callable[[float | None], str], bool]] = {
@@ -167,12 +168,15 @@ class Bar:
         self._progress, self._title, self._words = progress, title, words
         self._task = progress.add_task(title, total=None, value="")
         self.reported = False
+        self._begun = progress.get_time()
+        self._next_line = FIRST_LINE
 
     def show(self, done: int, total: int, value: float | None) -> None:
         """Update the bar: the progress callback of a long call."""
         self.reported = True
         self._progress.start()
         self._progress.update(self._task, completed=done, total=total, value=self._words(value))
+        self._line()
 
     __call__ = show
 
@@ -180,3 +184,14 @@ class Bar:
         """Say behind the title which part of the work is done; the value was that of the part before it."""
         self._progress.start()
         self._progress.update(self._task, description=one_line(f"{self._title}: {words}"), value="")
+        self._line()
+
+    def _line(self) -> None:
+        """Print what the bar says as a plain line where no bar can be drawn, if the time of the next line has come."""
+        progress, seconds = self._progress, self._progress.get_time() - self._begun
+        if progress.console.is_interactive or seconds < self._next_line:
+            return
+        self._next_line = seconds + min(seconds, LONGEST_SILENCE)
+        shown = [column(progress.tasks[0]) for column in progress.columns if isinstance(column, ProgressColumn)]
+        words = [part.plain.strip() for part in shown if isinstance(part, Text)]
+        progress.console.print("  ".join(filter(None, words)), soft_wrap=True)

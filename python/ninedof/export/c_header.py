@@ -1,7 +1,13 @@
-"""C: a header of constants with the inverse kinematics, C99, that needs the standard library alone."""
+"""C: a header of constants with the inverse kinematics, C99, that needs the standard library alone.
+
+Every name begins with that of the machine, and the guard ends with a sum of the contents: a program takes the headers
+of several machines, and two of one name do not compile, where an equal guard would leave the second out.
+"""
 
 from __future__ import annotations
 
+import re
+import zlib
 from collections.abc import Iterable
 
 from ninedof.export.model import Format, Model
@@ -63,12 +69,19 @@ static inline int ninedof_first_out_of_range(const double lengths[9]) {
 def text(model: Model) -> str:
     """Return the file. Constants are the shortest decimals that read back to the same bits."""
     g, c = model.tool.robot(model.geometry, model.configuration)
-    parts = [_head(model), *(_matrix(name, rows) for name, rows in triples(g).items()), _neutral(c)]
+    words = [
+        f'static const char ninedof_{key}[] = "{word}";\n'
+        for key, word in {"name": model.name, "unit": model.unit}.items()
+    ]
+    parts = [*words, "\n", *(_matrix(name, rows) for name, rows in triples(g).items()), _neutral(c)]
     parts.append(_row("neutral_lengths", model.neutral_lengths))
     if model.leg_ranges:
         shortest, longest = zip(*model.leg_ranges, strict=True)
         parts += [_row("shortest", shortest), _row("longest", longest), "\n", WITHIN]
-    return "".join([*parts, "\n", INVERSE_KINEMATICS, "\n#endif\n"])
+    name = re.sub(r"\W", "_", model.name, flags=re.ASCII)
+    body = re.sub(r"\bninedof_", f"ninedof_{name}_", "".join([*parts, "\n", INVERSE_KINEMATICS]))
+    guard = f"ninedof_{name}_{zlib.crc32(body.encode()):08x}_h"
+    return f"{_head(model)}#ifndef {guard}\n#define {guard}\n\n#include <math.h>\n\n{body}\n#endif\n"
 
 
 def _head(model: Model) -> str:
@@ -78,8 +91,6 @@ def _head(model: Model) -> str:
         f"   Unit of lengths: {unit}. Joints 1, 2, 3 are rows: those of the base in the base frame, those of the\n"
         "   platform in the platform frame. Legs in the order l1 l2 l3 q1 q2 q3 r1 r2 r3: external, upper internal,\n"
         f"   lower internal.{TOOL * bool(model.tool)} */\n"
-        "#ifndef NINEDOF_ROBOT_H\n#define NINEDOF_ROBOT_H\n\n#include <math.h>\n\n"
-        f'#define NINEDOF_NAME "{model.name}"\n#define NINEDOF_UNIT "{model.unit}"\n\n'
     )
 
 

@@ -30,6 +30,7 @@ TIMESTEP = 5e-4
 # With h the time step and m the mass of a rod: a stiffness of 0.1 m / h^2 is stable where the integrator is explicit in
 # positions (0.4 is the most), and a damping of 3 m / h brings a leg to rest in some 0.1 s without oscillation.
 STIFFNESS, DAMPING = 0.1, 3.0
+LAG = round(DAMPING / STIFFNESS * TIMESTEP, 6)  # kv / kp, s: at a steady rate a leg is behind its control by this time
 SPIN_DECAY = 20.0  # 1/s: the free spin of a leg dies out in a twentieth of a second
 PLATE = "0.62 0.66 0.70 0.55"
 
@@ -49,7 +50,8 @@ def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSE
     return f"""<mujoco model={quoteattr(model.name)}>
   <!-- The nine-degree-of-freedom manipulator, written by ninedof. Lengths: {b.unit}; masses: kilograms.
        Controls are the lengths of the legs l1 l2 l3 q1 q2 q3 r1 r2 r3, their ranges the strokes. Start from the
-       keyframe "neutral": without it MuJoCo sets all controls to zero. Under gravity the actuators give way. -->
+       keyframe "neutral": without it MuJoCo sets all controls to zero. Under gravity the actuators give way.
+       A leg lags behind its control by {LAG!r} s: to follow a path, control its length + {LAG!r} s * its rate. -->
   <compiler angle="radian" inertiafromgeom="false"/>
   <option timestep="{TIMESTEP!r}" integrator="implicitfast" solver="Newton" tolerance="1e-14"
     gravity="0 0 {numbers(-down) if down else 0}"/>

@@ -12,12 +12,14 @@ import numpy as np
 
 from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors
 from ninedof.robot.configuration import Configuration, require_single
+from ninedof.support.angles import DEG
 from ninedof.support.arguments import cleaned, finite, path_argument, shown, vector, whole
 from ninedof.support.arrays import Floats, as_floats, frozen
 from ninedof.support.files import csv_rows, finite_or_nan, read_text
 from ninedof.support.units import unit_argument
 
-PLACE = ("t", "x", "y", "z")
+PLACE = ("x", "y", "z")
+RELATIVE = ("x_rel", "y_rel", "z_rel")
 QUATERNION = ("qw", "qx", "qy", "qz")
 ROTATIONS: dict[tuple[str, ...], Callable[[Floats], Floats]] = {
     QUATERNION: from_quaternions,
@@ -27,9 +29,11 @@ ROTATIONS: dict[tuple[str, ...], Callable[[Floats], Floats]] = {
     ("yaw_deg", "pitch_deg", "roll_deg"): lambda turns: from_euler(*np.radians(turns).T),
 }
 """The columns that a file may have for the rotation, and their matrices (n, 3, 3)."""
+RADIANS = {"rx", "ry", "rz", "yaw", "pitch", "roll"}
+SEPARATORS = {";": "semicolons", "\t": "tabs"}
 ONE_OF = "one of " + ", ".join(map(" ".join, ROTATIONS))
 FEWEST = 3  # poses: accelerations need three
-UNIT = 1e-3  # a quaternion may differ from unit length by rounding, not by more
+UNIT = 1e-3  # a quaternion may differ from unit length by rounding, not by more; a full turn too, relative
 TURNS = 3  # of a spiral
 SHORTEST, LONGEST = 1e-300, 1e100  # of a motion: its times must differ, and their squares be numbers
 MOST_POINTS = 10_000_000
@@ -97,12 +101,13 @@ class Trajectory:
         Parameters
         ----------
         path : path
-            Columns, in any order: t, x, y, z, and for the rotation none, qw qx qy qz, rx ry rz (a rotation vector) or
-            yaw pitch roll (Euler angles, R_z R_y R_x); angles in radians, or in degrees with names such as rx_deg and
-            yaw_deg. Positions and rotations are those of the platform in the base frame. A line that begins with #
-            is a comment.
+            Columns, in any order, separated by commas: t, x, y, z, and for the rotation none, qw qx qy qz, rx ry rz (a
+            rotation vector) or yaw pitch roll (Euler angles, R_z R_y R_x); angles in radians, at most a full turn, or
+            in degrees with names such as rx_deg and yaw_deg. Positions and rotations are those of the platform in the
+            base frame; x_rel y_rel z_rel are positions from that of `home`, along the base axes. A line that begins
+            with # is a comment.
         home : Configuration
-            Its rotation is taken where the file has none.
+            Its rotation is taken where the file has none; the origin of x_rel y_rel z_rel.
         unit : str
             Name of the length unit of the robot. A file may name its own behind a column, "x (mm)"; another one is an
             error.
@@ -117,7 +122,7 @@ class Trajectory:
         file = path_argument("path", path)
         text = read_text(file)
         try:
-            time, position, rotation = _poses(text, unit)
+            time, position, rotation = _poses(text, home.position, unit)
             return cls(time, position, home.rotation if rotation is None else rotation, unit)
         except ValueError as error:
             raise ValueError(f"{file}: {error}") from None
@@ -196,21 +201,26 @@ def _rest_to_rest(u: Floats) -> Floats:
     return np.asarray(u**3 * (10.0 + u * (6.0 * u - 15.0)))
 
 
-def _poses(text: str, unit: str) -> tuple[Floats, Floats, Floats | None]:
+def _poses(text: str, origin: Floats, unit: str) -> tuple[Floats, Floats, Floats | None]:
     """Return time (n,), position (n, 3) and rotation (n, 3, 3) of a file, None where it has no rotation.
 
-    ValueError names line and column, also where the file names another unit of lengths.
+    `origin` is that of relative positions. ValueError names line and column, also where the file names another unit of
+    lengths.
     """
     rows = csv_rows(text)
     if not rows:
         raise ValueError("got an empty file, expected a line with the names of the columns")
     (line, header), *body = rows
+    for mark, word in SEPARATORS.items():
+        if mark in "".join(header):
+            expected = "expected commas between columns and points in numbers, such as 0.5,1.25"
+            raise ValueError(f"line {line}: got columns separated by {word}, {expected}")
     heads = [cleaned(name).partition(" (") for name in header]  # "x (mm)", as `ninedof path` writes it
     names = [name for name, _, _ in heads]
     for name, _, end in heads:
-        if name in PLACE[1:] and end and unit and (own := end.rstrip(")")) != unit:
+        if name in PLACE + RELATIVE and end and unit and (own := end.rstrip(")")) != unit:
             raise ValueError(f"line {line}, column {name}: got {own}, expected {unit} as in the design")
-    turns = _rotation_columns(f"line {line}", names)
+    place, turns = _pose_columns(f"line {line}", names)
     if len(body) < FEWEST:
         raise ValueError(f"got {len(body)} poses, expected at least {FEWEST}")
     for line, row in body:
@@ -225,7 +235,7 @@ def _poses(text: str, unit: str) -> tuple[Floats, Floats, Floats | None]:
     def columns(some: Sequence[str]) -> Floats:
         return np.ascontiguousarray(table[:, [names.index(name) for name in some]])
 
-    time = columns(PLACE)[:, 0]
+    time = columns(["t"])[:, 0]
     for k in np.flatnonzero(np.diff(time) <= 0.0)[:1]:
         got = f"got {time[k + 1]:g} after {time[k]:g}"
         raise ValueError(f"line {body[k + 1][0]}, column t: {got}, expected more")
@@ -233,24 +243,34 @@ def _poses(text: str, unit: str) -> tuple[Floats, Floats, Floats | None]:
         size = np.linalg.norm(columns(turns), axis=1)
         for k in np.flatnonzero(np.abs(size - 1.0) > UNIT)[:1]:
             raise ValueError(f"line {body[k][0]}, column qw: got a quaternion of length {size[k]:g}, expected 1")
-    return time, columns(PLACE[1:]), ROTATIONS[turns](columns(turns)) if turns else None
+    if turns and RADIANS.issuperset(turns):
+        for k, j in np.argwhere(np.abs(columns(turns)) > 2.0 * math.pi * (1.0 + UNIT))[:1]:
+            degrees = " ".join(name + DEG for name in turns)
+            expected = f"expected radians, at most a full turn; degrees are in columns {degrees}"
+            raise ValueError(f"line {body[k][0]}, column {turns[j]}: got {columns(turns)[k, j]:g}, {expected}")
+    position = columns(place) + (origin if place == RELATIVE else 0.0)
+    return time, position, ROTATIONS[turns](columns(turns)) if turns else None
 
 
-def _rotation_columns(where: str, names: Sequence[str]) -> tuple[str, ...]:
-    """Return the columns of the rotation, none if there are none, or raise for missing and unknown columns."""
+def _pose_columns(where: str, names: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the columns of position and rotation, none if it has none, or raise for missing and unknown columns."""
     for name in names:
         if not math.isnan(finite_or_nan(name)):
             raise ValueError(f"{where}: got the number {name}, expected the names of the columns, such as t,x,y,z")
         if names.count(name) > 1:
             raise ValueError(f"{where}, column {name}: got it twice, expected each column once")
-    if missing := [name for name in PLACE if name not in names]:
+    place = RELATIVE if set(RELATIVE) & set(names) and not set(PLACE) & set(names) else PLACE
+    needed = ("t", *place)
+    if missing := [name for name in needed if name not in names]:
         got = cleaned(", ".join(names))
-        raise ValueError(f"{where}: got columns {got}, no {', '.join(missing)}; expected t, x, y, z")
-    others = [name for name in names if name not in PLACE]
+        raise ValueError(f"{where}: got columns {got}, no {', '.join(missing)}; expected {', '.join(needed)}")
+    others = [name for name in names if name not in needed]
     for columns in ((), *ROTATIONS):
         if set(others) == set(columns):
-            return columns
+            return place, columns
     for name in others:
+        if name in RELATIVE:
+            raise ValueError(f"{where}, column {name}: got it beside x y z, expected x y z or x_rel y_rel z_rel")
         if not any(name in columns for columns in ROTATIONS):
-            raise ValueError(f"{where}, column {shown(name)}: not known, expected t x y z and {ONE_OF}")
+            raise ValueError(f"{where}, column {shown(name)}: not known, expected t {' '.join(place)} and {ONE_OF}")
     raise ValueError(f"{where}: got {cleaned(' '.join(others))} as rotation, expected {ONE_OF}")

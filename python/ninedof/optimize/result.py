@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
+from ninedof.design.design_point import infinite_if_singular
 from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.pose import rule_words
 from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.optimize.changes import changed_variables
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.tables import candidates_table
 from ninedof.optimize.words import agreement_sentence, price_words, reached_words
@@ -265,6 +268,70 @@ class Result:
         """Return the engineering sheet of the best candidate: `ninedof.sheet` with its arguments."""
         return sheet(self, poses, **options)
 
+    def with_changes(self, **changes: float | str) -> Result:
+        """Return what the result would be with other values of the variables of its best design.
+
+        Nothing is optimized, and limits and bounds of variables may be passed; `compare` shows which limits. A free
+        characteristic length and free offsets of O keep their values.
+
+        Parameters
+        ----------
+        **changes
+            A variable of the family, or "characteristic_length" if that is free, to its new value or to a change of it:
+            a2=900.0, a2="+10%", theta_z_deg=30.0.
+
+        Returns
+        -------
+        Result
+            One candidate, status "stopped". Of a region study it is not yet looked at over the region, which
+            `compare` and `sheet` do.
+
+        Raises
+        ------
+        ValueError
+            Without a design; for an unknown variable; if there is no such design, as with a negative side; if the
+            study places O anew over a region and compares leg lengths there.
+
+        """
+        best, region = self.best, self.region
+        if best is None:
+            raise ValueError(f"result: got one without a design, expected one to be changed: {self.reason}")
+        if region is not None and region.leg_ranges:
+            raise ValueError(
+                "changes: got a study that places O in a region and compares leg lengths there, expected another one: "
+                "optimize it with fixed variables"
+            )
+        values = changed_variables(self.study, best.variables, changes)
+        if region is not None:
+            poses = () if self._placing() is not None else region.poses  # where O is placed it is placed anew
+            region = RegionReport(poses, 0, 0, math.nan, region.objective_at, math.nan, "")
+        problem = (self.study if region is None else region.posed(self.study)).problem()
+        x = [values[name] for name in problem.names]
+        try:
+            point = problem.evaluate(x)
+            robot = _robot(problem, x)
+        except ValueError as error:  # plates without a size
+            raise ValueError(f"{', '.join(changes)}: {error}") from None
+        candidate = Candidate(
+            objective=infinite_if_singular(point["objective"]),
+            neutral_condition_number=infinite_if_singular(point["condition_number"]),
+            conditions=tuple(map(infinite_if_singular, point["conditions"])),
+            characteristic_length=point["characteristic_length"],
+            variables=dict(zip(problem.names, x, strict=True)),
+            active=(),
+            prices={},
+            optimality_residual=math.inf,
+            constraint_violation=max(0.0, *(-margin for _, margin, _ in point["margins"]), 0.0),
+            reached=0,
+            **robot,
+        )
+        if region is not None:
+            region = replace(region, objective=candidate.objective)
+        words = ", ".join(f"{name} = {change}" for name, change in changes.items())
+        return Result(
+            Status.STOPPED, f"changed, not optimized: {words}", (), (candidate,), 1, 0, 0.0, self.study, region=region
+        )
+
     def certify(self, **options: Any) -> MachineCertificate:
         """Prove the limits of the study at every pose of its region, and enclose the worst condition number there.
 
@@ -361,6 +428,21 @@ def candidate_of(problem: _core.Problem, end: _core.Candidate) -> Candidate:
 def _robot(problem: _core.Problem, x: Sequence[float]) -> dict[str, Any]:
     configurations = Configuration(*problem.configurations(x))
     return dict(zip(ROBOT, (problem.geometry(x), configurations[0], configurations), strict=True))
+
+
+def with_fixed_design(result: Result) -> Result:
+    """Return a result without a design with the one design of its study, if no variable is free, whatever it violates.
+
+    It is for showing the indices and margins of that design; the result itself has no best design.
+    """
+    study = result.study
+    if result.candidates or any(isinstance(ends, tuple) for ends in study.variables.values()):
+        return result
+    point = study.evaluate({})
+    own: dict[str, Any] = {f.name: getattr(point, f.name) for f in fields(Candidate) if hasattr(point, f.name)}
+    violation = max(0.0, -min(point.margins.values(), default=0.0))
+    search: dict[str, Any] = {"active": (), "prices": {}, "optimality_residual": math.nan, "reached": 0}
+    return replace(result, candidates=(Candidate(**own, **search, constraint_violation=violation),))
 
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:

@@ -18,7 +18,9 @@ if "matplotlib" not in _sys.modules and (_backend := _os.environ.pop("MPLBACKEND
     with _suppress(ValueError):
         _matplotlib.rcParams["backend"] = _backend
 
+from ninedof.plot.admissible import admissible
 from ninedof.plot.atlas import atlas
+from ninedof.plot.compare import compare
 from ninedof.plot.convergence import convergence
 from ninedof.plot.drawing import drawing
 from ninedof.plot.files import save
@@ -37,8 +39,10 @@ __all__ = [
     "DesignCurves",
     "Robot",
     "Section",
+    "admissible",
     "atlas",
     "certified_workspace",
+    "compare",
     "condition_curves",
     "convergence",
     "drawing",

@@ -53,15 +53,12 @@ def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[P
     if path_argument("stem", stem).name != stem:
         raise ValueError(f"stem: got {shown(stem)}, expected a file name without folder")
     folder.mkdir(parents=True, exist_ok=True)
-    paths = []
-    with style.settings():
-        _show_what_acts(figure)
-        if (engine := figure.get_layout_engine()) is not None:
-            engine.execute(figure)  # once for all files
-            figure.set_layout_engine("none")
-        for kind, image in _images(figure):
-            paths.append(write_whole(folder / f"{stem}.{kind}", image))
-    return paths
+    return [write_whole(folder / f"{stem}.{kind}", image) for kind, image in _laid_out(figure)]
+
+
+def save_as(figure: Figure, path: Path) -> Path:
+    """Write a figure as one file, PNG, SVG or PDF by its suffix."""
+    return write_whole(path, dict(_laid_out(figure))[path.suffix.lower().lstrip(".")])
 
 
 def picture(image: Any) -> bytes:
@@ -76,6 +73,16 @@ def _show_what_acts(figure: Figure) -> None:
     for text in figure.findobj(Text):
         if (words := escaped(text.get_text())) != text.get_text():
             text.set_text(words)
+
+
+def _laid_out(figure: Figure) -> Iterator[tuple[str, bytes]]:
+    """Yield suffix and content of each file, in the settings of all figures."""
+    with style.settings():
+        _show_what_acts(figure)
+        if (engine := figure.get_layout_engine()) is not None:
+            engine.execute(figure)  # once for all files
+            figure.set_layout_engine("none")
+        yield from _images(figure)
 
 
 def _images(figure: Figure) -> Iterator[tuple[str, bytes]]:

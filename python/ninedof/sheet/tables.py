@@ -12,7 +12,7 @@ from ninedof.redundancy.rules import WORDS
 from ninedof.robot.idle import NEVER_CARRY, NEVER_MOVE, unloaded_names
 from ninedof.sheet.limit_rows import limit_amount
 from ninedof.sheet.pose_words import pose_words, vector_words
-from ninedof.support.margins import margin_words
+from ninedof.support.margins import is_violated, margin_words
 from ninedof.support.units import amount, per, times
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table, grouped
 from ninedof.tables.numbers import short, spread
@@ -77,15 +77,18 @@ def limits_table(sheet: Any) -> Table:
         Column(),
         *(Column(name, "", RIGHT) for name in ("allowed", "here", "margin")),
     ]
-    rows = [
+    violated = [is_violated(row.margin, row.unit, row.limit) for row in sheet.limits]
+    columns += [Column()] * any(violated)
+    rows: list[tuple[Any, ...]] = [
         (
             row.name,
             row.part,
             row.side,
             *(limit_amount(row, value, short, sheet.unit) for value in (row.limit, row.value)),
             margin_words(row.margin, row.unit),
+            *["violated" * mark] * any(violated),
         )
-        for row in sheet.limits
+        for row, mark in zip(sheet.limits, violated, strict=True)
     ]
     return Table(f"Limits of the study, {where}", columns, rows)
 

@@ -1,13 +1,20 @@
 """`ninedof certify`: what it prints and writes, and one line for anything wrong."""
 
+import io
 import json
 import shutil
 from importlib import import_module
+from pathlib import Path
 
 import pytest
+from rich.console import Console
 
 import ninedof as nd
 from ninedof.cli.app import main
+from ninedof.cli.commands.certify import certificate_table
+from ninedof.tables.terminal import terminal
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "examples" / "18_requirement.toml"
 
 
 @pytest.fixture(scope="module")
@@ -114,3 +121,14 @@ def test_a_report_takes_no_certificate_of_another_machine_nor_a_changed_one(run,
     (ours / "certify.json").write_text(text.replace('"which": "det N"', '"which": "det B"'))
     with pytest.raises(ValueError, match=r"certify\.json: got no file as ninedof wrote it"):
         nd.report(ours)
+
+
+def test_the_table_has_one_line_a_row_at_80_columns():
+    """The requirement of the documentation: lengths of six digits, ends of a proof, margins in words."""
+    machine = nd.optimize(nd.Study.load(EXAMPLE), starts=1)
+    certificate = machine.certify(time_limit=0.5)
+    console = Console(width=80, record=True, file=io.StringIO())
+    console.print(terminal(certificate_table(certificate), 80))
+    lines = [line for line in console.export_text().splitlines() if line.startswith("│")]
+    assert len(lines) == 9 + len(certificate.limits) + 1
+    assert lines[-1].startswith("│ condition number ")

@@ -141,6 +141,53 @@ def test_places_of_the_internal_point(run):
     assert best["internal_point"] == pytest.approx(placed, abs=1e-9)
 
 
+BEYOND = "beyond a singularity: det {} is {} at the neutral pose, {}; every way from the neutral pose passes det {} = 0"
+COMMANDS = [f"forces {{}} --load {LOAD}", "stiffness {} --leg-stiffness 10", "accuracy {} --leg-error 1"]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize(
+    ("pose", "name"),
+    [("--internal-point '0 0 -1'", "B"), ("--rotation-deg 0 0 150", "N"), ("--internal-point '0 0 5'", "C")],
+)
+def test_a_pose_beyond_a_singularity_is_named(run, monkeypatch, command, pose, name):
+    monkeypatch.setenv("COLUMNS", "200")
+    found = nd.load("design.toml")
+    sign = getattr(nd.singularity_margins(found.geometry, found.configuration), f"det_{name.lower()}")
+    ends = ("positive", "negative here") if sign > 0 else ("negative", "positive here")
+    for line in ("", "--position 0.1 0.1 3.4"):
+        status, out, _ = run(command.format("design.toml") + " " + line)
+        assert (status, "beyond" in out) == (0, False)
+    status, out, _ = run(f"{command.format('design.toml')} {pose}")
+    assert status == 0
+    assert BEYOND.format(name, *ends, name) in out
+    assert out.count("beyond") == 1
+
+
+def test_no_side_where_the_neutral_pose_is_singular(run, folder):
+    (folder / "flat.toml").write_text(GENERAL.replace("zs = 1.6", "zs = 0.0").replace("-2.0, 0.1]]", "-2.0, 0.0]]"))
+    for z in (-1, 1):
+        assert "beyond" not in run(f"forces flat.toml --load {LOAD} --internal-point '0 0 {z}'")[1]
+
+
+def test_poses_of_a_study_beyond_a_singularity_are_named(run, folder, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    shifts = [
+        nd.Pose(position=(0.1, 0, 0)),
+        nd.Pose(internal_point=(0, 0, -1.0), unit="zp"),
+        nd.Pose(rotation=(0, 0.1, 0)),
+    ]
+    study = nd.Study(
+        family="symmetric", constraints={"radius_ratio": (None, 2.0)}, objective={"poses": shifts}, starts=1
+    )
+    nd.save(nd.optimize(study), folder / "crossing")
+    for line in ("evaluate crossing", f"forces crossing --load {LOAD} --all-poses"):
+        status, out, _ = run(line)
+        assert status == 0
+        assert "at 1 of 4 poses, the first 2; every way from the neutral pose passes det B = 0" in out
+    assert "beyond" not in run("evaluate run")[1] + run("evaluate crossing --json")[1]
+
+
 def test_all_poses_of_a_study(run):
     result = nd.load("run")
     stack = result.configurations
@@ -263,3 +310,48 @@ def test_a_sweep_of_a_region_study_says_that_it_is_not_over_the_region(run, tmp_
             status, out, _ = run(f"sweep {tmp_path / name} {options}")
             assert status == 0
             assert (f"{where}, not over the region of the study" in " ".join(out.split())) is said
+
+
+FIXED = """
+unit = "mm"
+[design]
+family = "hexagonal"
+characteristic_length = 150.0
+[variables]
+a1 = 0.0
+a2 = 2850.0
+b1 = 1290.0
+b2 = 0.0
+zp = 1480.0
+zs = 1320.0
+[constraints]
+radius_ratio = { max = 1.2 }
+leg_length = { min = 250, max = 5000 }
+"""
+
+
+def test_a_fixed_design_that_violates_a_limit_shows_its_index_and_all_margins(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    (tmp_path / "fixed.toml").write_text(FIXED)
+    status, optimized, _ = run(f"optimize {tmp_path}/fixed.toml --out {tmp_path}/run --no-figures")
+    assert status == 3
+    status, evaluated, _ = run(f"evaluate {tmp_path}/run")
+    assert status == 0
+    point = nd.Study.load(tmp_path / "fixed.toml").evaluate({})
+    assert f"has condition number {point.condition_number:.6f}" in optimized
+    assert f"{point.condition_number:.6f}" in evaluated
+    assert nd.load(tmp_path / "run").best is None
+    for text in (optimized, evaluated):
+        assert "infeasible: " in text
+        rows = [line for line in text.splitlines() if line.startswith(("│ radius_ratio", "│ leg_length"))]
+        assert [("violated" in row) for row in rows] == [True, False, False]
+        assert f"{100.0 * point.margins['radius_ratio']:.2f} %" in rows[0]
+
+
+def test_the_table_of_indices_names_determinants_and_fits_80_columns(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    sides = "--a1 0 --a2 2850 --b1 1290 --b2 0 --zp 1480 --zs 1320"
+    lines = run(f"evaluate {sides} --lc 150")[1].splitlines()
+    assert any(line.startswith("│ singularity margins: det N, B, C ") for line in lines)
+    rows = [line.split("│") for line in lines if line.startswith("│")]
+    assert all(value.strip() for _, _, value, _ in rows)

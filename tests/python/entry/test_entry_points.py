@@ -55,7 +55,7 @@ RESULTS = {
         "Ellipsoid",
     ),
     *("ErrorBounds", "Followed", "Front", "InternalPoint", "InternalPointMap", "InverseDynamics"),
-    *("LegForces", "LimitBreak", "LimitProof", "Payload", "Failure", "RegionMap"),
+    *("LegForces", "LimitBreak", "LimitProof", "Payload", "Comparison", "Failure", "AdmissibleSet", "RegionMap"),
     *("LowerBound", "MachineCertificate", "MapAudit", "NearestSingularity", "OptimumProof", "PathLimits", "Result"),
     *("Sheet", "Singularity", "SingularityDistance", "SingularityMargins", "SweepResult", "Trace", "Tracked"),
     *("VelocityMatrices", "WorkspaceCells", "WorkspaceMap", "WorkspaceSlice"),
@@ -132,7 +132,7 @@ RETURNING = (
         "best_internal_map",
     ),
     *("singularity", "singularity_margins", "distance_to_singularity", "nearest_singularity"),
-    *("follow", "path_limits", "failure", "region_map", "sheet", "largest_payload", "sweep", "trace"),
+    *("compare", "follow", "path_limits", "failure", "region_map", "sheet", "largest_payload", "sweep", "trace"),
     *("Study.evaluate", "check"),
     *("applicable_bounds", "WorkspaceMap.slice"),
 )
@@ -158,6 +158,7 @@ def read(thing, seen):
 def test_every_property_of_every_result_can_be_read():
     seen = {}
     things = [it.result(), it.region_result(), it.certificate(), it.proof(), it.front(), it.workspace(), it.certified()]
+    things.append(it.admissible_set())
     things += [it.design(), nd.follow(it.g(), it.trajectory(), it.c(), limits=(np.zeros(9), np.full(9, 2.0)))]
     for thing in (*things, *(ROWS[name].call(**ROWS[name].arguments()) for name in RETURNING)):
         read(thing, seen)

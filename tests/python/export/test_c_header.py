@@ -21,11 +21,11 @@ LENGTHS = r"""
 #include "robot.h"
 
 int main(void) {
-  ninedof_pose pose = ninedof_neutral;
+  ninedof_robot_pose pose = ninedof_robot_neutral;
   double lengths[9];
   do {
     int k;
-    ninedof_leg_lengths(&pose, lengths);
+    ninedof_robot_leg_lengths(&pose, lengths);
     for (k = 0; k < 9; ++k) printf("%.17g ", lengths[k]);
     printf("\n");
   } while (scanf("%lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", &pose.p[0], &pose.p[1], &pose.p[2],
@@ -41,23 +41,44 @@ RANGES = r"""
 int main(void) {
   double lengths[9];
   int k;
-  for (k = 0; k < 9; ++k) lengths[k] = ninedof_neutral_lengths[k];
-  printf("%s %s %d", NINEDOF_NAME, NINEDOF_UNIT, ninedof_first_out_of_range(lengths));
+  for (k = 0; k < 9; ++k) lengths[k] = ninedof_robot_neutral_lengths[k];
+  printf("%s %s %d", ninedof_robot_name, ninedof_robot_unit, ninedof_robot_first_out_of_range(lengths));
   lengths[4] = 9.5;
-  printf(" %d", ninedof_first_out_of_range(lengths));
+  printf(" %d", ninedof_robot_first_out_of_range(lengths));
   lengths[1] = 0.0 / (lengths[0] - lengths[0]);
-  printf(" %d\n", ninedof_first_out_of_range(lengths));
+  printf(" %d\n", ninedof_robot_first_out_of_range(lengths));
   return 0;
 }
 """
 
 
+TWO = r"""
+#include <stdio.h>
+#include "arm-1.h"
+#include "other.h"
+#include "arm-1.h"
+
+int main(void) {
+  double first[9], second[9];
+  ninedof_arm_1_leg_lengths(&ninedof_arm_1_neutral, first);
+  ninedof_other_leg_lengths(&ninedof_other_neutral, second);
+  printf("%s %.17g %s %.17g\n", ninedof_arm_1_name, first[0], ninedof_other_name, second[0]);
+  return 0;
+}
+"""
+
+
+def compiled(folder, program):
+    """Compile a program of the folder to `main`."""
+    (folder / "main.c").write_text(program)
+    command = [COMPILER, *STRICT, "main.c", "-o", "main", "-lm"]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+
+
 def run(folder, design, program, source=""):
     """Compile a program that includes the header of a design; return what it prints."""
     (folder / "robot.h").write_text(text_of(c_header, design))
-    (folder / "main.c").write_text(program)
-    command = [COMPILER, *STRICT, "main.c", "-o", "main", "-lm"]
-    built = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    built = compiled(folder, program)
     assert built.returncode == 0, built.stderr
     return subprocess.run(folder / "main", input=source, capture_output=True, text=True, check=True).stdout
 
@@ -83,9 +104,31 @@ def test_the_range_of_the_legs(tmp_path):
     assert run(tmp_path, limited(), RANGES) == "robot mm 0 5 2\n"
 
 
+@needs_compiler
+def test_headers_of_two_machines_in_one_program(tmp_path):
+    designs = {"arm-1": PAPER, "other": general(2)}
+    for name, design in designs.items():
+        (tmp_path / f"{name}.h").write_text(text_of(c_header, design, name))
+    assert compiled(tmp_path, TWO).returncode == 0
+    words = subprocess.run(tmp_path / "main", capture_output=True, text=True, check=True).stdout.split()
+    assert words[::2] == list(designs)
+    expected = [nd.leg_lengths(design.geometry, design.configuration)[0] for design in designs.values()]
+    np.testing.assert_allclose([float(x) for x in words[1::2]], expected, rtol=1e-15)
+
+
+@needs_compiler
+def test_two_machines_of_one_name_do_not_compile(tmp_path):
+    """With one guard for both the second would be left out, and the first machine's lengths taken for its own."""
+    for name, design in {"a.h": PAPER, "b.h": general(2)}.items():
+        (tmp_path / name).write_text(text_of(c_header, design))
+    built = compiled(tmp_path, '#include "a.h"\n#include "b.h"\nint main(void) { return 0; }\n')
+    assert built.returncode != 0
+    assert "ninedof_robot_base_external" in built.stderr
+
+
 def test_constants_read_back_to_the_same_bits():
     text = text_of(c_header, general(3))
-    rows = text.partition("ninedof_base_external[3][3] = {")[2].partition("};")[0]
+    rows = text.partition("ninedof_robot_base_external[3][3] = {")[2].partition("};")[0]
     numbers = [float(x) for x in rows.replace("{", " ").replace("}", " ").replace(",", " ").split()]
     assert numbers == general(3).geometry.base_external.ravel().tolist()
     assert "shortest" not in text

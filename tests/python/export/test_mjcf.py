@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import ninedof as nd
+from ninedof.export import mjcf
 
 mujoco = pytest.importorskip("mujoco")
 
@@ -68,6 +69,28 @@ def test_the_model_follows_a_path_of_leg_lengths(kind, tmp_path):
         settle(engine, data, nd.leg_lengths(design.geometry, target) * metre)
         assert max(errors(data, target, metre, np.ptp(design.geometry.base_external))) < 1e-8
         assert data.warning.number.sum() == 0
+
+
+@EVERY
+def test_a_path_is_followed_without_lag_if_the_rates_are_fed_forward(kind, tmp_path):
+    design, metre, size, engine, data = written(kind, tmp_path)
+    lag = float(-engine.actuator_biasprm[0, 2] / engine.actuator_gainprm[0, 0])
+    assert lag == pytest.approx(mjcf.LAG, rel=1e-5)
+    assert f"length + {mjcf.LAG} s * its rate" in (tmp_path / "robot.xml").read_text()
+    line = nd.Trajectory.line(design.configuration, (0.5 * size, 0.3 * size, 0.3 * size), duration=0.5)
+    motion = nd.follow(design, line)
+    assert line.time[1] == pytest.approx(engine.opt.timestep)
+    off = []
+    for lead in (0.0, lag):
+        mujoco.mj_resetDataKeyframe(engine, data, engine.key("neutral").id)
+        path = zip(motion.leg_lengths, motion.leg_rates, motion.configurations.position, strict=True)
+        off.append(0.0)
+        for lengths, rates, position in path:
+            data.ctrl = metre * (lengths + lead * rates)
+            mujoco.mj_step(engine, data)
+            off[-1] = max(off[-1], np.linalg.norm(data.body("platform").xpos / metre - position) / size)
+    assert off[0] > 0.02
+    assert off[1] < 0.05 * off[0]
 
 
 @pytest.mark.parametrize(("joints", "heights", "condition", "seconds"), SETTLING)

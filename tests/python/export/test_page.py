@@ -4,7 +4,9 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 from written_designs import HEXAGON
 
@@ -21,10 +23,16 @@ def section(name):
 def test_the_python_of_mjcf_runs_as_written(tmp_path, monkeypatch):
     pytest.importorskip("mujoco")
     monkeypatch.chdir(tmp_path)
-    (code,) = re.findall(r"```python\n(.*?)```", section("mjcf"), flags=re.DOTALL)
-    namespace: dict[str, object] = {}
-    exec(compile(code, "exports.md", "exec"), namespace)
+    settled, path = re.findall(r"```python\n(.*?)```", section("mjcf"), flags=re.DOTALL)
+    namespace: dict[str, Any] = {}
+    exec(compile(settled, "exports.md", "exec"), namespace)
     assert namespace["error"] < 1e-9
+    exec(compile(path, "exports.md", "exec"), namespace)
+    assert max(namespace["errors"]) == pytest.approx(0.07, abs=0.005)
+    exec(compile(path.replace(" + 0.015 * rates", ""), "exports.md", "exec"), namespace)
+    assert max(namespace["errors"]) == pytest.approx(2.3, abs=0.05)
+    fastest = np.linalg.norm(namespace["motion"].velocity[:, 3:6], axis=1).max()
+    assert fastest == pytest.approx(155, abs=1)
 
 
 @pytest.mark.parametrize("name", formats())

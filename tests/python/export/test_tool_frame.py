@@ -76,11 +76,12 @@ def test_urdf_and_sdf_name_the_frame(files):
 @needs_compiler
 def test_the_c_header_takes_poses_of_the_tool(designs, files, tmp_path):
     header, home = files("c"), designs[0].configuration
+    name = f"ninedof_{header.stem.replace('-', '_')}"
     assert "The platform frame is that of the tool" in header.read_text()
     (tmp_path / "main.c").write_text(
         f'#include <stdio.h>\n#include "{header}"\nint main(void) {{ double x[9]; int k;\n'
-        'ninedof_leg_lengths(&ninedof_neutral, x); for (k = 0; k < 9; ++k) printf("%.17g ", x[k]);\n'
-        'printf("%.17g", ninedof_neutral.p[2]); return 0; }\n'
+        f'{name}_leg_lengths(&{name}_neutral, x); for (k = 0; k < 9; ++k) printf("%.17g ", x[k]);\n'
+        f'printf("%.17g", {name}_neutral.p[2]); return 0; }}\n'
     )
     subprocess.run([COMPILER, "-o", tmp_path / "main", tmp_path / "main.c", "-lm"], check=True)
     *lengths, height = map(float, subprocess.check_output([tmp_path / "main"], text=True).split())

@@ -47,6 +47,20 @@ def test_columns_in_any_order_comments_and_no_rotation(tmp_path):
     assert result.rotation[0, 1, 0] == pytest.approx(math.sin(0.3))
 
 
+@pytest.mark.parametrize("end", ["", " (mm)"])
+def test_positions_from_that_of_home(tmp_path, end):
+    home = nd.Configuration([1.0, -2.0, 4.0], HOME.rotation, [0.0, 0.0, 2.0])
+    turns = np.degrees(TURNS.as_rotvec())  # rotations stay in the base frame
+    names = ["t", *(name + end for name in ("x_rel", "y_rel", "z_rel")), "rx_deg", "ry_deg", "rz_deg"]
+    path = written(tmp_path / "path.csv", names, [TIMES, PLACES, turns])
+    result = nd.Trajectory.load(path, home, "mm")
+    assert result.position == pytest.approx(PLACES + home.position, abs=1e-15)
+    assert result.rotation == pytest.approx(TURNS.as_matrix(), abs=1e-14)
+    if end:
+        with pytest.raises(ValueError, match="column x_rel: got mm, expected m as in the design"):
+            nd.Trajectory.load(path, home, "m")
+
+
 GOOD = "t,x,y,z\n0,0,0,4\n1,0,0,4\n2,0,0,4\n"
 
 
@@ -65,6 +79,25 @@ GOOD = "t,x,y,z\n0,0,0,4\n1,0,0,4\n2,0,0,4\n"
         (GOOD.replace("t,x,y,z", "t,x,y,z,x"), "path.csv: line 1, column x: got it twice"),
         (GOOD.replace("t,x,y,z", "t,x,y,z,rol"), "path.csv: line 1, column 'rol': not known"),
         (GOOD.replace("t,x,y,z", "t,x,y,z,yaw_deg,pitch"), "path.csv: line 1: got yaw_deg pitch as rotation"),
+        (GOOD.replace("t,x,y,z", "t,x,y_rel,z"), "line 1: got columns t, x, y_rel, z, no y; expected t, x, y, z"),
+        (
+            GOOD.replace("t,x,y,z", "t,x,y,z,z_rel"),
+            "line 1, column z_rel: got it beside x y z, expected x y z or x_rel",
+        ),
+        (GOOD.replace("t,x,y,z", "t,x_rel,y_rel,z_re"), "no z_rel; expected t, x_rel, y_rel, z_rel"),
+        (
+            "# from a spreadsheet\n" + GOOD.replace(",", ";"),
+            "line 2: got columns separated by semicolons, expected commas",
+        ),
+        (GOOD.replace(",", "\t"), "path.csv: line 1: got columns separated by tabs, expected commas between columns"),
+        (
+            "t,x,y,z,rx,ry,rz\n0,0,0,4,0,6.28319,0\n1,0,0,4,0,0,-6.4\n2,0,0,4,0,0,45\n",
+            "line 3, column rz: got -6.4, expected radians, at most a full turn; degrees are in columns rx_deg ry_deg",
+        ),
+        (
+            "t,x,y,z,yaw,pitch,roll\n0,0,0,4,0,0,30\n1,0,0,4,0,0,0\n2,0,0,4,0,0,0\n",
+            "line 2, column roll: got 30, expected radians, at most a full turn; degrees are in columns yaw_deg",
+        ),
         (
             "t,x,y,z,qw,qx,qy,qz\n0,0,0,4,1,0,0,0\n1,0,0,4,2,0,0,0\n2,0,0,4,1,0,0,0\n",
             "path.csv: line 3, column qw: got a quaternion of length 2, expected 1",

@@ -138,8 +138,11 @@ def test_every_place_has_the_same_text(seed):
     found = nd.sheet(point)
     object.__setattr__(found, "limits", rows)
     (shown,) = limits_table(found).texts()
-    assert [row[-1] for row in shown] == every
-    assert re.findall(r"((?:over |below )?-?[\d.]+(?: %)?)$", plain(limits_table(found)), re.MULTILINE) == every
+    assert [row[5] for row in shown] == every
+    assert (
+        re.findall(r"((?:over |below )?-?[\d.]+(?: %)?)(?: +violated)?$", plain(limits_table(found)), re.MULTILINE)
+        == every
+    )
     latex = [
         word.replace(r"\,\%", " %")
         for word in re.findall(r"\$((?:over |below )?-?[\d.]+(?:\\,\\%)?)\$ *\\\\", latex_limits(rows, ""))

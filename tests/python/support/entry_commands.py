@@ -9,7 +9,16 @@ LINES = {
         "{study} --against radius_ratio --value 1.9 --starts 1 --threads 1 --out {out} --no-report",
         "{study} --against radius_ratio --points 2 --starts 1 --out {out} --no-report",
     ],
-    "evaluate": ["{design} --lc 1.0", "--a1 0 --a2 5 --b1 3 --b2 0 --zp 4 --zs 2 --theta-z-deg 0"],
+    "evaluate": [
+        "{design} --lc 1.0",
+        "--a1 0 --a2 5 --b1 3 --b2 0 --zp 4 --zs 2 --theta-z-deg 0",
+        "{run} --set a2=5 --plot x.png",
+    ],
+    "admissible": [
+        "{study} --vary a2=4:8 --vary b1=1:5 --set zp=4 --set zs=2 --set theta_z_deg=0 --condition 9 "
+        "--time 1 --resolution 0.2 --threads 1 --around --out {out}"
+    ],
+    "compare": ["{run} {run} --plot x.png"],
     "report": ["{run} --out {page}"],
     "sheet": [
         "{design} --speed 1 --turn-deg 1 --internal least --load 0,0,0,0,0,1 --mass 1 --centre 0,0,0 --gravity 0,0,-9 "
@@ -66,7 +75,20 @@ LINES = {
         "{design} --spiral 0.1,0.1 --duration 1 --points 9 --out {out} --no-report",
     ],
 }
-DEAR = {"optimize", "pareto", "sweep", "workspace", "certify", "paper", "report", "path", "check", "atlas", "view"}
+DEAR = {
+    "admissible",
+    "optimize",
+    "pareto",
+    "sweep",
+    "workspace",
+    "certify",
+    "paper",
+    "report",
+    "path",
+    "check",
+    "atlas",
+    "view",
+}
 NOT_TRIED = {"--scheduler"}  # waits for an address: tests of the cluster have it
 
 BAD = {

@@ -371,6 +371,25 @@ row("failure", few=3, huge=("samples",))(
 )
 for name in ("summary", "to_dict"):
     row(f"Failure.{name}", lambda name=name: getattr(nd.failure(it.design(), it.stack()), name)())(dict)
+row("admissible", few=3, words={"vary": ("vary",)})(
+    lambda: {
+        "of": it.study(),
+        "vary": {"a2": (4.0, 8.0), "b1": (2.0, 4.0)},
+        "at": {"zp": 4.0, "zs": 2.4, "theta_z": 0.0},
+        "condition_number": 9.0,
+        "time_limit": 5.0,
+        "resolution": 0.2,
+        "threads": 1,
+        "resume": None,
+        "progress": None,
+    }
+)
+row("AdmissibleSet.state_of", lambda **a: it.admissible_set().state_of(**a))(lambda: {"designs": [[5.0, 3.0]]})
+row("AdmissibleSet.around", lambda **a: it.admissible_set().around(**a), few=3)(
+    lambda: {"design": {"a2": 5.0, "b1": 3.0}, "proportions": {"a2": 2.0, "b1": 1.0}}
+)
+row("AdmissibleSet.sentences", lambda: it.admissible_set().sentences())(dict)
+row("AdmissibleSet.for_core", lambda: it.admissible_set().for_core())(dict)
 row("sweep", few=20, dear=("out",), huge=("over",), words={"over": ("x_p",)})(
     lambda: {
         "geometry": it.g(),
@@ -488,3 +507,7 @@ row("WorkspaceMap.slice", lambda **a: it.workspace().slice(**a), words={"axis": 
 row("WorkspaceMap.surface", lambda **a: it.workspace().surface(**a))(lambda: {"most": 1000})
 row("WorkspaceMap.to_dict", lambda: it.workspace().to_dict())(dict)
 row("spread_rotations", huge=("count",))(lambda: {"count": 3, "angle": 1.0})
+row("compare", lambda **a: nd.compare(it.result(), it.result(), **a))(lambda: {"names": ["one", "other"]})
+row("Comparison.parts", lambda: nd.compare(it.result(), it.result()).parts())(dict)
+row("Comparison.to_dict", lambda: nd.compare(it.result(), it.result()).to_dict())(dict)
+row("Result.with_changes", lambda **a: it.result().with_changes(**a))(lambda: {"a2": 5.0})

@@ -83,6 +83,17 @@ def followed():
 
 
 @functools.cache
+def admissible_set():
+    return nd.admissible(
+        study(),
+        {"a2": (4.0, 8.0), "b1": (2.0, 4.0)},
+        at={"zp": 4.0, "zs": 2.4, "theta_z": 0.0},
+        condition_number=9.0,
+        resolution=0.2,
+    )
+
+
+@functools.cache
 def swept():
     return nd.sweep(g(), c(), {"x_p": (-1.0, 1.0, 5)})
 

@@ -159,6 +159,7 @@ FIGURES = {
     "mechanism": lambda: plot.mechanisms([plot.Robot("optimum", APART, HOME, 3.9, "a note", [EDGES])], "mm"),
     "mechanisms": lambda: plot.mechanisms([plot.Robot("a", G, HOME, 3.9), plot.Robot("b", APART, AWAY)], "l_c"),
     "a small platform": lambda: plot.mechanisms([plot.Robot("a", FLAT, nd.Configuration.neutral(16.0, 15.0))]),
+    "compare": lambda: plot.compare(nd.compare(nd.Design(G, HOME), nd.Design(APART, AWAY))),
     "drawing": lambda: plot.drawing(G, HOME, "mm"),
     "drawing, joints apart": lambda: plot.drawing(APART, AWAY, "m"),
     "condition": lambda: plot.condition_curves([curves(**COMPARED), curves()], "mm"),

@@ -14,13 +14,15 @@ namespace {
 /// t - above and K^2 M^T M - t for one number t that is linear in the box, the second as a matrix of nine rows: where
 /// both are positive definite, the condition number is at most K. Both are linear in the box up to an error, so that
 /// what holds at points holds in their hull.
+template <class T>
 class LinearTest {
  public:
-  LinearTest(const SplitGram& g, double condition)
+  static constexpr std::size_t size = T::size;
+  LinearTest(const SplitGramOf<T>& g, double condition)
       : g_(g), condition_(condition * (1.0 - 0x1p-51)), squared_(condition_ * condition_ * (1.0 - 0x1p-51)) {
     if (!g.known) return;
     double largest = 0.0;
-    const auto seen = [&](const PoseForm& x) {
+    const auto seen = [&](const T& x) {
       largest = std::max(largest, std::abs(x.c) + spread(x));
       return x.r;
     };
@@ -52,15 +54,15 @@ class LinearTest {
     const double share = 1.0 / (1.0 + condition);
     t_ = (1.0 - share) * most + share * squared_ * least;
     double slopes = 0.0;
-    for (std::size_t k = 0; k < PoseForm::size; ++k) {
+    for (std::size_t k = 0; k < size; ++k) {
       Mat6 part;
       for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t j = 0; j < 6; ++j)
           part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = g.above[entry(i, j)].a[k];
       bool moves = !part.isZero(0.0);
       for (std::size_t b = 0; b < 3; ++b) {
-        for (const PoseForm& x : g.across[b]) moves = moves || x.a[k] != 0.0;
-        for (const PoseForm& x : g.sum) moves = moves || x.a[k] != 0.0;
+        for (const T& x : g.across[b]) moves = moves || x.a[k] != 0.0;
+        for (const T& x : g.sum) moves = moves || x.a[k] != 0.0;
       }
       if (!moves) continue;
       slope_[count_] = (1.0 - share) * high_.dot(part * high_) + share * squared_ * low_.dot(part * low_);
@@ -79,8 +81,8 @@ class LinearTest {
   const Vec6& high() const { return high_; }
   const Vec6& low() const { return low_; }
 
-  bool holds_at(const std::array<double, PoseForm::size>& at) const {
-    const auto value = [&](const PoseForm& f) {
+  bool holds_at(const std::array<double, size>& at) const {
+    const auto value = [&](const T& f) {
       double out = f.c;
       for (std::size_t k = 0; k < count_; ++k) out += at[active_[k]] * f.a[active_[k]];
       return out;
@@ -106,9 +108,37 @@ class LinearTest {
     return positive_definite<9>(below, room_below_);
   }
 
+  /// At every corner of the coordinates that move and are not among the `cuts`, those from `first_cut` on being `cut`.
+  bool holds_for(const Slope<ConditionSplitOf<T>::cuts>& cut) const {
+    constexpr std::size_t first = ConditionSplitOf<T>::first_cut;
+    std::array<double, size> at{};
+    std::copy(cut.begin(), cut.end(), at.begin() + first);
+    std::array<std::size_t, size> others{};
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < count_; ++k)
+      if (active_[k] < first || active_[k] >= first + cut.size()) others[n++] = active_[k];
+    for (std::size_t corner = 0; corner < (std::size_t{1} << n); ++corner) {
+      for (std::size_t k = 0; k < n; ++k) at[others[k]] = (corner >> k) % 2 == 0 ? -1.0 : 1.0;
+      if (!holds_at(at)) return false;
+    }
+    return true;
+  }
+  bool holds_for(const std::vector<Slope<ConditionSplitOf<T>::cuts>>& all) const {
+    // Points that differ by a coordinate that moves nothing are one.
+    const auto repeats = [&](const auto& cut) {
+      for (std::size_t k = 0; k < cut.size(); ++k)
+        if (cut[k] > 0.0 && !moves(ConditionSplitOf<T>::first_cut + k)) return true;
+      return false;
+    };
+    return std::ranges::all_of(all, [&](const auto& cut) { return repeats(cut) || holds_for(cut); });
+  }
+  bool moves(std::size_t coordinate) const {
+    return std::find(active_.begin(), active_.begin() + static_cast<std::ptrdiff_t>(count_), coordinate) !=
+           active_.begin() + static_cast<std::ptrdiff_t>(count_);
+  }
   bool holds_everywhere() const {
     for (std::size_t corner = 0; corner < (std::size_t{1} << count_); ++corner) {
-      std::array<double, PoseForm::size> at{};
+      std::array<double, size> at{};
       for (std::size_t k = 0; k < count_; ++k) at[active_[k]] = (corner >> k) % 2 == 0 ? -1.0 : 1.0;
       if (!holds_at(at)) return false;
     }
@@ -116,22 +146,23 @@ class LinearTest {
   }
 
  private:
-  const SplitGram& g_;
+  const SplitGramOf<T>& g_;
   double condition_, squared_, t_ = 0.0;
   bool known_ = false, holds_in_the_middle_ = false;
   Vec6 high_, low_;
-  std::array<std::size_t, PoseForm::size> active_{};
-  std::array<double, PoseForm::size> slope_{};
+  std::array<std::size_t, size> active_{};
+  std::array<double, size> slope_{};
   std::size_t count_ = 0;
   std::array<double, 6> room_above_{};
   std::array<double, 9> room_below_{};
 };
 
 /// v^T G v.
-PoseForm quadratic(const Symmetric6& g, const Vec6& v) {
-  PoseForm out;
+template <class T>
+T quadratic(const Symmetric6Of<T>& g, const Vec6& v) {
+  T out;
   for (std::size_t i = 0; i < 6; ++i) {
-    PoseForm row;
+    T row;
     for (std::size_t j = 0; j < 6; ++j) row = row + v[static_cast<Eigen::Index>(j)] * g[entry(i, j)];
     out = out + v[static_cast<Eigen::Index>(i)] * row;
   }
@@ -144,14 +175,15 @@ Interval squared_length(const Vec6& v) {
 }
 
 /// A number below the least eigenvalue of the matrix in all of the box; 0 where none is found.
-double least_eigenvalue(const Symmetric3& s) {
+template <class T>
+double least_eigenvalue(const Symmetric3Of<T>& s) {
   Mat3 middle;
   std::array<double, packed(3)> entries;
   std::array<double, 3> room{};
   double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
-      const PoseForm& x = s[entry(i, j)];
+      const T& x = s[entry(i, j)];
       middle(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = x.c;
       entries[entry(i, j)] = x.c;
       room[i] += radius(x);
@@ -167,57 +199,84 @@ double least_eigenvalue(const Symmetric3& s) {
 }
 
 /// A number below v^T M^T M v: what the minimum over w takes from `above`, or the part of the external legs.
-PoseForm quadratic_from_below(const SplitGram& g, const Vec6& v) {
+template <class T>
+T quadratic_from_below(const SplitGramOf<T>& g, const Vec6& v) {
   const double least = least_eigenvalue(g.sum);
   if (!(least > 0.0)) return quadratic(g.external, v);
-  PoseForm taken;
-  for (const std::array<PoseForm, 6>& row : g.across) {
-    PoseForm x;
+  T taken;
+  for (const std::array<T, 6>& row : g.across) {
+    T x;
     for (std::size_t i = 0; i < 6; ++i) x = x + v[static_cast<Eigen::Index>(i)] * row[i];
     taken = taken + x * x;
   }
-  return quadratic(g.above, v) - PoseForm::of(Interval(1.0) / Interval(least)) * taken;
+  return quadratic(g.above, v) - T::of(Interval(1.0) / Interval(least)) * taken;
 }
 
 }  // namespace
 
-ConditionSplit split_by_condition(const SplitGram& g, double condition) {
+namespace {
+
+/// Above K where it is positive.
+template <class T>
+T excess_of(const SplitGramOf<T>& g, double condition, const Vec6& high, const Vec6& low) {
+  const Interval squared = square(Interval(condition));
+  return T::of(squared_length(low)) * quadratic_from_below(g, high) -
+         T::of(squared * squared_length(high)) * quadratic(g.above, low);
+}
+
+}  // namespace
+
+template <class T>
+T condition_excess(const SplitGramOf<T>& g, double condition) {
+  if (!g.known) return T::unknown();
+  const Mat6 middle = middle_of(g.above);
+  if (!middle.allFinite()) return T::unknown();
+  const RightSvd<6> eigen = jacobi_right_svd(middle);
+  return excess_of(g, condition, eigen.v.col(0), eigen.v.col(5));
+}
+
+template <class T>
+ConditionSplitOf<T> split_by_condition(const SplitGramOf<T>& g, double condition) {
+  using Split = ConditionSplitOf<T>;
   constexpr double wider = 1.6;
   constexpr int tries = 9;
-  ConditionSplit out;
+  Split out;
   out.level = std::numeric_limits<double>::infinity();
-  out.excess = PoseForm::unknown();
-  const LinearTest test(g, condition);
+  out.excess = T::unknown();
+  const LinearTest<T> test(g, condition);
   if (!test.known()) return out;
-  const Interval squared = square(Interval(condition));
-  out.excess = PoseForm::of(squared_length(test.low())) * quadratic_from_below(g, test.high()) -
-               PoseForm::of(squared * squared_length(test.high())) * quadratic(g.above, test.low());
+  out.excess = excess_of(g, condition, test.high(), test.low());
   if (!std::isfinite(radius(out.excess))) return out;
-  for (std::size_t k = 0; k < 3; ++k) out.slope[k] = -out.excess.a[k];
+  for (std::size_t k = 0; k < Split::cuts; ++k) out.slope[k] = -out.excess.a[Split::first_cut + k];
+  double others = 0.0;  // how far the excess goes by coordinates that are not cut
+  for (std::size_t k = 0; k < T::size; ++k)
+    if (k < Split::first_cut || k >= Split::first_cut + Split::cuts) others += std::abs(out.excess.a[k]);
   const double most = reach(out.slope);
   if (!(most > 0.0)) {
     out.everywhere = test.holds_in_the_middle() && test.holds_everywhere();
     return out;
   }
-  if (-out.excess.c > most && test.holds_everywhere()) {
+  if (-out.excess.c > most + others && test.holds_everywhere()) {
     out.everywhere = true;
     return out;
   }
   // A plane behind that where the excess vanishes, moved away from it until the test holds at all points of its hull.
-  double step = 0.5 * out.excess.r + 1e-9 * most, level = out.excess.c + step;
+  double step = 0.5 * out.excess.r + 1e-9 * most, level = out.excess.c + others + step;
   if (level < -most) {
     step = 0.1 * most;
     level = step - most;
   }
   for (int n = 0; n < tries && level < most; ++n, step *= wider, level += step) {
-    const std::vector<Slope3> points = hull_above(out.slope, level);
-    const bool all =
-        std::ranges::all_of(points, [&](const Slope3& t) { return test.holds_at({t[0], t[1], t[2], 0.0, 0.0, 0.0}); });
-    if (!all) continue;
+    auto points = hull_above<Split::cuts>(out.slope, level);
+    if (!test.holds_for(points)) continue;
     if (!points.empty()) out.level = level;
     break;
   }
   return out;
 }
+
+template DesignForm condition_excess(const SplitGramOf<DesignForm>&, double);
+template ConditionSplitOf<PoseForm> split_by_condition(const SplitGram&, double);
+template ConditionSplitOf<DesignForm> split_by_condition(const SplitGramOf<DesignForm>&, double);
 
 }  // namespace ninedof::forms

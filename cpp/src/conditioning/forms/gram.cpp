@@ -49,8 +49,8 @@ Symmetric3 parallel(const Symmetric3& h, const Symmetric3& f) {
 
 }  // namespace
 
-template <class T>
-LegProducts<T> leg_products(const Geometry& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves) {
+template <class T, class Robot>
+LegProducts<T> leg_products(const Robot& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves) {
   const double inverse_lc = 1.0 / characteristic_length;
   const auto direction = [&](int k) {
     const Ends<T> e = ends_of(g, pose, k);
@@ -60,7 +60,7 @@ LegProducts<T> leg_products(const Geometry& g, double characteristic_length, con
   };
   LegProducts<T> out;
   for (int i = 0; i < 3; ++i) {
-    const Xyz<T> e = direction(i), u = turned(pose, g.platform_external()[static_cast<std::size_t>(i)]);
+    const Xyz<T> e = direction(i), u = turned(pose, joint_of(g, point_u + i));
     const Xyz<T> m = inverse_lc * cross(u, e);
     const std::array<const T*, 6> row{&m.x, &m.y, &m.z, &e.x, &e.y, &e.z};
     for (std::size_t j = 0; j < 6; ++j)
@@ -73,6 +73,7 @@ LegProducts<T> leg_products(const Geometry& g, double characteristic_length, con
 
 template LegProducts<PoseForm> leg_products(const Geometry&, double, const PoseOf<PoseForm>&, Moves&);
 template LegProducts<CurvedForm> leg_products(const Geometry&, double, const PoseOf<CurvedForm>&, Moves&);
+template LegProducts<DesignForm> leg_products(const JointsOf<DesignForm>&, double, const PoseOf<DesignForm>&, Moves&);
 
 Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
   const double inverse_lc = 1.0 / characteristic_length;

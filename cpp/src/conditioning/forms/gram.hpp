@@ -29,8 +29,8 @@ struct LegProducts {
   Symmetric6Of<T> external;
   Symmetric3Of<T> upper, lower;
 };
-template <class T>
-LegProducts<T> leg_products(const Geometry& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves);
+template <class T, class Robot>
+LegProducts<T> leg_products(const Robot& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves);
 
 /// M^T M = A^T A + K^T ((C^T C)^-1 + (B^T B)^-1)^-1 K, with K = [-y x / l_c, 1], y = s - p. The middle matrix is
 /// H - H (H + F)^-1 H with H = C^T C and F = B^T B: neither needs to be regular. `moves` is of the directions of the
@@ -60,21 +60,30 @@ struct SplitGramOf {
   bool known = false;
 };
 using SplitGram = SplitGramOf<PoseForm>;
-template <class T>
-SplitGramOf<T> split_gram(const Geometry& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves,
+template <class T, class Robot>
+SplitGramOf<T> split_gram(const Robot& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves,
                           int locked = -1);
 
 /// Whether the condition number is proved to be at most K in all of the box.
 bool bounded(const SplitGramOf<CurvedForm>& g, double condition);
 
-/// Where in a box the condition number is at most K, and where it is not; the box has three coordinates, the first.
-struct ConditionSplit {
+/// Where in a box the condition number is at most K, and where it is not: by `cuts` coordinates from `first_cut` on, the
+/// first three of a box of poses, which then are all that move, or those of the designs.
+template <class T>
+struct ConditionSplitOf {
+  static constexpr std::size_t first_cut = T::size == PoseForm::size ? 0 : PoseForm::size;
+  static constexpr std::size_t cuts = T::size == PoseForm::size ? 3 : T::size - PoseForm::size;
   bool everywhere = false;  ///< at most K in all of the box
-  Slope3 slope{};
+  Slope<cuts> slope{};
   double level = 0.0;  ///< at most K where slope . t >= level; infinite where that is nowhere known
-  PoseForm excess;         ///< above K where it is positive
+  T excess;            ///< above K where it is positive
 };
-ConditionSplit split_by_condition(const SplitGram& g, double condition);
+using ConditionSplit = ConditionSplitOf<PoseForm>;
+/// The excess alone.
+template <class T>
+T condition_excess(const SplitGramOf<T>& g, double condition);
+template <class T>
+ConditionSplitOf<T> split_by_condition(const SplitGramOf<T>& g, double condition);
 
 /// The directions of a vector: its change from the middle, with an error that falls with the square of the box, or
 /// with its third power.

@@ -134,8 +134,8 @@ Mat3 best_share(const Mat3& sum, const Mat3& other, const Freedom<T>& freedom) {
 
 }  // namespace
 
-template <class T>
-SplitGramOf<T> split_gram(const Geometry& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves,
+template <class T, class Robot>
+SplitGramOf<T> split_gram(const Robot& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves,
                           int locked) {
   const double inverse_lc = 1.0 / characteristic_length;
   const LegProducts<T> legs = leg_products(g, characteristic_length, pose, moves);
@@ -179,7 +179,9 @@ SplitGramOf<T> split_gram(const Geometry& g, double characteristic_length, const
 
 template Xyz<PoseForm> direction_of(const Xyz<PoseForm>&);
 template Xyz<CurvedForm> direction_of(const Xyz<CurvedForm>&);
+template Xyz<DesignForm> direction_of(const Xyz<DesignForm>&);
 template SplitGram split_gram(const Geometry&, double, const PoseOf<PoseForm>&, Moves&, int);
 template SplitGramOf<CurvedForm> split_gram(const Geometry&, double, const PoseOf<CurvedForm>&, Moves&, int);
+template SplitGramOf<DesignForm> split_gram(const JointsOf<DesignForm>&, double, const PoseOf<DesignForm>&, Moves&, int);
 
 }  // namespace ninedof::forms

@@ -76,7 +76,7 @@ class Sought {
     const LegPairForms legs = leg_pair_forms(look, item_);
     if (!(legs.middle.apart.squaredNorm() > 0.0)) return 0.0;
     double least = infinity;
-    for (const auto& direction : {fixed_direction, turning_direction}) {
+    for (const auto& direction : {fixed_direction<PoseForm>, turning_direction<PoseForm>}) {
       if (!(least == infinity || -least < limit_)) break;  // the second takes as long: only where it may decide
       const EndDistances ends = end_distances(legs, direction(legs));
       std::array<double, 4> most;

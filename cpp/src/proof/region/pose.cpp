@@ -67,21 +67,28 @@ PoseOf<T> Domain::pose(const Box& box) const {
     const Configuration& c = machine_.poses[static_cast<std::size_t>(-1 - box.piece)];
     return pose_of<T>(c);
   }
-  std::array<T, T::size> x;
-  for (std::size_t k = 0; k < T::size; ++k) x[k] = T::coordinate(box.low[k], box.high[k], k);
+  return moved(box, pose_of<T>(machine_.neutral), machine_.region.front().unit(machine_.neutral));
+}
+
+template <class T, class Unit>
+PoseOf<T> Domain::moved(const Box& box, const PoseOf<T>& neutral, const Unit& unit) const {
+  std::array<T, PoseForm::size> x;
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = T::coordinate(box.low[k], box.high[k], k);
   const Region& region = machine_.region.front();
-  const Configuration& neutral = machine_.neutral;
   Xyz<T> moved{x[0], x[1], x[2]};
   if (region.shape == Region::Shape::path) {
     const auto k = static_cast<std::size_t>(box.piece);
     const Xyz<T> from = constant<T>(region.corners[k]), to = constant<T>(region.corners[k + 1]);
     moved = from + x[0] * (to - from);
   }
-  if (region.in_zp) moved = region.unit(neutral) * moved;
-  PoseOf<T> out = pose_of<T>(neutral);
+  if (region.in_zp) moved = unit * moved;
+  PoseOf<T> out = neutral;
   out.p = out.p + moved;
-  if (!rule_.empty()) out.s = out.s + rule_.front().shift<T>({moved.x, moved.y, moved.z, x[3], x[4], x[5]});
-  else if (region.shifted) out.s = out.s + moved;
+  if (rule_.empty()) {
+    if (region.shifted) out.s = out.s + moved;
+  } else if constexpr (T::size == PoseForm::size) {  // a box of designs has no polynomial for O
+    out.s = out.s + rule_.front().shift<T>({moved.x, moved.y, moved.z, x[3], x[4], x[5]});
+  }
   if (region.yaw > 0.0) {
     const T c = cos(x[5]), s = sin(x[5]);
     for (Xyz<T>& v : out.q) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
@@ -95,6 +102,7 @@ PoseOf<T> Domain::pose(const Box& box) const {
 
 template PoseOf<PoseForm> Domain::pose(const Box&) const;
 template PoseOf<CurvedForm> Domain::pose(const Box&) const;
+template PoseOf<DesignForm> Domain::moved(const Box&, const PoseOf<DesignForm>&, const DesignForm&) const;
 
 MetAt Domain::met(const Box& point) const {
   MetAt out;

@@ -33,6 +33,9 @@ class Domain {
   const std::vector<Box>& roots() const { return roots_; }
   template <class T = PoseForm>
   PoseOf<T> pose(const Box& box) const;
+  /// A pose of the region from a neutral one; `unit` is that of positions: 1 or zp.
+  template <class T, class Unit>
+  PoseOf<T> moved(const Box& box, const PoseOf<T>& neutral, const Unit& unit) const;
   MetAt met(const Box& point) const;
   /// Whether no point of the box is a pose of the domain.
   bool outside(const Box& box) const;

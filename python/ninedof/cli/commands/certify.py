@@ -105,8 +105,8 @@ def certificate_table(certificate: MachineCertificate) -> Table:
     for leg, (low, high) in zip(LEGS, certificate.lengths, strict=True):
         rows.append((with_unit(leg, unit), "", f"{outward(low, False)} to {outward(high, True)}", "", ""))
     for one in certificate.limits:
-        word = "at most" if one.side == "max" else "at least"
-        limit = "above 0" if one.limit == 0.0 else f"{word} {one.shown(one.limit):.6g}"
+        word = "≤" if one.side == "max" else "≥"
+        limit = "> 0" if one.limit == 0.0 else f"{word} {one.shown(one.limit):.6g}"
         on_limit = abs(one.margin) <= certificate.tolerance * (one.limit if one.kind == "sign" else 1.0)
         bounded = math.isfinite(one.value[one.side == "max"])
         proved = f"{word} {one.worded(9 if on_limit else 6)}" if bounded else "nothing"
@@ -114,6 +114,6 @@ def certificate_table(certificate: MachineCertificate) -> Table:
         rows.append((with_unit(one.name.replace("_", " "), one.unit(unit)), limit, proved, margin, one.answer))
     high = certificate.condition[1]
     if not any(one.name == "condition_number" for one in certificate.limits):
-        proved = f"at most {outward(high, True)}" if math.isfinite(high) else "nothing"
+        proved = f"≤ {outward(high, True)}" if math.isfinite(high) else "nothing"
         rows.append(("condition number", "", proved, "", ""))
     return Table("", [*heads, Column()], rows)

@@ -11,6 +11,7 @@ import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, chosen_design, with_length
+from ninedof.cli.compared import compared, plot_argument
 from ninedof.cli.options import (
     DESIGN,
     BaseSide1,
@@ -21,16 +22,21 @@ from ninedof.cli.options import (
     Options,
     PlatformSide1,
     PlatformSide2,
+    Plot,
     TwistDeg,
 )
+from ninedof.cli.posed import beyond_words
 from ninedof.design.indices import computed
+from ninedof.optimize.result import Status
 from ninedof.records.design_file import indices
+from ninedof.sheet.comparison import compare
 from ninedof.sheet.sheet import sheet
 from ninedof.sheet.tables import limits_table, poses_table
-from ninedof.support.units import amount, unit_entry
+from ninedof.support.units import unit_entry
 from ninedof.tables import RIGHT, Column, Line, Table
 
 PLACE = 3
+DETERMINANTS = "singularity margins: det N, B, C"
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4435
@@ -38,6 +44,8 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof evaluate design.toml --lc optimal
 
   ninedof evaluate runs/20260101-120000    the best design of a run
+
+  ninedof evaluate runs/20260101-120000 --set a2=+10%    what if a2 were longer?
 
   ninedof evaluate runs/20260101-120000#7    the design of point 7 of a front"""
 
@@ -55,10 +63,19 @@ class EvaluateOptions(Options):
     zs: InternalHeight = None
     theta_z_deg: TwistDeg = None
     lc: Lc = None
+    changes: Annotated[
+        list[str] | None,
+        typer.Option("--set", help="What if? A variable of the run's study: a2=900 or a2=+10%. Repeatable."),
+    ] = None
+    plot: Plot = None
 
 
 def evaluate(options: EvaluateOptions) -> Answer:
     """Print the indices of one design and configuration; of a run also its study's poses and limits in short."""
+    if options.changes:
+        return _changed(options)
+    if options.plot is not None:
+        raise ValueError("--plot: got it without --set, expected both")
     sides = {name: getattr(options, name) for name in ("a1", "a2", "b1", "b2", "zp", "zs")}
     chosen = with_length(chosen_design(options.design, sides, options.theta_z_deg), options.lc)
     values = unit_entry(chosen.unit) | indices(chosen.design)
@@ -68,16 +85,51 @@ def evaluate(options: EvaluateOptions) -> Answer:
     if not 0.0 < chosen.configuration.internal_point[2] < chosen.duty.zp(chosen.configuration):
         parts.append("O is not between base and platform: studies require 0 < zs < zp.")
     if chosen.result is not None:
+        if chosen.result.status == Status.INFEASIBLE:
+            parts.append(f"{chosen.result.status}: {chosen.result.reason}")
         of_run = sheet(chosen.result, characteristic_length=chosen.characteristic_length)
+        parts += beyond_words(chosen.geometry, chosen.configuration, of_run.configurations)
         parts += [poses_table(of_run)] if len(of_run.configurations) > 1 else []
         parts += [limits_table(of_run)] if of_run.limits else []
         values |= {"sheet": of_run.to_dict()}
     return Answer(parts, values)
 
 
+def _changed(options: EvaluateOptions) -> Answer:
+    """Return the run beside its design with other values of some variables."""
+    plot_argument(options.plot)
+    given = [
+        name for name in ("a1", "a2", "b1", "b2", "zp", "zs", "theta_z_deg", "lc") if getattr(options, name) is not None
+    ]
+    if given:
+        raise ValueError(f"--set: got --{given[0].replace('_', '-')} beside it, expected a run alone")
+    result = None if options.design is None else chosen_design(options.design, {}, None).result
+    if result is None:
+        raise ValueError(f"--set: got {options.design or 'no design'}, expected a run, whose study has variables")
+    changes: dict[str, Any] = {}
+    for text in options.changes or ():
+        name, equals, value = text.partition("=")
+        if not equals or name.strip() in changes:
+            raise ValueError(f"--set: got {text!r}, expected NAME=VALUE or NAME=+10%, each name once")
+        changes[name.strip()] = value.strip() if value.strip().endswith("%") else _number(text, value)
+    return compared(compare(result, result.with_changes(**changes), names=("run", "changed")), options.plot)
+
+
+def _number(text: str, value: str) -> float:
+    try:
+        if value.strip().startswith("+"):
+            raise ValueError
+        return float(value)
+    except ValueError:
+        raise ValueError(f"--set: got {text!r}, expected NAME=VALUE without a plus, or NAME=+10%") from None
+
+
 def _table(values: dict[str, Any], chosen: Chosen) -> Table:
     rows: list[Any] = [
-        Line(index.words, ["  ".join(map(_digits, np.atleast_1d(values[name])))])
+        Line(
+            DETERMINANTS if name == "singularity_margins" else index.words,
+            ["  ".join(map(_digits, np.atleast_1d(values[name])))],
+        )
         for name, index in computed().items()
         if name in values and name not in ("singular_values", "leg_lengths")
     ]
@@ -89,8 +141,8 @@ def _table(values: dict[str, Any], chosen: Chosen) -> Table:
     rows.append(())
     for kind, at in values["characteristic_lengths"].items():
         if math.isfinite(at["length"]):
-            length = amount(_digits(at["length"]), chosen.unit)
-            rows.append(Line(f"at the {kind} length {length}", [f"k = {_digits(at['condition_number'])}"]))
+            words = f"{_digits(at['length'])}: k = {_digits(at['condition_number'])}"
+            rows.append(Line(f"at the {kind} length", [words], unit=chosen.unit))
     return Table("Indices", [Column(), Column("", "", RIGHT)], rows)
 
 

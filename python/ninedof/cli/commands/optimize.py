@@ -18,13 +18,15 @@ from ninedof.design.study import Study
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.check import check as examine
 from ninedof.optimize.optimize import optimize as solve
-from ninedof.optimize.result import Result, Status
+from ninedof.optimize.result import Result, Status, with_fixed_design
 from ninedof.optimize.tables import agreement_words, best_prices, candidates_table, proof_words
 from ninedof.paper.comparison import Comparison, compare, comparison_table, comparison_words
 from ninedof.proof.optimum import left_out_of
 from ninedof.records.figures import figures_of
 from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
+from ninedof.sheet.sheet import sheet
+from ninedof.sheet.tables import limits_table
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
 from ninedof.support.command import ended_by_time
@@ -128,6 +130,10 @@ def _comparison_parts(comparison: Comparison) -> Iterator[Any]:
 
 def _result_parts(result: Result) -> Iterator[Any]:
     yield bold(result.status, f": {result.reason}")
+    shown = with_fixed_design(result)
+    if shown is not result:
+        yield f"no variable is free; the design of the study has {result.words} {shown.objective:.6f}"
+        yield from [limits_table(sheet(shown))] if result.study.limits else []
     if result.candidates:
         yield candidates_table(result)
         *others, agreement = agreement_words(result)

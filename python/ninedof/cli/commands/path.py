@@ -49,8 +49,8 @@ class PathOptions(JobOptions):
     file: Annotated[
         Path | None,
         typer.Argument(
-            help="Poses (CSV): columns t x y z, and for the rotation qw qx qy qz, rx ry rz or yaw pitch roll, in "
-            "degrees as rx_deg, yaw_deg."
+            help="Poses (CSV): columns t x y z (or x_rel y_rel z_rel, from the neutral pose), and for the rotation "
+            "qw qx qy qz, rx ry rz or yaw pitch roll, in degrees as rx_deg, yaw_deg."
         ),
     ] = None
     circle: Annotated[

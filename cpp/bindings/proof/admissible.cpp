@@ -1,0 +1,132 @@
+#include "ninedof/proof/admissible.hpp"
+
+#include <pybind11/stl.h>
+
+#include "ninedof/proof/bounds.hpp"
+#include "support/interruptible.hpp"
+#include "support/module.hpp"
+#include "support/struct.hpp"
+
+namespace ninedof::python {
+namespace {
+
+/// The ends of pieces as arrays (n, number of variables).
+py::tuple ends_of_pieces(const DesignSet& found, py::ssize_t count) {
+  const auto n = static_cast<py::ssize_t>(found.pieces.size());
+  const std::vector<py::ssize_t> shape{n, count};
+  Array low(shape), high(shape);
+  for (py::ssize_t k = 0; k < n; ++k)
+    for (py::ssize_t i = 0; i < count; ++i) {
+      const DesignPiece& piece = found.pieces[static_cast<std::size_t>(k)];
+      low.mutable_at(k, i) = piece.low[static_cast<std::size_t>(i)];
+      high.mutable_at(k, i) = piece.high[static_cast<std::size_t>(i)];
+    }
+  return py::make_tuple(low, high);
+}
+
+py::dict found_designs(const DesignQuestion& question, const DesignSet& found) {
+  const auto n = static_cast<py::ssize_t>(found.pieces.size());
+  py::array_t<std::int8_t> state(n);
+  py::array_t<std::int32_t> demand(n), pose(n);
+  Array at(std::vector<py::ssize_t>{n, 6});
+  for (py::ssize_t k = 0; k < n; ++k) {
+    const DesignPiece& piece = found.pieces[static_cast<std::size_t>(k)];
+    state.mutable_at(k) = static_cast<std::int8_t>(piece.state);
+    demand.mutable_at(k) = piece.demand;
+    pose.mutable_at(k) = piece.at.pose;
+    for (py::ssize_t i = 0; i < 3; ++i) at.mutable_at(k, i) = piece.at.shift[i];
+    at.mutable_at(k, 3) = piece.at.tilt[0];
+    at.mutable_at(k, 4) = piece.at.tilt[1];
+    at.mutable_at(k, 5) = piece.at.yaw;
+  }
+  const py::tuple ends = ends_of_pieces(found, static_cast<py::ssize_t>(question.varied.size()));
+  py::list demands;
+  for (const Demand& one : found.demands) demands.append(py::make_tuple(one.limit, one.part));
+  py::dict out;
+  out["low"] = ends[0];
+  out["high"] = ends[1];
+  out["state"] = state;
+  out["demand"] = demand;
+  out["pose"] = pose;
+  out["at"] = at;
+  out["demands"] = py::tuple(demands);
+  out["inside"] = found.inside;
+  out["outside"] = found.outside;
+  out["undecided"] = found.undecided;
+  out["looked_at"] = found.looked_at;
+  out["boxes"] = found.boxes;
+  out["interrupted"] = found.interrupted;
+  return out;
+}
+
+/// The pieces of an earlier run, from the arrays that it gave.
+std::vector<DesignPiece> pieces_from(const py::dict& from, std::size_t count) {
+  const auto low = from["low"].cast<Array>(), high = from["high"].cast<Array>(), at = from["at"].cast<Array>();
+  const auto state = from["state"].cast<std::vector<int>>(), demand = from["demand"].cast<std::vector<int>>(),
+             pose = from["pose"].cast<std::vector<int>>();
+  const auto n = static_cast<py::ssize_t>(state.size());
+  if (low.ndim() != 2 || low.shape(0) != n || low.shape(1) != static_cast<py::ssize_t>(count) || high.ndim() != 2 ||
+      high.shape(0) != n || high.shape(1) != low.shape(1) || at.ndim() != 2 || at.shape(0) != n || at.shape(1) != 6 ||
+      demand.size() != state.size() || pose.size() != state.size())
+    throw InvalidArgument("earlier", "arrays of other shapes", "those of an earlier run");
+  std::vector<DesignPiece> out(state.size());
+  for (py::ssize_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    DesignPiece& piece = out[i];
+    for (std::size_t j = 0; j < count; ++j) {
+      piece.low[j] = low.at(k, static_cast<py::ssize_t>(j));
+      piece.high[j] = high.at(k, static_cast<py::ssize_t>(j));
+    }
+    piece.state = state[i] == 0 ? Membership::inside : state[i] == 1 ? Membership::outside : Membership::undecided;
+    piece.demand = demand[i];
+    piece.at.pose = pose[i];
+    piece.at.shift = Vec3(at.at(k, 0), at.at(k, 1), at.at(k, 2));
+    piece.at.tilt = Vec3(at.at(k, 3), at.at(k, 4), 0.0);
+    piece.at.yaw = at.at(k, 5);
+  }
+  return out;
+}
+
+}  // namespace
+
+void bind_admissible(py::module_& m) {
+  request<DesignQuestion>(m, "DesignQuestion", "Which designs, and what they have to keep.")
+      .def_property("problem", copy_of(&DesignQuestion::problem), setter_of(&DesignQuestion::problem), "Copied.")
+      .def_property("region", copy_of(&DesignQuestion::region), setter_of(&DesignQuestion::region), "None or one.")
+      .def_readwrite("at", &DesignQuestion::at, "A value for each variable of the family.")
+      .def_readwrite("varied", &DesignQuestion::varied, "Indices of the variables that vary.")
+      .def_readwrite("low", &DesignQuestion::low, "Of each.")
+      .def_readwrite("high", &DesignQuestion::high, "Of each.")
+      .def_readwrite("condition", &DesignQuestion::condition, "Greatest condition number.");
+  m.def(
+      "admissible_designs",
+      [](const DesignQuestion& question, int threads, double seconds, double resolution, double undecided,
+         const py::object& from, const py::object& progress) {
+        require_sound_arithmetic();
+        const DesignSettings settings{threads, seconds, resolution, undecided};
+        const std::vector<DesignPiece> earlier =
+            from.is_none() ? std::vector<DesignPiece>{} : pieces_from(from.cast<py::dict>(), question.varied.size());
+        const DesignSet found = interruptible(
+            progress, [&](const WorkControl& control) { return admissible_designs(question, settings, earlier, control); },
+            [](DesignSet& set) { return set.interrupted = true; });
+        return found_designs(question, found);
+      },
+      py::arg("question"), py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("resolution"),
+      py::arg("undecided"), py::arg("earlier") = py::none(), py::arg("progress") = py::none());
+  m.def(
+      "room_around",
+      [](const DesignQuestion& question, const std::vector<double>& design, const std::vector<double>& proportions,
+         double seconds) {
+        require_sound_arithmetic();
+        const DesignRoom room = interruptible(py::none(), [&](const WorkControl& control) {
+          return room_around(question, design, proportions, seconds, control);
+        });
+        const auto ends = [&](const std::array<double, most_varied>& all) {
+          return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(design.size()));
+        };
+        return py::make_tuple(room.found, ends(room.low), ends(room.high), room.demand);
+      },
+      py::arg("question"), py::arg("design"), py::arg("proportions"), py::kw_only(), py::arg("seconds"));
+}
+
+}  // namespace ninedof::python

@@ -1,0 +1,104 @@
+#include "proof/admissible/designs.hpp"
+
+#include <numbers>
+
+#include "ninedof/families/general_family.hpp"
+#include "ninedof/families/hexagonal_family.hpp"
+#include "ninedof/families/symmetric_family.hpp"
+#include "ninedof/math/rotation.hpp"
+
+namespace ninedof::admissible {
+namespace {
+
+/// Three joints from the first: -120 degrees at a time, as eqs. (37)-(38) number them.
+void put_orbit(const DesignVector& first, int triple, JointsOf<DesignForm>& out) {
+  constexpr double half_root = 0.5 * std::numbers::sqrt3;
+  const std::array<double, 3> cosine{1.0, -0.5, -0.5}, sine{0.0, -half_root, half_root};
+  for (std::size_t i = 0; i < 3; ++i)
+    out[at_index(triple) + i] =
+        i == 0 ? first
+               : DesignVector{cosine[i] * first.x - sine[i] * first.y, sine[i] * first.x + cosine[i] * first.y, first.z};
+}
+
+struct Blueprints {
+  JointsOf<DesignForm> joints;
+  DesignForm zp, zs, theta_z;
+};
+
+template <class Family, std::size_t N>
+bool put_symmetric(const DesignFamily& family, std::span<const DesignForm> x, Blueprints& out) {
+  const auto* one = dynamic_cast<const Family*>(&family);
+  if (one == nullptr) return false;
+  const Orbits<DesignForm> o = one->template orbits<DesignForm>(x.first<N>());
+  put_orbit(o.base_external, point_r, out.joints);
+  put_orbit(o.base_internal, point_r_hat, out.joints);
+  put_orbit(o.platform_external, point_u, out.joints);
+  put_orbit(o.platform_internal, point_u_tilde, out.joints);
+  out.zp = o.zp;
+  out.zs = o.zs;
+  out.theta_z = o.theta_z;
+  return true;
+}
+
+Blueprints blueprints(const DesignFamily& family, std::span<const DesignForm> x) {
+  Blueprints out;
+  if (put_symmetric<HexagonalFamily, 7>(family, x, out) || put_symmetric<SymmetricFamily<9>, 9>(family, x, out) ||
+      put_symmetric<SymmetricFamily<13>, 13>(family, x, out))
+    return out;
+  for (std::size_t k = 0; k < out.joints.size(); ++k) out.joints[k] = {x[3 * k], x[3 * k + 1], x[3 * k + 2]};
+  out.zp = x[row_zp];
+  out.zs = x[row_zs];
+  out.theta_z = x[row_theta_z];
+  return out;
+}
+
+/// A matrix of doubles times a vector.
+DesignVector times(const Mat3& m, const DesignVector& v) {
+  const auto row = [&](Eigen::Index i) { return m(i, 0) * v.x + m(i, 1) * v.y + m(i, 2) * v.z; };
+  return {row(0), row(1), row(2)};
+}
+
+}  // namespace
+
+DesignForms design_forms(const DesignQuestion& question, const DesignBox& box) {
+  std::vector<DesignForm> x(question.at.begin(), question.at.end());
+  for (std::size_t k = 0; k < question.varied.size(); ++k)
+    x[at_index(question.varied[k])] = DesignForm::coordinate(box.low[k], box.high[k], PoseForm::size + k);
+  const Blueprints own = blueprints(design_family(question.problem.family), x);
+  const Tool& tool = question.problem.tool;
+  const DesignForm zero = 0.0, one = 1.0;
+  DesignForms out{own.joints, own.joints, {}, own.zp, own.zs, design_family(question.problem.family).symmetric()};
+  const bool twisted = own.theta_z.c != 0.0 || radius(own.theta_z) > 0.0;
+  const DesignForm c = twisted ? cos(own.theta_z) : one, s = twisted ? sin(own.theta_z) : zero;
+  out.home.q = {DesignVector{c, s, zero}, DesignVector{-s, c, zero}, DesignVector{zero, zero, one}};
+  out.home.p = {zero, zero, own.zp};
+  out.home.s = {zero, zero, own.zs};
+  if (!tool.position.isZero(0.0)) out.home.p = out.home.p + turned(out.home, tool.position);
+  if (tool.turned()) {
+    const Mat3 axes = tool.axes();
+    std::array<DesignVector, 3> q;
+    for (std::size_t k = 0; k < 3; ++k) q[k] = turned(out.home, Vec3(axes.col(static_cast<Eigen::Index>(k))));
+    out.home.q = q;
+  }
+  for (std::size_t k = point_u; k < out.joints.size(); ++k) {
+    out.joints[k] = own.joints[k] - constant<DesignForm>(tool.position);
+    if (tool.turned()) out.joints[k] = times(tool.axes().transpose(), out.joints[k]);
+  }
+  return out;
+}
+
+PoseOf<DesignForm> listed_pose(const Pose& pose, const DesignForms& designs) {
+  PoseOf<DesignForm> out = designs.home;
+  const auto shift = [&](const Vec3& by) {
+    const DesignVector v = constant<DesignForm>(by);
+    return pose.in_zp ? designs.zp * v : v;
+  };
+  out.p = out.p + shift(pose.position);
+  out.s = out.s + shift(pose.internal);
+  if (pose.rotation.isZero(0.0)) return out;
+  const Mat3 turn = exp_rotation(pose.rotation);
+  for (DesignVector& column : out.q) column = times(turn, column);
+  return out;
+}
+
+}  // namespace ninedof::admissible

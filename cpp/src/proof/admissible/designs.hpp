@@ -1,0 +1,32 @@
+#pragma once
+/// A box of designs as forms: joints, the neutral pose, and the heights of the plates.
+
+#include <span>
+#include <vector>
+
+#include "ninedof/proof/admissible.hpp"
+#include "robot/pose_of.hpp"
+
+namespace ninedof::admissible {
+
+using DesignVector = Xyz<DesignForm>;
+
+/// One box of the varied variables.
+struct DesignBox {
+  std::array<double, most_varied> low{}, high{};
+};
+
+struct DesignForms {
+  JointsOf<DesignForm> plates;  ///< in the frames of the plates
+  JointsOf<DesignForm> joints;  ///< platform joints in the tool's frame
+  PoseOf<DesignForm> home;      ///< of the tool
+  DesignForm zp, zs;
+  bool orbits = false;  ///< whether the joints of a triple are turned copies of its first one
+};
+
+DesignForms design_forms(const DesignQuestion& question, const DesignBox& box);
+
+/// A listed pose of the objective.
+PoseOf<DesignForm> listed_pose(const Pose& pose, const DesignForms& designs);
+
+}  // namespace ninedof::admissible

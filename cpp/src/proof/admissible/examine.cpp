@@ -1,0 +1,125 @@
+#include "proof/admissible/examine.hpp"
+
+#include <algorithm>
+
+namespace ninedof::admissible {
+namespace {
+
+constexpr std::size_t most_open = 40'000;  // boxes of poses that a box of designs hands on
+
+/// A few of each demand.
+std::vector<Loss> nearest_losses(const std::vector<Loss>& losses) {
+  constexpr int most_of_demand = 3;
+  std::map<int, int> count;
+  std::vector<Loss> out;
+  for (const Loss& loss : losses)
+    if (count[loss.demand]++ < most_of_demand) out.push_back(loss);
+  return out;
+}
+
+}  // namespace
+
+Examiner::Examiner(const DesignQuestion& question) : question_(question), poses_(question), demands_(question) {}
+
+Met Examiner::meet(const DesignsAt& designs, const Spreads& spreads, const Loss& loss) const {
+  for (const Item& item : demands_.items)
+    if (item.demand == loss.demand) return designs.meet(item, loss.at);
+  for (const Spread& spread : demands_.spreads)
+    if (loss.longest >= 0 && loss.demand == spread.demand + (spread.row->each_leg ? loss.longest : 0))
+      return spreads.meet(spread, loss);
+  return {};
+}
+
+std::vector<Box> Examiner::roots_of(const Item& item) const {
+  if (item.at_neutral) return poses_.neutral();
+  std::vector<Box> out = poses_.all();
+  if (item.with_neutral && !(out.size() == 1 && out.front().piece == -1))
+    out.insert(out.end(), poses_.neutral().begin(), poses_.neutral().end());
+  return out;
+}
+
+/// Positions as lengths, of the design in the middle where the region is in zp.
+MetAt Examiner::met_at(const Box& point, const DesignBox& designs) const {
+  MetAt out;
+  if (point.piece < 0) {
+    out.pose = -1 - point.piece;
+    return out;
+  }
+  DesignBox middle = designs;
+  for (std::size_t k = 0; k < question_.varied.size(); ++k)
+    middle.low[k] = middle.high[k] = 0.5 * (designs.low[k] + designs.high[k]);
+  const DesignForms forms = design_forms(question_, middle);
+  out.shift = centre(poses_.pose(point, forms).p) - centre(forms.home.p);
+  out.tilt = Vec3(point.low[3], point.low[4], 0.0);
+  out.yaw = point.low[5];
+  return out;
+}
+
+std::vector<DesignPiece> Examiner::pieces_of(const std::vector<Piece>& pieces) const {
+  std::vector<DesignPiece> out;
+  for (const Piece& piece : pieces) {
+    out.push_back({piece.box.low, piece.box.high, piece.state, -1, {}});
+    if (piece.loss == nullptr) continue;
+    out.back().demand = piece.loss->demand;
+    out.back().at = met_at(piece.loss->at, piece.box);
+  }
+  return out;
+}
+
+Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
+  Examined out;
+  const DesignsAt designs(question_, poses_, asked.box);
+  Knowledge& known = out.known;
+  out.inherited = asked;
+  std::vector<char>& kept = out.inherited.kept;
+  kept.resize(demands_.items.size() + demands_.spreads.size() + demands_.alone.size(), 0);
+  bool complete = designs.known();
+  double width = 0.0;
+  for (std::size_t k = 0; k < question_.varied.size(); ++k)
+    width = std::max(width, (asked.box.high[k] - asked.box.low[k]) / (question_.high[k] - question_.low[k]));
+  // Takes what was found; whether no design of the box is inside.
+  const auto took = [&](std::size_t n, Found found) {
+    out.boxes += found.boxes;
+    known.losses.insert(known.losses.end(), found.losses.begin(), found.losses.end());
+    known.cuts.insert(known.cuts.end(), found.cuts.begin(), found.cuts.end());
+    if (found.status == Found::Status::kept) kept[n] = 1;
+    else if (!found.open.empty() && found.open.size() < most_open)
+      out.inherited.open[n] = std::make_shared<const std::vector<Box>>(std::move(found.open));
+    if (found.status == Found::Status::unknown) complete = false;
+    return found.status == Found::Status::outside;
+  };
+  const auto all = [&] {
+    std::size_t n = 0;
+    for (const Alone& alone : demands_.alone) {
+      if (kept[n] == 0 && took(n, look_at(designs.forms(), alone))) return;
+      ++n;
+    }
+    if (!designs.known()) return;
+    Spreads spreads(designs, stop);
+    for (Loss loss : asked.near) {
+      const Met met = meet(designs, spreads, loss);
+      ++out.boxes;
+      if (!met.known || least_of(met.most) >= 0.0) continue;
+      loss.most = met.most;
+      known.losses.push_back(loss);
+      if (most_of(met.most) < 0.0) return;
+    }
+    for (const Spread& spread : demands_.spreads) {
+      if (kept[n] == 0 && took(n, spreads.look_at(spread))) return;
+      ++n;
+    }
+    for (const Item& item : demands_.items) {
+      const auto left = asked.open.find(n);
+      const std::vector<Box> roots = left != asked.open.end() ? *left->second : roots_of(item);
+      if (kept[n] == 0 && took(n, climb(designs, item, roots, width, stop))) return;
+      ++n;
+    }
+  };
+  all();
+  out.finished = !stop();
+  known.complete = complete;
+  out.inherited.near = nearest_losses(known.losses);
+  return out;
+}
+
+}  // namespace ninedof::admissible

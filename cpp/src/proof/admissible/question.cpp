@@ -1,0 +1,55 @@
+/// What may be asked of sets of designs. Declared in ninedof/proof/admissible.hpp.
+
+#include <algorithm>
+#include <cmath>
+
+#include "limits/table.hpp"
+#include "math/numbers.hpp"
+#include "ninedof/math/error.hpp"
+#include "ninedof/proof/admissible.hpp"
+
+namespace ninedof {
+
+void DesignQuestion::validate() const {
+  problem.validate();
+  const auto& variables = design_family(problem.family).variables();
+  if (at.size() != variables.size())
+    throw InvalidArgument("at", std::to_string(at.size()) + " values", std::to_string(variables.size()));
+  if (varied.empty() || varied.size() > most_varied)
+    throw InvalidArgument("vary", std::to_string(varied.size()) + " variables", "one to four");
+  if (low.size() != varied.size() || high.size() != varied.size())
+    throw InvalidArgument("low, high", "other sizes", "an end for each variable that varies");
+  for (std::size_t k = 0; k < varied.size(); ++k) {
+    const int index = varied[k];
+    if (index < 0 || static_cast<std::size_t>(index) >= variables.size() ||
+        std::ranges::count(varied, index) != 1)
+      throw InvalidArgument("vary", std::to_string(index), "variables of the family, each once");
+    if (!(low[k] < high[k] && std::isfinite(low[k]) && std::isfinite(high[k])))
+      throw InvalidArgument(variables[static_cast<std::size_t>(index)].name, format_interval(low[k], high[k]),
+                            "low < high, both finite");
+  }
+  for (std::size_t k = 0; k < at.size(); ++k) require_finite(variables[k].name.c_str(), at[k]);
+  for (const Region& one : region) {
+    one.validate();
+    if (one.placed) throw InvalidArgument("region", "O placed anew at every pose", "O shifted with p, or held");
+  }
+  for (const Pose& pose : problem.objective.poses)
+    if (pose.best_internal) throw InvalidArgument("poses", "O chosen at a pose", "poses that say where O is");
+  if (!(condition > 1.0)) throw InvalidArgument("condition", format_number(condition), "a number above 1");
+  const bool bounded = std::isfinite(condition) || std::isfinite(problem.objective.condition_limit) ||
+                       std::isfinite(problem.objective.neutral_condition_limit);
+  bool locked = false;
+  for (const Limit& limit : problem.limits) {
+    const LimitRow& row = limit_row(limit.name);
+    if (row.pose != nullptr && row.pose->first_locked >= 0) locked = true;
+    else if (row.pose != nullptr && !row.pose->pairs && row.pose->design_form == nullptr)
+      throw InvalidArgument(limit.label(), "a limit without bounds over boxes of designs", "a study without it");
+    if (row.spread != nullptr && limit.low > 0.0)
+      throw InvalidArgument(limit.label(), "a least value", "a greatest value alone");
+  }
+  if ((bounded || locked) && problem.characteristic_length.choice != StudyLength::Choice::number)
+    throw InvalidArgument("characteristic_length", "one that depends on the design",
+                          "a number, where the condition number is limited");
+}
+
+}  // namespace ninedof

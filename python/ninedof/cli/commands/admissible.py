@@ -1,0 +1,146 @@
+"""`ninedof admissible`: all designs that fulfil a requirement, proved."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ninedof.cli.options import Options, Threads
+from ninedof.cli.screen import DONE, INTERRUPTED, Screen
+from ninedof.design.study import Study
+from ninedof.optimize.result import Result
+from ninedof.proof.admissible import AdmissibleSet, design_range
+from ninedof.proof.admissible import admissible as admissible_of
+from ninedof.records.admissible import admissible_file, load_admissible, save_admissible
+from ninedof.records.load import load
+from ninedof.support.angles import plain_name
+from ninedof.support.command import goes_on
+from ninedof.support.units import with_unit
+from ninedof.tables import RIGHT, Column, Table
+
+PLACE = 4
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof admissible runs/20260101-120000 --vary a2 --vary b1
+
+  ninedof admissible runs/20260101-120000 --vary a2=400:850 --vary b1 --condition 4.2 --time 300
+
+  ninedof admissible study.toml --vary a2 --vary b1 --set zp=480 --set zs=320 --out designs
+
+  ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --around    how far each may go"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AdmissibleOptions(Options):
+    """The options."""
+
+    of: Annotated[str, typer.Argument(metavar="STUDY|RUN", help="A study file, a run folder, or RUN#7 of a front.")]
+    vary: Annotated[
+        list[str], typer.Option(help="A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH.")
+    ]
+    set: Annotated[list[str] | None, typer.Option(help="The value of another variable, NAME=VALUE.")] = None
+    condition: Annotated[float | None, typer.Option(help="A bound of the condition number besides the limits.")] = None
+    time: Annotated[float, typer.Option(help="Seconds; what is proved by then is kept.")] = 300.0
+    resolution: Annotated[float, typer.Option(help="The least size of a box, as a part of each range.")] = 0.01
+    around: Annotated[bool, typer.Option("--around", help="How far each variable may go at once, from the design.")] = (
+        False
+    )
+    out: Annotated[Path | None, typer.Option(help="A folder for the answer; that of the run by default.")] = None
+    threads: Threads = None
+
+
+def admissible(options: AdmissibleOptions) -> None:
+    """Divide a box of designs into those proved to keep every limit at every pose, those proved not to, and the rest.
+
+    The other variables have the values of the run or of the study. The same command again goes on.
+    """
+    screen = Screen(options.json)
+    of, folder = _of(options)
+    vary, at = dict(map(_vary, options.vary)), dict(map(_value, options.set or ()))
+    asked = design_range(of, vary, at, options.condition)
+    file = None if folder is None else admissible_file(folder, asked)
+    earlier = None if file is None else load_admissible(file, asked)
+    goes_on()
+    with screen.bar("boxes", "designs") as bar:
+        found = admissible_of(
+            of,
+            vary,
+            at=at,
+            condition_number=options.condition,
+            time_limit=options.time,
+            resolution=options.resolution,
+            threads=options.threads or 0,
+            resume=earlier,
+            progress=bar,
+        )
+    data = {"shares": dict(found.shares), "excluded": found.excluded, "designs": found.designs, "boxes": found.boxes}
+    screen.print(*found.sentences())
+    if file is not None:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        save_admissible(found, file)
+        figures = _draw(found, file) if len(found.vary) > 1 else []
+        screen.print(f"designs {file}" + (f", figure {figures[0].stem} (PNG, SVG, PDF)" if figures else ""))
+        data |= {"file": str(file)}
+    if options.around:
+        data |= {"around": _around(screen, found)}
+    screen.data(data)
+    raise typer.Exit(INTERRUPTED if found.interrupted else DONE)
+
+
+def _draw(found: AdmissibleSet, file: Path) -> list[Path]:
+    from ninedof.plot.admissible import admissible as figure_of
+    from ninedof.plot.files import save
+
+    return save(figure_of(found), file.parent, file.stem)
+
+
+def _of(options: AdmissibleOptions) -> tuple[Study | Result, Path | None]:
+    """Return what is asked about, and the folder of the answer."""
+    if (place := Path(options.of)).suffix == ".toml" and place.is_file():
+        return Study.load(place), options.out
+    result = load(options.of)
+    if not isinstance(result, Result):
+        raise ValueError(f"{options.of}: got no design of a study, expected a study file, a run or RUN#7 of a front")
+    return result, options.out or Path(options.of.partition("#")[0])
+
+
+def _vary(text: str) -> tuple[str, tuple[float, float] | None]:
+    name, equals, ends = text.partition("=")
+    try:
+        low, high = (float(end) for end in ends.split(":")) if equals else (0.0, 0.0)
+    except ValueError:
+        raise ValueError(f"--vary: got {text}, expected NAME or NAME=LOW:HIGH") from None
+    return (plain_name(name), _in_radians(name, low, high)) if equals else (name, None)
+
+
+def _value(text: str) -> tuple[str, float]:
+    name, _, value = text.partition("=")
+    try:
+        return plain_name(name), _in_radians(name, float(value), 0.0)[0]
+    except ValueError:
+        raise ValueError(f"--set: got {text}, expected NAME=VALUE") from None
+
+
+def _in_radians(name: str, *values: float) -> tuple[float, float]:
+    low, high = values if plain_name(name) == name else map(math.radians, values)
+    return low, high
+
+
+def _around(screen: Screen, found: AdmissibleSet) -> dict[str, list[float]] | None:
+    """Print how far the design may go; that it lies on a limit is an answer too."""
+    try:
+        room = found.around()
+    except ValueError as error:
+        screen.print(f"No box around the design is proved. {str(error).capitalize()}.")
+        return None
+    heads = [Column("proved, all at once"), Column("design", "", RIGHT), Column("from", "", RIGHT)]
+    rows = []
+    for name, ends in room.items():
+        low, high, at = (f"{found.study.shown(name, x):.6g}" for x in (*ends, found.of.at[name]))
+        rows.append((with_unit(name, found.study.unit_of(name)), at, low, high))
+    screen.print(Table("", [*heads, Column("to", "", RIGHT)], rows))
+    return {name: list(ends) for name, ends in room.items()}

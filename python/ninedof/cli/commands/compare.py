@@ -1,0 +1,40 @@
+"""`ninedof compare`: two or three machines beside each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import typer
+
+from ninedof.cli.answer import Answer
+from ninedof.cli.chosen_design import named_design
+from ninedof.cli.compared import compared, plot_argument
+from ninedof.cli.options import DESIGN, Options, Plot
+from ninedof.sheet.comparison import compare as compare_designs
+
+PLACE = 3
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof compare runs/20260101-120000 runs/20260102-120000
+
+  ninedof compare front#1 front#7 design.toml --plot plates.png"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompareOptions(Options):
+    """The options."""
+
+    designs: Annotated[list[str], typer.Argument(help=f"Two or three of: {DESIGN}.")]
+    plot: Plot = None
+
+
+def compare(options: CompareOptions) -> Answer:
+    """Print two or three machines beside each other: numbers, limits, what differs in their studies."""
+    plot_argument(options.plot)
+    chosen = [named_design(name) for name in options.designs]
+    comparison = compare_designs(*(one.result or one.design for one in chosen))
+    answer = compared(comparison, options.plot)
+    legend = [f"{letter}: {name}" for letter, name in zip(comparison.names, options.designs, strict=True)]
+    data = answer.data | {"designs": list(options.designs)}
+    return answer._replace(parts=[*legend, *answer.parts], data=data)

@@ -1,0 +1,180 @@
+"""Sets of admissible designs: planes of two variables with what is proved inside, what is outside by which limit."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+
+from ninedof import _core
+from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.region_poses import configurations_at
+from ninedof.plot import style
+from ninedof.plot.workspace import KINDS
+from ninedof.robot.configuration import Configuration
+from ninedof.support.arrays import Floats
+
+if TYPE_CHECKING:
+    from ninedof.proof.admissible import AdmissibleSet
+
+INSIDE, UNDECIDED = "#A9CCE3", "#B8BFC6"
+OTHERS = ("#E69F00", "#56B4E9", "#F0E442", "#CC79A7", "#009E73", "#999933")  # limits that have no colour elsewhere
+PALE = 0.55  # of a limit's colour that is left: outside is ground, not figure
+POSES, SIDE = 400, 25  # for the iso-lines: poses of the region, designs along a side
+MARK: dict[str, Any] = {
+    "marker": "D",
+    "ms": 5.0,
+    "color": style.INK,
+    "mec": "white",
+    "mew": 0.9,
+    "ls": "",
+    "zorder": 8,
+    "clip_on": False,
+}
+
+
+def admissible(found: AdmissibleSet, figure: Figure | None = None) -> Figure:
+    """Return a figure of a set of admissible designs: a plane for every two of its variables, through the design.
+
+    Inside, and outside in the colour of the limit that all designs of a box break, are proved; grey is undecided. Lines
+    of the worst condition number are sampled, and proved nowhere. Angles are drawn in degrees.
+
+    Parameters
+    ----------
+    found : AdmissibleSet
+        As `ninedof.admissible` returns it; of two to four variables.
+    figure : matplotlib.figure.Figure or SubFigure, optional
+        To draw in, with a constrained layout; a new one by default.
+
+    Raises
+    ------
+    ValueError
+        For a set of one variable.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> study = nd.Study(variables={"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0})
+    >>> found = nd.admissible(study, ("a2", "b1"), at={"zp": 4.9752, "zs": 3.1681}, condition_number=3.911)
+    >>> figure = nd.plot.admissible(found)
+
+    """
+    count = len(found.vary)
+    if count < 2:
+        raise ValueError(f"found: got a set of {found.vary[0]} alone, expected two to four variables")
+    planes = list(combinations(range(count), 2))
+    columns = min(len(planes), 3)
+    rows = -(-len(planes) // columns)
+    wide = style.ONE_COLUMN + 0.9 if columns == 1 else style.TWO_COLUMNS
+    colours = _colours(found)
+    with style.page(figure, wide, 2.6 * rows + 0.7, layout="constrained") as figure:
+        axes: Any = figure.subplots(rows, columns, squeeze=False).reshape(-1)
+        lines = False
+        for panel, (i, j) in zip(axes, planes, strict=False):
+            _plane(panel, found, i, j, colours)
+            lines |= _iso_lines(panel, found, i, j)
+        for panel in axes[len(planes) :]:
+            panel.set_axis_off()
+        keys = [style.key(INSIDE, lw=6, label="every limit kept, proved")]
+        keys += [style.key(colours[name], lw=6, label=f"outside: {name.replace('_', ' ')}") for name in found.excluded]
+        keys += [style.key(UNDECIDED, lw=6, label="undecided"), style.key(**MARK, label="design")]
+        keys += [style.key(style.INK, lw=0.8, label="worst condition number, sampled")] if lines else []
+        figure.legend(handles=keys, loc="outside lower center", ncols=2 if columns == 1 else 4)
+    return figure
+
+
+def _colours(found: AdmissibleSet) -> dict[str, Any]:
+    """Return the pale colour of each limit that excludes something."""
+    others = iter(OTHERS * (1 + len(found.excluded) // len(OTHERS)))
+    out = {}
+    for name in found.excluded:
+        kind = "det" if name == "no singularity" else name.partition(" at ")[0]
+        kind = next((key for key in KINDS if len(key) > 1 and kind.startswith(key)), "")
+        strong = np.array(_rgb(KINDS[kind][1] if kind else next(others)))
+        out[name] = tuple(PALE * strong + (1.0 - PALE))
+    return out
+
+
+def _rgb(colour: str) -> tuple[float, ...]:
+    return tuple(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5))
+
+
+def _plane(axes: Any, found: AdmissibleSet, i: int, j: int, colours: dict[str, Any]) -> None:
+    """Fill the pieces that the plane through the design meets."""
+    names = found.vary
+    here = np.array([found.of.at[name] for name in names])
+    others = [k for k in range(len(names)) if k not in (i, j)]
+    ends = np.array(found.of.ranges)
+    high_end = found.high[:, others] == ends[others, 1]  # the last pieces have their upper ends
+    there = (found.low[:, others] <= here[others]) & ((here[others] < found.high[:, others]) | high_end)
+    met = there.all(axis=1)
+    low, high = (_shown(found, end[met][:, [i, j]], i, j) for end in (found.low, found.high))
+    corners = _corners(low, high)
+    faces = [
+        INSIDE if state == 0 else UNDECIDED if state == 2 else colours[found.demands[demand][0]]
+        for state, demand in zip(found.state[met].tolist(), found.demand[met].tolist(), strict=True)
+    ]
+    axes.add_collection(
+        PolyCollection(list(corners), facecolors=faces, edgecolors=faces, linewidths=0.2, rasterized=True)
+    )
+    limits = _shown(found, ends[[i, j]].T, i, j)
+    axes.set(xlim=limits[:, 0], ylim=limits[:, 1])
+    axes.set_xlabel(style.with_unit(names[i], found.study.unit_of(names[i])))
+    axes.set_ylabel(style.with_unit(names[j], found.study.unit_of(names[j])))
+    axes.grid(visible=False)
+    axes.plot(*_shown(found, here[[i, j]][None], i, j)[0], **MARK)
+    if others:
+        fixed = ", ".join(f"{names[k]} = {found.study.shown(names[k], here[k]):.5g}" for k in others)
+        axes.set_title(fixed)
+
+
+def _corners(low: Floats, high: Floats) -> Floats:
+    return np.stack(
+        [low, np.column_stack([high[:, 0], low[:, 1]]), high, np.column_stack([low[:, 0], high[:, 1]])], axis=1
+    )
+
+
+def _shown(found: AdmissibleSet, values: Floats, i: int, j: int) -> Floats:
+    """Return values of two variables as they are shown: angles in degrees."""
+    turned = [found.vary[k] in found.study.angles for k in (i, j)]
+    return np.where(turned, np.degrees(values), values)
+
+
+def _iso_lines(axes: Any, found: AdmissibleSet, i: int, j: int) -> bool:
+    """Draw lines of the worst condition number over a sample of poses; return whether it could be computed."""
+    study = found.study
+    if not isinstance(study.characteristic_length, float | int):
+        return False
+    problem, region = study.problem(), study.objective.region
+    places = [np.linspace(*found.of.ranges[k], SIDE) for k in (i, j)]
+    worst = np.full((SIDE, SIDE), np.nan)
+    for n, y in enumerate(places[1]):
+        for m, x in enumerate(places[0]):
+            values = dict(found.of.at) | {found.vary[i]: float(x), found.vary[j]: float(y)}
+            row = [values.get(name, 0.0) for name in problem.names]
+            try:
+                geometry = problem.geometry(row)
+            except ValueError:  # no robot there
+                continue
+            every = _poses(problem, row, region)
+            worst[n, m] = np.max(condition_number(geometry, every, float(study.characteristic_length)))
+    shown = _shown(found, np.column_stack(places), i, j)
+    finite = worst[np.isfinite(worst)]
+    if not finite.size:
+        return False
+    low = float(finite.min())
+    levels = style.round_levels(low, min(float(finite.max()), 3.0 * low), 7)
+    drawn = axes.contour(shown[:, 0], shown[:, 1], worst, levels=levels, colors=style.INK, linewidths=0.7)
+    axes.clabel(drawn, fontsize=style.SMALL_SIZE - 1, fmt="%g")
+    return True
+
+
+def _poses(problem: Any, row: list[float], region: Any) -> Any:
+    """Return the poses of a design: those of its study, or a sample of its region."""
+    every = Configuration(*problem.configurations(row))
+    if region is None:
+        return every[1:] if len(every) > 1 else every
+    return configurations_at(region, every[0], _core.even_poses(region.for_core(), POSES))[1]

@@ -1,0 +1,110 @@
+"""`ninedof admissible`: what it prints and keeps, how it goes on, and what it refuses."""
+
+import json
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+
+STUDY = """
+[variables]
+a1 = 0.0
+a2 = [2.0, 10.0]
+b1 = [1.0, 5.0]
+b2 = 0.0
+zp = [2.0, 8.0]
+zs = [1.0, 6.0]
+[constraints]
+radius_ratio = { max = 2.5 }
+leg_ratio = { max = 3.0 }
+"""
+ASKED = "--vary a2 --vary b1 --set zp=5 --set zs=3 --resolution"
+
+
+@pytest.fixture
+def study(tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(STUDY)
+    return file
+
+
+def test_what_is_printed_is_what_python_proves(run, study, tmp_path):
+    status, out, err = run(f"admissible {study} {ASKED} 0.05 --around --json --out {tmp_path / 'set'}")
+    assert status == 0
+    answer = json.loads(out)
+    found = nd.admissible(nd.Study.load(study), ("a2", "b1"), at={"zp": 5.0, "zs": 3.0}, resolution=0.05)
+    assert answer["shares"] == pytest.approx(found.shares)
+    assert list(answer["excluded"]) == list(found.excluded)
+    assert set(answer["excluded"]) == {"radius_ratio", "leg_ratio"}
+    assert "keep every limit at every pose" in " ".join(err.split())
+    names = {file.name for file in (tmp_path / "set").iterdir()}
+    assert names == {"admissible-a2-b1.npz", *(f"admissible-a2-b1.{kind}" for kind in ("png", "svg", "pdf"))}
+    assert answer["around"].keys() == {"a2", "b1"}
+
+
+def test_the_same_command_goes_on_and_another_question_begins_anew(run, study, tmp_path):
+    folder = str(tmp_path / "set")
+    shares = []
+    for resolution in ("0.3", "0.05", "0.05"):
+        status, out, _ = run(f"admissible {study} {ASKED} {resolution} --json --out {folder}")
+        assert status == 0
+        shares.append(json.loads(out))
+    assert shares[1]["shares"]["undecided"] < shares[0]["shares"]["undecided"]
+    assert shares[2]["designs"] >= shares[1]["designs"] > shares[0]["designs"]
+    status, out, _ = run(f"admissible {study} {ASKED} 0.05 --condition 3.8 --json --out {folder}")
+    assert status == 0
+    assert "condition_number" in json.loads(out)["excluded"]
+
+
+def test_a_run_gives_the_other_variables(run, study, tmp_path):
+    folder = tmp_path / "run"
+    assert run(f"optimize {study} --out {folder} --starts 4 --no-report")[0] == 0
+    status, out, _ = run(f"admissible {folder} --vary a2 --vary zp --resolution 0.1")
+    assert status == 0
+    assert (folder / "admissible-a2-zp.npz").exists()
+    assert "zp from 2 to 8" in " ".join(out.split())
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("--vary a3", "--vary: got 'a3', expected variables of the study: a1, a2"),
+        ("--vary a1", "vary.a1: got a variable that is fixed in the study, expected its ends (low, high) too"),
+        ("--vary a2=8:2", "vary.a2: got (8, 2), expected low < high"),
+        ("--vary a2=1", "--vary: got a2=1, expected NAME or NAME=LOW:HIGH"),
+        ("--vary a2", "at: got no b1, expected a value"),
+        ("--vary a2 --set b1=x", "--set: got b1=x, expected NAME=VALUE"),
+        ("", "Missing option '--vary'"),
+    ],
+)
+def test_what_is_refused(run, study, line, words):
+    status, _, err = run(f"admissible {study} {line}")
+    assert status == 2
+    assert words in " ".join(err.split())
+
+
+def test_a_study_that_places_o_anew_is_refused():
+    study = nd.Study(objective={"region": {"box": (0.1, 0.1, 0.1), "internal_point": "best"}})
+    with pytest.raises(ValueError, match='internal_point: got "best"'):
+        nd.admissible(study, ("a2",))
+
+
+def test_a_free_characteristic_length_is_refused_where_the_condition_number_is_limited():
+    study = nd.Study(variables={"a1": 0.0, "b2": 0.0, "zp": 5.0, "zs": 3.0}, characteristic_length="mean_leg")
+    with pytest.raises(ValueError, match="characteristic_length"):
+        nd.admissible(study, {"a2": (2.0, 8.0), "b1": (1.0, 5.0)}, condition_number=4.0)
+
+
+def test_more_threads_and_going_on_change_nothing_that_is_proved():
+    study = nd.Study(variables={"a1": 0.0, "b2": 0.0, "zp": 5.0, "zs": 3.0}, constraints={"leg_ratio": (None, 2.2)})
+    ranges = {"a2": (2.0, 10.0), "b1": (1.0, 5.0)}
+    one, two = (nd.admissible(study, ranges, threads=k, resolution=0.05) for k in (1, 2))
+    for name in ("low", "high", "state", "demand"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(two, name))
+    coarse = nd.admissible(study, ranges, resolution=0.3)
+    fine = nd.admissible(study, ranges, resolution=0.05, resume=coarse)
+    assert fine.shares["undecided"] < coarse.shares["undecided"]
+    assert fine.shares["inside"] >= coarse.shares["inside"]
+    with pytest.raises(ValueError, match="resume: got the designs of another question"):
+        nd.admissible(study, ranges, condition_number=9.0, resume=coarse)

@@ -1,0 +1,204 @@
+"""Sets of admissible designs, held against designs drawn at random and evaluated in numpy at poses drawn at random."""
+
+import math
+
+import numpy as np
+import pytest
+from limit_oracle import limits_of, margins, robot_of
+from region_oracle import SPREADS, condition_margins, index_at, random_poses
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+from ninedof.optimize.region_report import posed
+
+ROUNDING = 1e-9
+SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": (2.0, 8.0), "zs": (1.0, 6.0)}
+BOX = {"box": (0.4, 0.4, 0.3), "tilt": 0.12}
+SYMMETRIC = {
+    "base_external_radius": (2.0, 6.0),
+    "base_internal_radius": (1.0, 5.0),
+    "base_internal_angle": 0.9,
+    "platform_external_radius": (1.0, 4.0),
+    "platform_external_angle": 0.5,
+    "platform_internal_radius": 2.0,
+    "platform_internal_angle": -0.4,
+    "zp": (3.0, 7.0),
+    "zs": 2.6,
+    "base_external_height": 0.1,
+    "base_internal_height": (-0.5, 0.5),
+    "platform_external_height": 0.0,
+    "platform_internal_height": 0.2,
+}
+ALL_LIMITS = {
+    "radius_ratio": (1.2, 3.0),
+    "stroke_ratio": (None, 1.55),
+    "leg_length": (1.3, 7.0),
+    "lower_length": {"max": 0.95, "of": "zp"},
+    "zs_fraction": (0.3, 0.8),
+    "footprint": (None, 4.5),
+    "base_cone": {"max_deg": 60, "axis": (0, 0, 1)},
+    "platform_cone_internal": {"max_deg": 25},
+    "leg_clearance": (0.12, None),
+    "singularity_free": (0.01, None),
+}
+HEXAGON = nd.Study(variables=SIZES, constraints=ALL_LIMITS, objective={"region": BOX})
+AT = {"zp": 5.0, "zs": 3.0}
+CASES = {
+    "all limits": (HEXAGON, ("a2", "b1"), {"at": AT}),
+    "three variables": (HEXAGON, ("a2", "b1", "zp"), {"at": {"zs": 3.0}, "time_limit": 6.0}),
+    "condition number": (
+        nd.Study(variables=SIZES, constraints={"radius_ratio": (None, 2.0)}, objective={"region": {"ball": 0.2}}),
+        ("b1", "zs"),
+        {"at": {"a2": 7.0, "zp": 5.0}, "condition_number": 5.0, "time_limit": 6.0, "resolution": 0.05},
+    ),
+    "tool, yaw, O held, zp": (
+        nd.Study(
+            variables=SIZES,
+            constraints={"stroke": (None, 1.4), "platform_cone": (None, math.radians(32))},
+            objective={
+                "region": {"cylinder": (0.07, 0.05), "tilt": 0.1, "yaw": 0.1, "internal_point": "held", "unit": "zp"}
+            },
+            tool={"position": (0.1, -0.2, -0.8), "rotation": (0.1, 0.0, 0.3)},
+        ),
+        ("a2", "zp"),
+        {"at": {"b1": 2.5, "zs": 2.8}},
+    ),
+    "non-planar": (
+        nd.Study(
+            "symmetric_nonplanar",
+            variables=SYMMETRIC,
+            constraints={
+                "leg_ratio": (None, 2.6),
+                "joint_spacing": {"min": 0.3, "of": "radius"},
+                "joint_height": (None, 0.4),
+                "leg_clearance": (0.1, None),
+                "external_length": (None, 7.0),
+            },
+            objective={"region": BOX | {"unit": "zp", "box": (0.06, 0.05, 0.06)}},
+        ),
+        ("base_external_radius", "base_internal_height"),
+        {"at": {"base_internal_radius": 3.0, "platform_external_radius": 2.5, "zp": 5.0}},
+    ),
+    "poses": (
+        nd.Study(
+            variables=SIZES | {"theta_z": 0.2},
+            constraints={
+                "stroke_ratio": (None, 1.3),
+                "base_cone": [
+                    {"max_deg": 55, "axis": (0, 0, 1), "at": "neutral"},
+                    {"max_deg": 62, "axis": (0, 0, 1)},
+                ],
+            },
+            objective={
+                "poses": [
+                    {"position": (0.1, 0.0, 0.05), "rotation": (0.1, 0.2, 0.0), "unit": "zp"},
+                    {"position": (0, 0.5, 0)},
+                ],
+                "condition_limit": 6.0,
+            },
+        ),
+        ("a2", "zp"),
+        {"at": {"b1": 2.5, "zs": 3.0}},
+    ),
+}
+
+
+def everything(study, poses, variables):
+    """All margins of a design at poses by limit, in numpy."""
+    there = posed(study, poses) if study.objective.region is not None else study
+    robot = robot_of(there, variables)
+    out = {limit.label: margins(limit, robot) for limit in limits_of(there)}
+    for name, values in zip(("condition_limit", "neutral"), condition_margins(there, robot), strict=False):
+        out[name] = values
+    return out, index_at(there, robot)
+
+
+@pytest.fixture(scope="module", params=CASES, ids=lambda name: name.replace(" ", "-"))
+def case(request):
+    study, vary, options = CASES[request.param]
+    return nd.admissible(study, vary, **({"resolution": 0.02} | options))
+
+
+def drawn_in(boxes, count, rng):
+    """Designs in boxes, by their volume: their rows, and which box each is of."""
+    volume = np.prod(boxes[..., 1] - boxes[..., 0], axis=1)
+    which = rng.choice(len(boxes), count, p=volume / volume.sum())
+    return boxes[which, :, 0] + rng.random((count, boxes.shape[1])) * np.ptp(boxes[which], axis=-1), which
+
+
+def variables_of(found, row):
+    return dict(found.of.at) | dict(zip(found.vary, row.tolist(), strict=True))
+
+
+def test_pieces_are_a_partition(case):
+    volume = np.prod(case.high - case.low, axis=1)
+    whole = math.prod(high - low for low, high in case.of.ranges)
+    assert volume.sum() == pytest.approx(whole, rel=1e-9)
+    assert sum(case.shares.values()) == pytest.approx(1.0, abs=1e-9)
+    rng = np.random.default_rng(1)
+    ends = np.array(case.of.ranges)
+    x = ends[:, 0] + rng.random((300, len(ends))) * np.ptp(ends, axis=1)
+    inner = ((case.low[None] < x[:, None]) & (x[:, None] < case.high[None])).all(axis=2)
+    assert (inner.sum(axis=1) == 1).all()
+
+
+def test_something_is_proved_on_both_sides(case):
+    assert case.shares["inside"] > 0.005
+    assert case.shares["outside"] > 0.01
+    assert case.shares["undecided"] < 0.35
+
+
+def test_no_design_inside_breaks_a_limit(case):
+    rng = np.random.default_rng(2)
+    for row in drawn_in(case.inside, 60, rng)[0]:
+        region = case.study.objective.region
+        poses = () if region is None else random_poses(region, 600, rng)
+        every, index = everything(case.study, poses, variables_of(case, row))
+        for name, values in every.items():
+            assert values.size == 0 or values.min() > -ROUNDING, (name, row)
+        if case.of.condition_number is not None:
+            assert index.max() <= case.of.condition_number * (1.0 + ROUNDING)
+
+
+def test_every_design_outside_breaks_the_limit_that_is_named_at_the_pose_that_is_named(case):
+    rng = np.random.default_rng(3)
+    region = case.study.objective.region
+    for row, which in zip(*drawn_in(case.outside, 80, rng), strict=True):
+        reason = case.reasons[which]
+        variables = variables_of(case, row)
+        pose = reason.pose
+        if region is None or pose.listed is not None:
+            there = ()
+        else:
+            shift = np.array(pose.shift)
+            held = region.internal_point == "held"
+            both = Rotation.from_rotvec(pose.tilt) * Rotation.from_rotvec((0.0, 0.0, pose.yaw))
+            if region.unit == "zp":  # given for the design in the middle of the box
+                box = case.outside[which]
+                middle = variables_of(case, box.mean(axis=1))["zp"]
+                shift = shift / middle
+            there = (nd.Pose(tuple(shift), tuple(both.as_rotvec()), (0.0,) * 3 if held else tuple(shift), region.unit),)
+        if reason.limit in SPREADS and region is not None:
+            continue  # two poses: see the next test
+        every, index = everything(case.study, there, variables)
+        if reason.limit == "condition_number":
+            limit = min(x for x in (case.of.condition_number, case.study.objective.condition_limit) if x is not None)
+            assert index.max() > limit * (1.0 - ROUNDING)
+        elif reason.limit == "no singularity":
+            continue
+        else:
+            assert every[reason.limit].min() < ROUNDING, (reason, row)
+
+
+def test_designs_outside_by_a_spread_have_legs_of_such_lengths(case):
+    region = case.study.objective.region
+    if region is None:
+        return
+    rng = np.random.default_rng(4)
+    for row, which in zip(*drawn_in(case.outside, 80, rng), strict=True):
+        reason = case.reasons[which]
+        if reason.limit not in SPREADS:
+            continue
+        every, _ = everything(case.study, random_poses(region, 4000, rng, 1.0), variables_of(case, row))
+        # The worst pose is hardly drawn: most designs outside are far enough from the limit.
+        assert every[reason.limit].min() < 0.02, (reason, row)

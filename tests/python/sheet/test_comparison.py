@@ -1,0 +1,112 @@
+"""Machines beside each other, and what a changed dimension does over the region."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof import plot
+from ninedof.cli.app import main
+
+LIMITS = {"leg_ratio": (None, 3.0), "stroke_ratio": (None, 1.3)}
+REGION = {"region": {"box": [0.3, 0.3, 0.2], "tilt_deg": 5.0}}
+
+
+@pytest.fixture(scope="module")
+def run():
+    variables = {"a1": 0.0, "a2": (1.0, 6.0), "b1": (1.0, 3.0), "b2": 0.0, "zp": (2.0, 5.0), "zs": (0.5, 4.0)}
+    study = nd.Study(variables=variables | {"theta_z": 0.0}, constraints=LIMITS, objective=REGION, unit="mm", starts=4,
+                     characteristic_length=1.0)  # fmt: skip
+    return nd.optimize(study, threads=1)
+
+
+def test_the_worst_of_a_change_is_never_passed_at_sampled_poses_and_is_attained(run):
+    changed = run.with_changes(b1="+10%")
+    worst = nd.compare(run, changed).numbers["worst condition number"][1]
+    # An evaluation of its own: p in the box, tilts about horizontal axes, O shifted with p.
+    rng = np.random.default_rng(5)
+    home, g = changed.configuration, nd.Geometry.hexagonal(0.0, changed.variables["a2"], 1.1 * run.variables["b1"], 0.0)
+    corners = np.array(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3)).reshape(3, -1).T
+    shifts = np.vstack([rng.uniform(-1.0, 1.0, (4000, 3)), np.repeat(corners, 200, axis=0)]) * [0.3, 0.3, 0.2]
+    angle, about = np.radians(5.0) * np.sqrt(rng.random(len(shifts))), rng.uniform(0.0, 2.0 * np.pi, len(shifts))
+    angle[4000:] = np.radians(5.0)
+    x, y, sin, cos = np.cos(about), np.sin(about), np.sin(angle), np.cos(angle)
+    q = np.array([[cos + x * x * (1 - cos), x * y * (1 - cos), y * sin],
+                  [x * y * (1 - cos), cos + y * y * (1 - cos), -x * sin],
+                  [-y * sin, x * sin, cos]])  # fmt: skip
+    c = nd.Configuration(home.position + shifts, np.moveaxis(q, 2, 0) @ home.rotation, home.internal_point + shifts)
+    sampled = nd.condition_number(g, c, 1.0)
+    assert sampled.max() <= worst * (1.0 + 1e-9)
+    assert sampled.max() >= worst * (1.0 - 2e-3)
+
+
+def test_the_limits_that_a_change_breaks_are_named(run):
+    both = nd.compare(run, run.with_changes(a2="+10%"), names=("run", "changed"))
+    assert both.broken[0] == ()
+    assert "leg_ratio max" in both.broken[1]
+    assert "changed breaks" in str(both)
+
+
+def test_a_change_of_nothing_changes_nothing(run):
+    both = nd.compare(run, run.with_changes(b1=run.variables["b1"]))
+    assert all(one == pytest.approx(other, rel=1e-9) for one, other in both.numbers.values())
+    assert not both.differences
+
+
+def test_changes_that_do_not_fit_are_refused(run):
+    for changes, words in (
+        ({"b1": -1.0}, "b1: got -1"),
+        ({"radius": 1.0}, "expected one of a1, a2"),
+        ({"b1": "+1"}, "as '"),
+        ({"b1": "wide"}, "as '"),
+        ({}, "got none"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            run.with_changes(**changes)
+
+
+def test_lengths_are_in_the_unit_of_the_first_and_all_have_one(run):
+    design = nd.Design(run.geometry, run.configuration, 1.0, "mm")
+    metres = nd.Design(
+        nd.Geometry.hexagonal(0.0, run.variables["a2"] / 1e3, run.variables["b1"] / 1e3, 0.0),
+        nd.Configuration.neutral(run.variables["zp"] / 1e3, run.variables["zs"] / 1e3),
+        1e-3,
+        "m",
+    )
+    both = nd.compare(design, metres)
+    assert all(one == pytest.approx(other, rel=1e-9) for one, other in both.numbers.values())
+    with pytest.raises(ValueError, match="got A in mm and B in no unit"):
+        nd.compare(design, design._replace(unit=""))
+
+
+def test_what_differs_in_the_studies(run):
+    other = replace(run, study=replace(run.study, constraints=LIMITS | {"leg_ratio": (None, 2.9)}))
+    assert nd.compare(run, other).differences == {"constraints.leg_ratio.max": (3.0, 2.9)}
+
+
+def test_both_commands_fit_on_80_columns_and_draw(run, tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    nd.save(run, tmp_path / "run")
+    name, picture = str(tmp_path / "run"), tmp_path / "plates.png"
+    for words in (
+        ["evaluate", name, "--set", "b1=+10%", "--plot", str(picture)],
+        ["compare", f"{name}", name, name],
+    ):
+        with pytest.raises(SystemExit) as end:
+            main(words)
+        lines = capsys.readouterr().out.splitlines()
+        assert end.value.code == 0
+        assert max(len(line) for line in lines if str(tmp_path) not in line) <= 80
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    with pytest.raises(SystemExit):
+        main(["evaluate", name, "--set", "b1=+10%", "--json"])
+    data = json.loads(capsys.readouterr().out)
+    assert data["numbers"]["b1"][1] == pytest.approx(1.1 * run.variables["b1"])
+
+
+def test_plates_are_in_one_scale(run):
+    figure = plot.compare(nd.compare(run, run.with_changes(b1="+10%")))
+    base, platform = figure.axes
+    assert base.get_xlim() == platform.get_xlim() == base.get_ylim()
