@@ -22,6 +22,7 @@ MADE = ("values.md", "comparison.md")  # printed by bench/python
 REQUIREMENT = (ROOT / "examples/18_requirement.toml").read_text(encoding="utf-8")
 PLACED = REQUIREMENT.replace("tilt_deg = 10.0", 'tilt_deg = 10.0\ninternal_point = "best"')
 FILES = {
+    "admissible.md": {"examples/18_requirement.toml": REQUIREMENT},
     "certificate.md": {},
     "certify.md": {"examples/18_requirement.toml": REQUIREMENT, "placed.toml": PLACED},
     "first-design.md": {},

@@ -18,14 +18,14 @@ TREE = {
         ("Guides", _listed("characteristic-length regions reading-a-map assembly-modes confidence", "guides/")),
         (
             "Subjects",
-            _listed("conventions kinematics workspace failure optimization certificate certify sweeps")
+            _listed("conventions kinematics workspace failure optimization certificate certify admissible sweeps")
             + _listed("study-file figures viewer report exports"),
         ),
         ("The paper", _listed("paper values equations")),
         ("Theory and code", _listed("theory/index reference/index architecture extend testing wheels comparison")),
         ("Project", ["project/*"]),
     ],
-    "theory/index": [("", _listed(f"{THEORY} proof-machine workspace", "theory/"))],
+    "theory/index": [("", _listed(f"{THEORY} proof-machine admissible workspace", "theory/"))],
     "gallery/index": [("", ["gallery/examples/*"])],
     "reference/index": [
         ("Python", ["reference/python/*"]),

@@ -179,7 +179,7 @@ class DualLook {
   const std::array<int, P>& touched_;
 };
 
-/// The axes and sides of a robot as forms: the same in every box of poses; and its duty.
+/// The axes and sides of a robot as forms, and its duty: the same in every box of poses.
 template <class T>
 struct HomeOf {
   std::array<std::array<Xyz<T>, 6>, 2> axis;  ///< of base and platform

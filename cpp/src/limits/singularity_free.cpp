@@ -87,7 +87,7 @@ FormHome::FormHome(const Geometry& g, const Configuration& home, const LimitOpti
   duty = options.duty;
   set_axes(g, form_pose(home), options.axis, *this);
   const PosedPoints points = posed_points(g, home);
-  for (int which = 0; which < 3; ++which) side[at_index(which)] = PointLook(points, points, options).side(which);
+  for (int which = 0; which < 3; ++which) side[at_index(which)] = PointLook(points, points, options.axis).side(which);
 }
 
 constinit const PoseRow singularity_free_row = pose_row_of<Determinants>();

@@ -45,7 +45,7 @@ HEXAGON = nd.Study(variables=SIZES, constraints=ALL_LIMITS, objective={"region":
 AT = {"zp": 5.0, "zs": 3.0}
 CASES = {
     "all limits": (HEXAGON, ("a2", "b1"), {"at": AT}),
-    "three variables": (HEXAGON, ("a2", "b1", "zp"), {"at": {"zs": 3.0}, "time_limit": 6.0}),
+    "three variables": (HEXAGON, ("a2", "b1", "zp"), {"at": {"zs": 3.0}, "resolution": 0.1}),
     "condition number": (
         nd.Study(variables=SIZES, constraints={"radius_ratio": (None, 2.0)}, objective={"region": {"ball": 0.2}}),
         ("b1", "zs"),

@@ -109,6 +109,7 @@ class RoomSearch {
       if (size_ < before * (1.0 + growth)) growth *= 0.5;
       outer = grown({out_.low, out_.high}, growth);
     }
+    if (out_.found) push_sides();
     return out_;
   }
 
@@ -180,6 +181,59 @@ class RoomSearch {
     const double most = reach_along(bounds, along);
     if (!(most > 0.0)) return std::nullopt;
     return Vector((1.0 - 1e-9) * (proportions_.empty() ? widest(bounds, 0.3 * most * along) : Vector(most * along)));
+  }
+  bool proved(const DesignBox& box) {
+    for (std::size_t k = 0; k < count(); ++k)
+      if (!(box.low[k] < box.high[k])) return true;  // nothing was added
+    const Examined found = examiner_.examine({box, {}, {}, {}}, stop_);
+    out_.boxes += found.boxes;
+    return found.finished && found.known.complete && found.known.cuts.empty();
+  }
+  DesignBox pushed(std::size_t side, double by) const {
+    DesignBox out{out_.low, out_.high};
+    const std::size_t k = side / 2;
+    if (side % 2 == 0) out.low[k] = std::max(question_.low[k], out.low[k] - by);
+    else out.high[k] = std::min(question_.high[k], out.high[k] + by);
+    return out;
+  }
+  /// What is between a box and the same with one side farther out.
+  static DesignBox slab(const DesignBox& from, const DesignBox& to, std::size_t side) {
+    DesignBox out = to;
+    const std::size_t k = side / 2;
+    if (side % 2 == 0) out.high[k] = from.low[k];
+    else out.low[k] = from.high[k];
+    return out;
+  }
+  /// Planes of a whole box lose where limits are curved: sides go on by slabs, each proved alone; in given proportions all
+  /// sides at once.
+  void push_sides() {
+    constexpr double first = 0.25, last = 2e-3;
+    std::vector<double> step(proportions_.empty() ? 2 * count() : 1, first);
+    while (!stop_() && std::ranges::any_of(step, [](double x) { return x > last; }))
+      for (std::size_t n = 0; n < step.size() && !stop_(); ++n) {
+        if (!(step[n] > last)) continue;
+        const DesignBox from{out_.low, out_.high};
+        DesignBox to = from;
+        if (proportions_.empty()) {
+          to = pushed(n, step[n] * (from.high[n / 2] - from.low[n / 2]));
+        } else {
+          for (std::size_t k = 0; k < count(); ++k) {
+            to.low[k] = from.low[k] - step[n] * (design_[k] - from.low[k]);
+            to.high[k] = from.high[k] + step[n] * (from.high[k] - design_[k]);
+          }
+        }
+        bool all = true;
+        for (std::size_t side = 0; side < 2 * count() && all; ++side) {
+          const std::size_t k = side / 2;
+          const bool moved = side % 2 == 0 ? to.low[k] < from.low[k] : to.high[k] > from.high[k];
+          all = to.low[k] >= question_.low[k] && to.high[k] <= question_.high[k] && (!moved || proved(slab(from, to, side)));
+        }
+        const bool grew = to.low != from.low || to.high != from.high;
+        step[n] *= all && grew ? 1.2 : 0.5;
+        if (!all) continue;
+        out_.low = to.low;
+        out_.high = to.high;
+      }
   }
   DesignBox inside(const DesignBox& outer, const Vector& x) const {
     DesignBox out;
