@@ -107,7 +107,8 @@ void bind_admissible(py::module_& m) {
         const std::vector<DesignPiece> earlier =
             from.is_none() ? std::vector<DesignPiece>{} : pieces_from(from.cast<py::dict>(), question.varied.size());
         const DesignSet found = interruptible(
-            progress, [&](const WorkControl& control) { return admissible_designs(question, settings, earlier, control); },
+            progress,
+            [&](const WorkControl& control) { return admissible_designs(question, settings, earlier, control); },
             [](DesignSet& set) { return set.interrupted = true; });
         return found_designs(question, found);
       },

@@ -52,7 +52,7 @@ LegPairOf<T> leg_pair_forms(const FormLookOf<T, Robot>& look, int pair) {
 template <class T>
 T squared_distance_above(const LegPairOf<T>& legs) {
   const Xyz<T> x = legs.one.from + T(legs.middle.s) * (legs.one.to - legs.one.from),
-                   y = legs.two.from + T(legs.middle.t) * (legs.two.to - legs.two.from);
+               y = legs.two.from + T(legs.middle.t) * (legs.two.to - legs.two.from);
   return dot(x - y, x - y);
 }
 

@@ -32,7 +32,9 @@ struct LegLengths {
   static Interval read(const Interval& squared) { return sqrt(squared); }
   static Interval smooth(const Interval& length) { return square(length); }
   template <class Look>
-  static void moves(const Look& look, int item, Moves& out) { out.add(leg(look, item)); }
+  static void moves(const Look& look, int item, Moves& out) {
+    out.add(leg(look, item));
+  }
 };
 
 }  // namespace

@@ -146,7 +146,8 @@ struct Form {
   /// Of x >= 0: |second derivative| is x^(-3/2) / 4. No slope where x may be 0.
   friend Form sqrt(const Form& x) {
     const double w = radius(x), least = lower(x), most = upper(x);
-    if (!(least > 0.0)) return std::isfinite(most) ? of(Interval(0.0, detail::above(std::sqrt(std::max(most, 0.0))))) : unknown();
+    if (!(least > 0.0))
+      return std::isfinite(most) ? of(Interval(0.0, detail::above(std::sqrt(std::max(most, 0.0))))) : unknown();
     const double value = std::sqrt(x.c), part = w / least;
     const double rest = 0.125 * part * part * std::sqrt(least) * (1.0 + forms::grain);
     return linear(x, value, 0.5 / value, -rest, 0.0);

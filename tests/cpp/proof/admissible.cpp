@@ -86,7 +86,8 @@ TEST_CASE("what is proved of designs holds of those drawn at random") {
                  b1 = piece.low[1] + unit(random) * (piece.high[1] - piece.low[1]);
     if (piece.state == Membership::inside)
       for (int n = 0; n < 20; ++n) REQUIRE(margin(a2, b1, drawn(random)) > 0.0);
-    if (piece.state != Membership::outside || found.demands[static_cast<std::size_t>(piece.demand)].limit == "no singularity")
+    if (piece.state != Membership::outside ||
+        found.demands[static_cast<std::size_t>(piece.demand)].limit == "no singularity")
       continue;
     Vec6 at = Vec6::Zero();
     at.head<3>() = piece.at.shift;

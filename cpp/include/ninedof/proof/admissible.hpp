@@ -33,7 +33,7 @@ struct DesignQuestion {
 /// A number that a limit is about: what a part breaks.
 struct Demand {
   std::string limit;  ///< its label; "no singularity", "condition_number"
-  std::string part;   ///< the leg, pair of legs or determinant; empty where there is none
+  std::string part;  ///< the leg, pair of legs or determinant; empty where there is none
 };
 
 enum class Membership { inside, outside, undecided };
@@ -43,14 +43,14 @@ struct DesignPiece {
   std::array<double, most_varied> low{}, high{};
   Membership state = Membership::undecided;
   int demand = -1;  ///< of those outside: which is broken by all of them
-  MetAt at;         ///< and at which pose; of limits without a pose that of the neutral one
+  MetAt at;  ///< and at which pose; of limits without a pose that of the neutral one
 };
 
 struct DesignSettings {
-  int threads = 0;          ///< 0: one per processor
-  double seconds = 60.0;    ///< of wall time
+  int threads = 0;  ///< 0: one per processor
+  double seconds = 60.0;  ///< of wall time
   double resolution = 0.0;  ///< boxes are not divided below this part of each range
-  double undecided = 0.0;   ///< the search ends where no more of the volume is left
+  double undecided = 0.0;  ///< the search ends where no more of the volume is left
 };
 
 struct DesignSet {
@@ -58,7 +58,7 @@ struct DesignSet {
   std::vector<DesignPiece> pieces;  ///< a partition of the box
   double inside = 0.0, outside = 0.0, undecided = 1.0;  ///< shares of the volume
   long looked_at = 0;  ///< boxes of designs
-  long boxes = 0;      ///< of poses, with a box of designs each
+  long boxes = 0;  ///< of poses, with a box of designs each
   bool interrupted = false;
 };
 

@@ -60,8 +60,7 @@ class Descent {
   /// The pose of a box where the number is least in the middle of the designs, as far as its form says.
   Box worst_pose(const Open& one) const {
     const Domain& domain = designs_.poses().domain();
-    return one.seen.known ? domain.towards(one.seen.slope, one.box)
-                          : domain.nearest(over_region::middle_of(one.box));
+    return one.seen.known ? domain.towards(one.seen.slope, one.box) : domain.nearest(over_region::middle_of(one.box));
   }
   bool near_enough(const Seen& seen, const Met& met, double allowed) const {
     if (!seen.known || !std::isfinite(seen.kept.c)) return false;

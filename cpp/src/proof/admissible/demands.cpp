@@ -191,8 +191,7 @@ Found Spreads::look_at(const Spread& spread) {
     for (int j = 0; j < legs; ++j) {
       if ((spread.row->each_leg && i != j) || out.status == Found::Status::outside) continue;
       Found one = look_at(spread, i, j, false);
-      if (one.status != Found::Status::kept && one.status != Found::Status::outside)
-        one = look_at(spread, i, j, true);
+      if (one.status != Found::Status::kept && one.status != Found::Status::outside) one = look_at(spread, i, j, true);
       add(out, std::move(one));
     }
   out.boxes = boxes_ - before;
@@ -200,7 +199,8 @@ Found Spreads::look_at(const Spread& spread) {
 }
 
 Met Spreads::meet(const Spread& spread, const Loss& loss) const {
-  const Met l = designs_.meet(Length{loss.longest, -1.0}, loss.at), s = designs_.meet(Length{loss.shortest, 1.0}, loss.other);
+  const Met l = designs_.meet(Length{loss.longest, -1.0}, loss.at),
+            s = designs_.meet(Length{loss.shortest, 1.0}, loss.other);
   if (!l.known || !s.known) return {};
   return {true, margin(spread, l.most, s.most, true), l.open + s.open};
 }
@@ -215,7 +215,8 @@ Found look_at(const DesignForms& forms, const Alone& alone) {
   Found out;
   for (int item = 0; item < alone.row->items(alone.side); ++item) {
     const auto [a, b] = alone.row->joints(middle, alone.side, item);
-    DesignForm value = alone.row->form({forms.plates[at_index(a)], forms.plates[at_index(b)], forms.zp, forms.zs}, item);
+    DesignForm value =
+        alone.row->form({forms.plates[at_index(a)], forms.plates[at_index(b)], forms.zp, forms.zs}, item);
     DesignForm bound = alone.bound;
     bool certain = true;
     if (alone.row->picks_widest) {

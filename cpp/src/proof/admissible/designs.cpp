@@ -15,9 +15,9 @@ void put_orbit(const DesignVector& first, int triple, JointsOf<DesignForm>& out)
   constexpr double half_root = 0.5 * std::numbers::sqrt3;
   const std::array<double, 3> cosine{1.0, -0.5, -0.5}, sine{0.0, -half_root, half_root};
   for (std::size_t i = 0; i < 3; ++i)
-    out[at_index(triple) + i] =
-        i == 0 ? first
-               : DesignVector{cosine[i] * first.x - sine[i] * first.y, sine[i] * first.x + cosine[i] * first.y, first.z};
+    out[at_index(triple) + i] = i == 0 ? first
+                                       : DesignVector{cosine[i] * first.x - sine[i] * first.y,
+                                                      sine[i] * first.x + cosine[i] * first.y, first.z};
 }
 
 struct Blueprints {

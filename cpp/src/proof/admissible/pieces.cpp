@@ -99,7 +99,8 @@ class Division {
         continue;
       }
       for (const Plane* cut : cuts) most[k] = std::max(most[k], std::abs(cut->a[k]) / slopes_of(*cut) * width);
-      for (const Loss* loss : losses) most[k] = std::max(most[k], std::abs(loss->most.a[k]) / slopes_of(loss->most) * width);
+      for (const Loss* loss : losses)
+        most[k] = std::max(most[k], std::abs(loss->most.a[k]) / slopes_of(loss->most) * width);
     }
     if (cuts.empty() && losses.empty()) return -1;
     const auto greatest = std::max_element(most.begin(), most.begin() + static_cast<std::ptrdiff_t>(dimensions_));
@@ -110,8 +111,9 @@ class Division {
     DesignBox out;
     for (std::size_t k = 0; k < dimensions_; ++k) {
       const auto at = [&](double t) {
-        return t <= -1.0 ? box_.low[k] : t >= 1.0 ? box_.high[k]
-                                                  : box_.low[k] + 0.5 * (t + 1.0) * (box_.high[k] - box_.low[k]);
+        return t <= -1.0  ? box_.low[k]
+               : t >= 1.0 ? box_.high[k]
+                          : box_.low[k] + 0.5 * (t + 1.0) * (box_.high[k] - box_.low[k]);
       };
       out.low[k] = at(node.low[k]);
       out.high[k] = at(node.high[k]);

@@ -21,8 +21,7 @@ void DesignQuestion::validate() const {
     throw InvalidArgument("low, high", "other sizes", "an end for each variable that varies");
   for (std::size_t k = 0; k < varied.size(); ++k) {
     const int index = varied[k];
-    if (index < 0 || static_cast<std::size_t>(index) >= variables.size() ||
-        std::ranges::count(varied, index) != 1)
+    if (index < 0 || static_cast<std::size_t>(index) >= variables.size() || std::ranges::count(varied, index) != 1)
       throw InvalidArgument("vary", std::to_string(index), "variables of the family, each once");
     if (!(low[k] < high[k] && std::isfinite(low[k]) && std::isfinite(high[k])))
       throw InvalidArgument(variables[static_cast<std::size_t>(index)].name, format_interval(low[k], high[k]),

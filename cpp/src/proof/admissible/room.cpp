@@ -284,10 +284,13 @@ DesignRoom room_around(const DesignQuestion& question, const std::vector<double>
   for (const double one : proportions)
     if (!(one > 0.0 && std::isfinite(one))) throw InvalidArgument("proportions", format_number(one), "numbers above 0");
   const auto start = std::chrono::steady_clock::now();
-  return admissible::RoomSearch(question, design, proportions, [&] {
-           return control.stop.stop_requested() ||
-                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds;
-         }).run();
+  return admissible::RoomSearch(
+             question, design, proportions,
+             [&] {
+               return control.stop.stop_requested() ||
+                      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds;
+             })
+      .run();
 }
 
 }  // namespace ninedof

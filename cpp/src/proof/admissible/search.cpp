@@ -108,7 +108,8 @@ DesignSet admissible_designs(const DesignQuestion& question, const DesignSetting
     }
     std::vector<LookedAt> found(now.size());
     parallel_for(static_cast<long>(now.size()), 1, settings.threads, [&](long first, long last) {
-      for (long n = first; n < last; ++n) found[static_cast<std::size_t>(n)] = search.look(now[static_cast<std::size_t>(n)], stopped);
+      for (long n = first; n < last; ++n)
+        found[static_cast<std::size_t>(n)] = search.look(now[static_cast<std::size_t>(n)], stopped);
     });
     for (std::size_t n = 0; n < found.size(); ++n) {
       if (!found[n].finished) {
@@ -139,7 +140,7 @@ DesignSet admissible_designs(const DesignQuestion& question, const DesignSetting
     const double share = volume_of({piece.low, piece.high}, question.varied.size()) / whole;
     (piece.state == Membership::inside    ? out.inside
      : piece.state == Membership::outside ? out.outside
-                                           : out.undecided) += share;
+                                          : out.undecided) += share;
   }
   return out;
 }
