@@ -91,6 +91,6 @@ TEST_SUITE("box_share") {
       CHECK(most >= product(way, t) - 1e-12);
       CHECK(least >= level - 1e-12 * (reach(a) + std::abs(level)));
     }
-    CHECK(hull_above({1.0, 1.0, 1.0}, 3.1).empty());
+    CHECK(hull_above(Slope3{1.0, 1.0, 1.0}, 3.1).empty());
   }
 }

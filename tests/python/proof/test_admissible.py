@@ -185,7 +185,12 @@ def test_every_design_outside_breaks_the_limit_that_is_named_at_the_pose_that_is
             limit = min(x for x in (case.of.condition_number, case.study.objective.condition_limit) if x is not None)
             assert index.max() > limit * (1.0 - ROUNDING)
         elif reason.limit == "no singularity":
-            continue
+            robot = robot_of(posed(case.study, there) if there else case.study, variables)
+            home, seen = (nd.singularity_margins(robot.geometry, c) for c in (robot.neutral, robot.poses))
+            name = "det_" + reason.part.removeprefix("det ").lower()
+            assert (np.sign(getattr(home, name)) * getattr(seen, name)).min() < ROUNDING
+        elif reason.limit == "zp > zs":
+            assert not 0.0 < variables["zs"] < variables["zp"]
         else:
             assert every[reason.limit].min() < ROUNDING, (reason, row)
 
@@ -202,3 +207,65 @@ def test_designs_outside_by_a_spread_have_legs_of_such_lengths(case):
         every, _ = everything(case.study, random_poses(region, 4000, rng, 1.0), variables_of(case, row))
         # The worst pose is hardly drawn: most designs outside are far enough from the limit.
         assert every[reason.limit].min() < 0.02, (reason, row)
+
+
+def test_a_limit_of_lengths_at_the_neutral_pose_is_of_that_pose():
+    at = {"zp": 5.0, "zs": 3.0}
+    ranges = {"a2": (2.0, 10.0), "b1": (1.0, 5.0)}
+    limits = {"leg_ratio": {"max": 2.0, "at": "neutral"}}
+    over_region = nd.Study(variables=SIZES, constraints=limits, objective={"region": BOX})
+    alone = nd.Study(variables=SIZES, constraints={"leg_ratio": (None, 2.0)})
+    one, two = (nd.admissible(study, ranges, at=at, resolution=0.05) for study in (over_region, alone))
+    assert one.excluded["leg_ratio at neutral"] == pytest.approx(two.excluded["leg_ratio"], abs=0.02)
+
+
+def test_legs_that_share_a_joint_in_the_study_may_collide_where_more_is_asked_about():
+    """With a1 = 0 joints coincide in pairs; with a1 free they do not, and legs that meet there are too near."""
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "zp": 5.0, "zs": 3.0},
+        constraints={"leg_clearance": (0.5, None)},
+    )
+    found = nd.admissible(study, {"a1": (0.0, 2.0)}, resolution=0.01)
+    for a1, state in ((0.1, "outside"), (1.9, "inside")):
+        assert found.state_of([[a1]]) == [state]
+    free = nd.Study(variables=dict(study.variables) | {"a1": (0.0, 2.0)}, constraints={"leg_clearance": (0.5, None)})
+    assert nd.admissible(free, ("a1",), resolution=0.01).shares == pytest.approx(found.shares, abs=1e-9)
+
+
+def test_o_beyond_a_plate_is_outside():
+    study = nd.Study(variables={"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0})
+    found = nd.admissible(study, {"zp": (2.0, 6.0), "zs": (1.0, 5.0)}, resolution=0.02)
+    assert found.excluded["zp > zs"] == pytest.approx(9.0 / 32.0, abs=0.01)
+    assert found.state_of([[3.0, 3.5], [5.0, 3.0]]) == ["outside", "inside"]
+
+
+def test_no_design_is_inside_near_one_that_is_singular_at_home():
+    """theta_z = 90 degrees: all six-legged platforms turn freely; det N changes its sign along theta_z."""
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "zp": 5.0, "zs": 3.0, "theta_z": (-2.0, 2.0)}
+    )
+    found = nd.admissible(study, ("theta_z",), resolution=0.001)
+    for low, high in found.inside[:, 0, :]:
+        for theta in np.linspace(low, high, 5):
+            robot = robot_of(study, dict(found.of.at) | {"theta_z": float(theta)})
+            assert np.isfinite(nd.condition_number(robot.geometry, robot.neutral))
+    assert found.shares["undecided"] < 0.01
+    assert found.shares["inside"] > 0.9
+
+
+@pytest.mark.parametrize(
+    ("objective", "constraints", "words"),
+    [
+        (
+            {"poses": [{"position": (0, 0.5, 0)}]},
+            {"singularity_free": (0.01, None)},
+            "singularity_free: got a limit of the",
+        ),
+        ({}, {"leg_ratio": (1.2, None)}, "leg_ratio: got a least value"),
+        ({}, {}, "a2: got .*, expected a length"),
+    ],
+)
+def test_what_has_no_bounds_over_boxes_of_designs_is_refused(objective, constraints, words):
+    study = nd.Study(variables=SIZES, objective=objective, constraints=constraints)
+    with pytest.raises(ValueError, match=words):
+        nd.admissible(study, {"a2": (-2.0, 10.0) if not constraints else (2.0, 10.0)}, at={"b1": 3.0, **AT})

@@ -123,11 +123,12 @@ class LinearTest {
     }
     return true;
   }
-  bool holds_for(const std::vector<Slope<ConditionSplitOf<T>::cuts>>& all) const {
-    // Points that differ by a coordinate that moves nothing are one.
+  /// Of points that differ by a coordinate that moves nothing, neither the matrix nor the plane, one is enough.
+  bool holds_for(const std::vector<Slope<ConditionSplitOf<T>::cuts>>& all,
+                 const Slope<ConditionSplitOf<T>::cuts>& plane) const {
     const auto repeats = [&](const auto& cut) {
       for (std::size_t k = 0; k < cut.size(); ++k)
-        if (cut[k] > 0.0 && !moves(ConditionSplitOf<T>::first_cut + k)) return true;
+        if (cut[k] > 0.0 && plane[k] == 0.0 && !moves(ConditionSplitOf<T>::first_cut + k)) return true;
       return false;
     };
     return std::ranges::all_of(all, [&](const auto& cut) { return repeats(cut) || holds_for(cut); });
@@ -267,8 +268,8 @@ ConditionSplitOf<T> split_by_condition(const SplitGramOf<T>& g, double condition
     level = step - most;
   }
   for (int n = 0; n < tries && level < most; ++n, step *= wider, level += step) {
-    auto points = hull_above<Split::cuts>(out.slope, level);
-    if (!test.holds_for(points)) continue;
+    const auto points = hull_above<Split::cuts>(out.slope, level);
+    if (!test.holds_for(points, out.slope)) continue;
     if (!points.empty()) out.level = level;
     break;
   }

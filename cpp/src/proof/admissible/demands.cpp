@@ -90,6 +90,19 @@ void add(Found& all, Found one) {
     all.status = one.status;
 }
 
+/// Those whose joints coincide in every design of the study, and in every design that is asked about: it may be asked
+/// about more than the study has.
+std::array<bool, leg_pairs> pairs_that_may_meet(const DesignQuestion& question) {
+  Problem asked = question.problem;
+  for (std::size_t k = 0; k < question.at.size(); ++k) asked.variables[k] = {question.at[k], question.at[k]};
+  for (std::size_t k = 0; k < question.varied.size(); ++k)
+    asked.variables[at_index(question.varied[k])] = {question.low[k], question.high[k]};
+  std::array<bool, leg_pairs> out = exempt_pairs(question.problem);
+  const std::array<bool, leg_pairs> there = exempt_pairs(asked);
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = out[k] && there[k];
+  return out;
+}
+
 Box home_pose() {
   Box out;
   out.piece = -1;
@@ -99,7 +112,7 @@ Box home_pose() {
 }  // namespace
 
 Demands::Demands(const DesignQuestion& question) {
-  const std::array<bool, leg_pairs> exempt = exempt_pairs(question.problem);
+  const std::array<bool, leg_pairs> exempt = pairs_that_may_meet(question);
   for (const LimitRow& row : limit_rows()) {
     if (row.info.kind != LimitKind::sign) continue;
     Item item;
@@ -107,6 +120,7 @@ Demands::Demands(const DesignQuestion& question) {
     item.with_neutral = true;
     add_poses(*this, row, item, "no singularity", exempt);
   }
+  between_plates = named(*this, "zp > zs", "");
   const auto& limits = question.problem.limits;
   for (std::size_t n = 0; n < limits.size(); ++n) {
     const Limit& limit = limits[n];
@@ -127,7 +141,7 @@ Demands::Demands(const DesignQuestion& question) {
       } else if (side == Side::high) {
         const int count = row.spread->each_leg ? legs : 1, first = static_cast<int>(names.size());
         for (int leg = 0; leg < count; ++leg) named(*this, limit.label(), count == 1 ? "" : leg_name(leg));
-        spreads.push_back({row.spread, given, limit.of == Unit::zp, first});
+        spreads.push_back({row.spread, given, limit.of == Unit::zp, limit.at == LimitAt::neutral, first});
       }
     }
   }
@@ -138,12 +152,14 @@ Demands::Demands(const DesignQuestion& question) {
 
 Spreads::Spreads(const DesignsAt& designs, const Stop& stop) : designs_(designs), stop_(stop) {}
 
-const Envelope& Spreads::of(int leg, double sign, bool closely) {
-  Envelope& one = known_[closely][sign > 0.0][at_index(leg)];
+const Envelope& Spreads::of(const Spread& spread, int leg, double sign, bool closely) {
+  Envelope& one = known_[spread.at_neutral][closely][sign > 0.0][at_index(leg)];
   if (one.boxes > 0) return one;
   const Met home = designs_.meet(Length{leg, 1.0}, home_pose());
   const double roughly = home.known ? part_of_length * home.most.c : 0.0;
-  one = envelope(designs_, {leg, sign}, designs_.poses().all(), closely ? 0.0 : roughly, stop_);
+  const Poses& poses = designs_.poses();
+  one = envelope(designs_, {leg, sign}, spread.at_neutral ? poses.neutral() : poses.all(), closely ? 0.0 : roughly,
+                 stop_);
   boxes_ += one.boxes;
   return one;
 }
@@ -151,7 +167,7 @@ const Envelope& Spreads::of(int leg, double sign, bool closely) {
 /// K shortest - longest, or S - (longest - shortest), of two legs.
 Found Spreads::look_at(const Spread& spread, int longest, int shortest, bool closely) {
   Found out;
-  const Envelope &l = of(longest, -1.0, closely), &s = of(shortest, 1.0, closely);
+  const Envelope &l = of(spread, longest, -1.0, closely), &s = of(spread, shortest, 1.0, closely);
   if (!l.known || !s.known) {
     out.status = Found::Status::unknown;
     return out;
@@ -203,6 +219,13 @@ Met Spreads::meet(const Spread& spread, const Loss& loss) const {
             s = designs_.meet(Length{loss.shortest, 1.0}, loss.other);
   if (!l.known || !s.known) return {};
   return {true, margin(spread, l.most, s.most, true), l.open + s.open};
+}
+
+Found look_at_heights(const DesignForms& forms, int demand) {
+  Found out;
+  for (const DesignForm& margin : {forms.zp - forms.zs, forms.zs})
+    add(out, plane_found(margin, demand, true, home_pose()));
+  return out;
 }
 
 Found look_at(const DesignForms& forms, const Alone& alone) {

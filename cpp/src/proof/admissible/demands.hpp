@@ -12,7 +12,7 @@ namespace ninedof::admissible {
 struct Spread {
   const SpreadRow* row;
   double high;
-  bool of_zp;
+  bool of_zp, at_neutral;
   int demand;  ///< of leg 1, where each leg has its own
 };
 
@@ -31,6 +31,7 @@ struct Demands {
   std::vector<Item> items;
   std::vector<Spread> spreads;
   std::vector<Alone> alone;
+  int between_plates = 0;  ///< 0 < zs < zp, eq. (9b), which holds in every study
 };
 
 /// The lengths of the legs over all poses, each looked for once.
@@ -42,16 +43,18 @@ class Spreads {
   Met meet(const Spread& spread, const Loss& loss) const;
 
  private:
-  const Envelope& of(int leg, double sign, bool closely);
+  const Envelope& of(const Spread& spread, int leg, double sign, bool closely);
   Found look_at(const Spread& spread, int longest, int shortest, bool closely);
   Plane margin(const Spread& spread, const Plane& less_longest, const Plane& shortest, bool above) const;
 
   const DesignsAt& designs_;
   const Stop& stop_;
-  std::array<std::array<std::array<Envelope, 9>, 2>, 2> known_;
+  /// At the neutral pose alone or not, closely or not, shortest or longest.
+  std::array<std::array<std::array<std::array<Envelope, 9>, 2>, 2>, 2> known_;
   long boxes_ = 0;
 };
 
+Found look_at_heights(const DesignForms& forms, int demand);
 Found look_at(const DesignForms& forms, const Alone& alone);
 
 }  // namespace ninedof::admissible

@@ -72,8 +72,8 @@ Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
   Knowledge& known = out.known;
   out.inherited = asked;
   std::vector<char>& kept = out.inherited.kept;
-  kept.resize(demands_.items.size() + demands_.spreads.size() + demands_.alone.size(), 0);
-  bool complete = designs.known();
+  kept.resize(1 + demands_.items.size() + demands_.spreads.size() + demands_.alone.size(), 0);
+  bool all_looked_at = false, complete = designs.known();
   double width = 0.0;
   for (std::size_t k = 0; k < question_.varied.size(); ++k)
     width = std::max(width, (asked.box.high[k] - asked.box.low[k]) / (question_.high[k] - question_.low[k]));
@@ -90,6 +90,8 @@ Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
   };
   const auto all = [&] {
     std::size_t n = 0;
+    if (kept[n] == 0 && took(n, look_at_heights(designs.forms(), demands_.between_plates))) return;
+    ++n;
     for (const Alone& alone : demands_.alone) {
       if (kept[n] == 0 && took(n, look_at(designs.forms(), alone))) return;
       ++n;
@@ -114,10 +116,11 @@ Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
       if (kept[n] == 0 && took(n, climb(designs, item, roots, width, stop))) return;
       ++n;
     }
+    all_looked_at = true;
   };
   all();
   out.finished = !stop();
-  known.complete = complete;
+  known.complete = complete && all_looked_at;
   out.inherited.near = nearest_losses(known.losses);
   return out;
 }

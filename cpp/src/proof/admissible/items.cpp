@@ -84,6 +84,9 @@ DesignsAt::DesignsAt(const DesignQuestion& question, const Poses& poses, const D
   for (const Limit& limit : question.problem.limits) homes_.push_back(home_of(forms_, limit.axis));
   for (const auto& body : homes_.front().axis)
     for (const DesignVector& axis : body) known_ = known_ && is_known(axis.x);
+  const DesignLook at_home(forms_.joints, forms_.home, homes_.front());
+  for (int k = 0; k < singularity_free_row.items; ++k)
+    side_known_[at_index(k)] = lower(singularity_free_row.design_numerator(at_home, k)) > 0.0;
 }
 
 Seen DesignsAt::seen(const DesignForm& f, const Box& box) const {
@@ -175,6 +178,8 @@ Seen DesignsAt::look(const Item& item, const Box& box) const {
 }
 
 Met DesignsAt::meet(const Item& item, const Box& point) const {
+  // A determinant breaks its limit on the side of each design's own home.
+  if (item.kind == Item::Kind::number && item.row->on_the_way && !side_known_[at_index(item.item)]) return {};
   const PoseOf<DesignForm> pose = poses_.pose(point, forms_);
   if (item.kind == Item::Kind::condition) {
     Moves unused;

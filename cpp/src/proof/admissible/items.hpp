@@ -107,6 +107,7 @@ class DesignsAt {
   DesignForms forms_;
   std::vector<HomeOf<DesignForm>> homes_;
   bool known_ = true;
+  std::array<bool, 3> side_known_{};  ///< of each determinant: of one sign at home, in all designs
 };
 
 }  // namespace ninedof::admissible

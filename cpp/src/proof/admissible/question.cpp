@@ -23,6 +23,9 @@ void DesignQuestion::validate() const {
     const int index = varied[k];
     if (index < 0 || static_cast<std::size_t>(index) >= variables.size() || std::ranges::count(varied, index) != 1)
       throw InvalidArgument("vary", std::to_string(index), "variables of the family, each once");
+    const VariableInfo& variable = variables[static_cast<std::size_t>(index)];
+    if (variable.kind == VariableKind::length && low[k] < 0.0)
+      throw InvalidArgument(variable.name, format_interval(low[k], high[k]), "a length, low >= 0");
     if (!(low[k] < high[k] && std::isfinite(low[k]) && std::isfinite(high[k])))
       throw InvalidArgument(variables[static_cast<std::size_t>(index)].name, format_interval(low[k], high[k]),
                             "low < high, both finite");
@@ -43,6 +46,10 @@ void DesignQuestion::validate() const {
     if (row.pose != nullptr && row.pose->first_locked >= 0) locked = true;
     else if (row.pose != nullptr && !row.pose->pairs && row.pose->design_form == nullptr)
       throw InvalidArgument(limit.label(), "a limit without bounds over boxes of designs", "a study without it");
+    const bool way_outside =
+        region.empty() ? !problem.objective.poses.empty() : region.front().shape == Region::Shape::path;
+    if (row.on_the_way() && limit.at == LimitAt::poses && way_outside)
+      throw InvalidArgument(limit.label(), "a limit of the ways to poses", "a region that has these ways in it");
     if (row.spread != nullptr && limit.low > 0.0)
       throw InvalidArgument(limit.label(), "a least value", "a greatest value alone");
   }
