@@ -29,6 +29,9 @@ def changed_variables(study: Study, own: Mapping[str, float], changes: Mapping[s
         if name not in names and name not in [f"{angle}_deg" for angle in angles]:
             raise ValueError(f"changes: got {shown(name)}, expected one of {', '.join(names)}")
     degrees = {name: _value(name, value, own) for name, value in changes.items()}
+    for name in angles:
+        if abs(degrees.get(name, 0.0)) > 2.0 * math.pi:
+            raise ValueError(f"{name}: got {degrees[name]:g} rad, expected at most a turn, or {name}_deg")
     values = dict(own) | in_radians(degrees, dict.fromkeys(angles, finite))
     for name, kind in kinds.items():
         finite(name, values[name], 0.0 if kind == "length" else -math.inf)
@@ -36,6 +39,8 @@ def changed_variables(study: Study, own: Mapping[str, float], changes: Mapping[s
         Study(study.family, variables={name: values[name] for name in kinds})  # raises where zs is above zp
     except ValueError as error:
         raise ValueError(f"{', '.join(changes)}: {error}") from None
+    if not 0.0 < values["zs"] < values["zp"]:
+        raise ValueError(f"{', '.join(changes)}: got zs = {values['zs']:g}, expected 0 < zs < zp = {values['zp']:g}")
     if values.get(LENGTH, 1.0) <= 0.0:
         raise ValueError(f"{LENGTH}: got {values[LENGTH]:g}, expected a length, more than 0")
     return values

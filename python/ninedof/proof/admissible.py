@@ -32,6 +32,7 @@ MOST_VARIED = 4
 ENOUGH = 1e-5  # of the volume: what is undecided below it is not looked at
 AROUND_SECONDS = 20.0
 LONGEST = 1e9  # seconds
+METHOD = 2  # of the proofs: sets that another one proved are not gone on with
 POSES, SIDE = 400, 25  # of the sample: poses of the region, designs along a side
 
 
@@ -83,6 +84,8 @@ class DesignRange:
     """All variables: of those that vary the design that is marked, or the middle."""
     condition_number: float | None
     """A bound besides the limits of the study."""
+    moved: tuple[str, ...] = ()
+    """The variables whose value in the result or the study lies outside of the range: `at` has the middle."""
 
     def for_core(self) -> _core.DesignQuestion:
         """Return the question as the core takes it."""
@@ -125,7 +128,7 @@ class DesignRange:
     @property
     def digest(self) -> str:
         """Digest of the question: another run goes on with the same question only."""
-        asked = (self.study.to_dict(), self.vary, self.ranges, sorted(self.at.items()), self.condition_number)
+        asked = (METHOD, self.study.to_dict(), self.vary, self.ranges, sorted(self.at.items()), self.condition_number)
         return sha256(repr(asked).encode()).hexdigest()
 
     @property
@@ -242,6 +245,9 @@ class AdmissibleSet:
 
         """
         values = self.of.at if design is None else _values(design)
+        for name in set(self.study.variables) - set(self.vary):
+            if name in values and abs(values[name] - self.of.at[name]) > 1e-9 * abs(self.of.at[name]):
+                raise ValueError(f"design.{name}: got {values[name]:g}, expected {self.of.at[name]:g}, as in the set")
         missing = [name for name in self.vary if name not in values]
         if missing:
             raise ValueError(f"design: got no {missing[0]}, expected a value of {', '.join(self.vary)}")
@@ -279,6 +285,8 @@ class AdmissibleSet:
             f"Proved, of all designs with {self.of.words}: {inside} keep every limit{bound} at every pose, "
             f"{outside} break one; {undecided} are not decided."
         ]
+        if self.of.moved:
+            out.append(f"The design's {' and '.join(self.of.moved)} is outside of the range: the middle is marked.")
         if self.excluded:
             by = ", ".join(f"{name.replace('_', ' ')} {share:.2%}" for name, share in self.excluded.items())
             out.append(f"Excluded by: {by}.")
@@ -406,15 +414,17 @@ def design_range(
     if not 1 <= len(given) <= MOST_VARIED:
         raise ValueError(f"vary: got {shown(vary)}, expected {expected}")
     ranges = tuple(_range(study, name, ends) for name, ends in given.items())
+    known, moved = set(values), list[str]()
     for name, (low, high) in zip(given, ranges, strict=True):
         if not low <= values.get(name, math.nan) <= high:
             values[name] = 0.5 * (low + high)
+            moved += [name] if name in known else []
     missing = [name for name in study.variables if name not in values]
     if missing:
         raise ValueError(f"at: got no {missing[0]}, expected a value: it is free in the study and does not vary")
     if condition_number is not None:
         condition_number = finite("condition_number", condition_number, 1.0)
-    return DesignRange(study, tuple(given), ranges, Fixed(values), condition_number)
+    return DesignRange(study, tuple(given), ranges, Fixed(values), condition_number, tuple(moved))
 
 
 def _values(of: HasDesign | Mapping[str, float]) -> Mapping[str, float]:

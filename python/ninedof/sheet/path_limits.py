@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -14,10 +15,11 @@ from ninedof.design.limits import kind_of
 from ninedof.design.study import Study
 from ninedof.motion.follow import Followed, LimitBreak, stretches
 from ninedof.robot.configuration import Configuration, single
+from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.pose_limits import PoseLimit, pose_limits
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
-from ninedof.support.margins import tolerance_of
+from ninedof.support.margins import margin_of, tolerance_of
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -71,7 +73,8 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     """Return the margins of the limits of a study along a motion.
 
     Every limit at poses but those on leg lengths, which are limits of `follow`: cones, clearance, determinants,
-    condition number, and spreads of lengths. A spread at a time is that over the path until then.
+    condition number, and spreads of lengths. A spread at a time is that over the path until then. Limits of rates are
+    held against those of the motion, and of forces and powers where it has a load; else those at rest count.
 
     Parameters
     ----------
@@ -101,4 +104,17 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     g = instance("followed", followed, Followed).geometry
     single(g, home, "home")
     every = pose_limits(study, g, followed.configurations, home, followed.characteristic_length)
-    return PathLimits(followed.time, tuple(one for one in every if one.name not in OF_LENGTHS))
+    forces, rates = followed.leg_forces, followed.leg_rates
+    moving = {"rate": rates} if forces is None else {"rate": rates, "force": forces, "power": forces * rates}
+    rows = [one for one in every if one.name not in OF_LENGTHS and one.name not in moving]
+    return PathLimits(followed.time, (*rows, *_of_motion(study, moving)))
+
+
+def _of_motion(study: Study, values: Mapping[str, Floats]) -> Iterator[PoseLimit]:
+    """Yield the limits of forces, rates and powers of a motion, each of shape (n, 9)."""
+    for limit in study.limits:
+        if limit.name not in values or limit.at != "poses":
+            continue
+        for leg, value in zip(LEGS, np.abs(values[limit.name]).T, strict=True):
+            margin = margin_of(limit.kind, "max", limit.high, value)
+            yield PoseLimit(limit.name, leg, "max", limit.high, value, np.asarray(margin))

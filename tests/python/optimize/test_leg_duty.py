@@ -118,6 +118,21 @@ def test_a_path_names_the_leg_that_passes_one(result):
     assert {entry.limit for entry in broken} >= {"force r3 max"}
 
 
+def test_a_path_is_held_against_its_own_rates_and_forces(result):
+    line = nd.Trajectory.line(result.configuration, [30.0, 0.0, 0.0], duration=0.05)
+    motion = nd.follow(result, line, load=([0.0, 0.0, -5.0], None))
+    limits = nd.path_limits(STUDY, motion, result.configuration).limits
+    for name, numbers in (
+        ("rate", motion.leg_rates),
+        ("force", motion.leg_forces),
+        ("power", motion.leg_forces * motion.leg_rates),
+    ):
+        values = np.stack([one.value for one in limits if one.name == name], axis=-1)
+        np.testing.assert_array_equal(values, np.abs(numbers))
+    worst = {row["name"]: row["margin"] for row in nd.path_limits(STUDY, motion, result.configuration).worst()}
+    assert worst["rate"] < 0.0 < worst["force"]
+
+
 def test_the_largest_payload_is_proved(result):
     with_legs = replace(STUDY, constraints={})
     mass = nd.largest_payload(replace(result, study=with_legs), force=600.0).mass

@@ -14,6 +14,7 @@ from ninedof.optimize.region_report import posed
 ROUNDING = 1e-9
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": (2.0, 8.0), "zs": (1.0, 6.0)}
 BOX = {"box": (0.4, 0.4, 0.3), "tilt": 0.12}
+BOX_REGION = nd.Region(**BOX)
 SYMMETRIC = {
     "base_external_radius": (2.0, 6.0),
     "base_internal_radius": (1.0, 5.0),
@@ -239,18 +240,65 @@ def test_o_beyond_a_plate_is_outside():
     assert found.state_of([[3.0, 3.5], [5.0, 3.0]]) == ["outside", "inside"]
 
 
-def test_no_design_is_inside_near_one_that_is_singular_at_home():
-    """theta_z = 90 degrees: all six-legged platforms turn freely; det N changes its sign along theta_z."""
+def test_no_box_inside_has_designs_of_both_signs_at_home():
+    """Along theta_z det N at the neutral pose changes its sign: its zeros are in no box that is inside."""
     study = nd.Study(
         variables={"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "zp": 5.0, "zs": 3.0, "theta_z": (-2.0, 2.0)}
     )
     found = nd.admissible(study, ("theta_z",), resolution=0.001)
-    for low, high in found.inside[:, 0, :]:
-        for theta in np.linspace(low, high, 5):
-            robot = robot_of(study, dict(found.of.at) | {"theta_z": float(theta)})
-            assert np.isfinite(nd.condition_number(robot.geometry, robot.neutral))
+
+    def sign(theta):
+        robot = robot_of(study, dict(found.of.at) | {"theta_z": float(theta)})
+        return float(np.sign(nd.singularity_margins(robot.geometry, robot.neutral).det_n))
+
+    signs = [{sign(theta) for theta in np.linspace(*ends, 5)} for ends in found.inside[:, 0, :]]
+    assert all(len(seen) == 1 for seen in signs)
+    assert {value for seen in signs for value in seen} == {-1.0, 1.0}
     assert found.shares["undecided"] < 0.01
     assert found.shares["inside"] > 0.9
+
+
+def test_the_room_around_a_design():
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0},
+        constraints={"leg_length": (None, 7.0), "footprint": (None, 5.0)},
+        objective={"region": BOX},
+    )
+    found = nd.admissible(study, ("a2", "b1"), at={"a2": 6.0, "b1": 3.0}, resolution=0.05)
+    room = found.around()
+    assert all(low < found.of.at[name] < high for name, (low, high) in room.items())
+    rng = np.random.default_rng(6)
+    least = math.inf
+    for a2 in room["a2"]:
+        for b1 in room["b1"]:
+            every, _ = everything(
+                study, random_poses(BOX_REGION, 800, rng, 1.0), dict(found.of.at) | {"a2": a2, "b1": b1}
+            )
+            least = min(least, *(float(values.min()) for values in every.values()))
+    assert 0.0 < least < 0.02  # its sides go on until a limit is near
+    wide = found.around(proportions={"a2": 2.0, "b1": 1.0})
+    assert np.ptp(wide["a2"]) == pytest.approx(2.0 * np.ptp(wide["b1"]))
+    with pytest.raises(ValueError, match=r"design: got a2 = 9.5, b1 = 1.5, expected one that is inside: it breaks"):
+        found.around({"a2": 9.5, "b1": 1.5})
+    with pytest.raises(ValueError, match=r"design.zp: got 4, expected 5, as in the set"):
+        found.around({"a2": 6.0, "b1": 3.0, "zp": 4.0})
+
+
+def test_a_design_on_a_limit_has_no_room():
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "zp": (2.0, 8.0), "zs": 1.5},
+        constraints={"height": (None, 5.0)},
+    )
+    found = nd.admissible(study, ("zp",), at={"zp": 5.0}, resolution=0.01)
+    assert found.excluded["height"] == pytest.approx(0.5, abs=0.01)
+    with pytest.raises(ValueError, match="design: got zp = 5, expected one around which a box is proved"):
+        found.around()
+
+
+def test_a_design_outside_of_the_range_is_told():
+    study = nd.Study(variables={"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "zp": 5.0, "zs": 3.0})
+    found = nd.admissible(study, {"a2": (7.0, 9.0)}, resolution=0.1)
+    assert "The design's a2 is outside of the range: the middle is marked." in str(found)
 
 
 @pytest.mark.parametrize(

@@ -32,11 +32,13 @@ bool is_above(const Plane& x, const Plane& y) {
 }
 
 /// The widest coordinate where forms say nothing.
-int coordinate_to_divide(const Box& box, const Box& root, const Seen& seen) {
+int coordinate_to_divide(const Box& box, const std::vector<Box>& roots, const Seen& seen) {
   if (const int k = over_region::divided_coordinate(box, seen.moves.along); seen.known || k >= 0) return k;
   std::array<double, PoseForm::size> width{};
-  for (std::size_t k = 0; k < width.size(); ++k)
-    if (root.high[k] > root.low[k]) width[k] = (box.high[k] - box.low[k]) / (root.high[k] - root.low[k]);
+  for (const Box& root : roots)
+    for (std::size_t k = 0; k < width.size(); ++k)
+      if (root.piece == box.piece && root.high[k] > root.low[k])
+        width[k] = (box.high[k] - box.low[k]) / (root.high[k] - root.low[k]);
   return over_region::divided_coordinate(box, width);
 }
 
@@ -45,11 +47,11 @@ template <class Number>
 class Descent {
  public:
   Descent(const DesignsAt& designs, const Number& number, const std::vector<Box>& roots, long most, const Stop& stop)
-      : designs_(designs), number_(number), roots_(roots), most_(most), stop_(stop) {
+      : designs_(designs), number_(number), most_(most + std::ssize(roots)), stop_(stop) {
     for (const Box& root : roots) add(root);
   }
   bool done() const { return open_.empty(); }
-  bool spent() { return boxes_ >= most_ + std::ssize(roots_) || (++turns_ % 32 == 0 && stop_()); }
+  bool spent() { return boxes_ >= most_ || (++turns_ % 32 == 0 && stop_()); }
   long boxes() const { return boxes_; }
   double least() const { return open_.top().least; }
   Open take() {
@@ -72,10 +74,7 @@ class Descent {
     return off <= std::max({part_of_change * change, times_open * met.open, allowed});
   }
   bool divide(const Open& one) {
-    const Box* root = &one.box;
-    for (const Box& r : roots_)
-      if (r.piece == one.box.piece) root = &r;
-    const int k = coordinate_to_divide(one.box, *root, one.seen);
+    const int k = coordinate_to_divide(one.box, designs_.poses().all(), one.seen);
     if (k < 0) return false;
     for (const Box& half : over_region::halves(one.box, k)) add(half);
     return true;
@@ -91,7 +90,6 @@ class Descent {
 
   const DesignsAt& designs_;
   const Number& number_;
-  const std::vector<Box>& roots_;
   long most_;
   const Stop& stop_;
   std::priority_queue<Open> open_;

@@ -207,7 +207,10 @@ Found Spreads::look_at(const Spread& spread) {
     for (int j = 0; j < legs; ++j) {
       if ((spread.row->each_leg && i != j) || out.status == Found::Status::outside) continue;
       Found one = look_at(spread, i, j, false);
-      if (one.status != Found::Status::kept && one.status != Found::Status::outside) one = look_at(spread, i, j, true);
+      if (one.status != Found::Status::kept && one.status != Found::Status::outside) {
+        Found closely = look_at(spread, i, j, true);
+        if (closely.status != Found::Status::unknown) one = std::move(closely);
+      }
       add(out, std::move(one));
     }
   out.boxes = boxes_ - before;

@@ -5,6 +5,7 @@
 #include "ninedof/families/general_family.hpp"
 #include "ninedof/families/hexagonal_family.hpp"
 #include "ninedof/families/symmetric_family.hpp"
+#include "ninedof/math/error.hpp"
 #include "ninedof/math/rotation.hpp"
 
 namespace ninedof::admissible {
@@ -45,6 +46,8 @@ Blueprints blueprints(const DesignFamily& family, std::span<const DesignForm> x)
   if (put_symmetric<HexagonalFamily, 7>(family, x, out) || put_symmetric<SymmetricFamily<9>, 9>(family, x, out) ||
       put_symmetric<SymmetricFamily<13>, 13>(family, x, out))
     return out;
+  if (dynamic_cast<const GeneralFamily*>(&family) == nullptr)
+    throw InvalidArgument("family", family.name(), "a family whose joints are known over boxes of designs");
   for (std::size_t k = 0; k < out.joints.size(); ++k) out.joints[k] = {x[3 * k], x[3 * k + 1], x[3 * k + 2]};
   out.zp = x[row_zp];
   out.zs = x[row_zs];

@@ -5,10 +5,10 @@
 namespace ninedof::admissible {
 namespace {
 
-constexpr std::size_t most_open = 40'000;  // boxes of poses that a box of designs hands on
+constexpr std::size_t most_open = 10'000;  // boxes of poses that a box of designs hands on
 
 /// A few of each demand.
-std::vector<Loss> nearest_losses(const std::vector<Loss>& losses) {
+std::vector<Loss> some_losses(const std::vector<Loss>& losses) {
   constexpr int most_of_demand = 3;
   std::map<int, int> count;
   std::vector<Loss> out;
@@ -121,7 +121,7 @@ Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
   all();
   out.finished = !stop();
   known.complete = complete && all_looked_at;
-  out.inherited.near = nearest_losses(known.losses);
+  out.inherited.near = some_losses(known.losses);
   return out;
 }
 

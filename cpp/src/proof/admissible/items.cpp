@@ -30,7 +30,7 @@ Plane above(const DesignForm& f) {
   return out;
 }
 
-/// As JointLook's axis, over designs; the sides are those of the middle.
+/// As FormHome, over designs; the sides are those of the middle.
 HomeOf<DesignForm> home_of(const DesignForms& forms, const Vec3& axis) {
   HomeOf<DesignForm> out;
   set_axes(forms.joints, forms.home, axis, out);

@@ -34,6 +34,8 @@ Plane below_sum(const Plane& x, double k, const Plane& y);
 class Poses {
  public:
   explicit Poses(const DesignQuestion& question);
+  Poses(const Poses&) = delete;  // the domain refers to the machine beside it
+  Poses& operator=(const Poses&) = delete;
   const Domain& domain() const { return domain_; }
   /// Where limits at poses hold; the neutral pose alone.
   const std::vector<Box>& all() const { return all_; }

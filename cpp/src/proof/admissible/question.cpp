@@ -30,7 +30,12 @@ void DesignQuestion::validate() const {
       throw InvalidArgument(variables[static_cast<std::size_t>(index)].name, format_interval(low[k], high[k]),
                             "low < high, both finite");
   }
-  for (std::size_t k = 0; k < at.size(); ++k) require_finite(variables[k].name.c_str(), at[k]);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    require_finite(variables[k].name.c_str(), at[k]);
+    if (variables[k].kind == VariableKind::length && at[k] < 0.0)
+      throw InvalidArgument(variables[k].name, format_number(at[k]), "a length, at least 0");
+  }
+  if (region.size() > 1) throw InvalidArgument("region", std::to_string(region.size()) + " regions", "none or one");
   for (const Region& one : region) {
     one.validate();
     if (one.placed) throw InvalidArgument("region", "O placed anew at every pose", "O shifted with p, or held");

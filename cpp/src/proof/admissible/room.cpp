@@ -93,19 +93,19 @@ class RoomSearch {
   DesignRoom run() {
     double part = 0.25, growth = 0.15;
     DesignBox outer = around(part);
-    for (int n = 0; n < 60 && growth > 0.005 && !stop_(); ++n) {
+    while (growth > 0.005 && wide(outer) && !stop_()) {
       const Examined found = examiner_.examine({outer, {}, {}, {}}, stop_);
       out_.boxes += found.boxes;
       if (!found.finished) break;
       if (breaks(found.known, outer)) break;
       const std::optional<Vector> x = inner(found.known, outer);
-      if (!x && !out_.found) {
+      const double before = size_;
+      if (x) take(inside(outer, *x));
+      if (!out_.found) {
         part *= 0.3;
         outer = around(part);
         continue;
       }
-      const double before = size_;
-      if (x) take(inside(outer, *x));
       if (size_ < before * (1.0 + growth)) growth *= 0.5;
       outer = grown({out_.low, out_.high}, growth);
     }
@@ -115,6 +115,12 @@ class RoomSearch {
 
  private:
   std::size_t count() const { return design_.size(); }
+  /// A design on a limit has no box around it: the search ends where boxes have no width.
+  bool wide(const DesignBox& box) const {
+    for (std::size_t k = 0; k < count(); ++k)
+      if (!(box.high[k] - box.low[k] > 1e-9 * range(k))) return false;
+    return true;
+  }
   double range(std::size_t k) const { return question_.high[k] - question_.low[k]; }
   DesignBox around(double part) const {
     DesignBox out;
@@ -192,8 +198,9 @@ class RoomSearch {
     const Examined found = examiner_.examine({box, {}, {}, {}}, stop_);
     out_.boxes += found.boxes;
     if (!found.finished) return false;
+    if (!found.known.losses.empty()) return false;
     if (found.known.complete && found.known.cuts.empty()) return true;
-    if (halvings == 0 || !found.known.losses.empty()) return false;
+    if (halvings == 0) return false;
     DesignBox below = box, above = box;
     below.high[widest] = above.low[widest] = 0.5 * (box.low[widest] + box.high[widest]);
     return proved(below, halvings - 1) && proved(above, halvings - 1);

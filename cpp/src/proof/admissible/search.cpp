@@ -92,8 +92,9 @@ DesignSet admissible_designs(const DesignQuestion& question, const DesignSetting
   std::vector<Waiting> waiting, small;
   if (from.empty()) waiting.push_back(search.whole());
   for (const DesignPiece& piece : from) {
-    if (piece.state == Membership::undecided) waiting.push_back(search.again(piece));
-    else out.pieces.push_back(piece);
+    Waiting one = search.again(piece);
+    if (piece.state != Membership::undecided) out.pieces.push_back(piece);
+    else (search.divisible(one, settings.resolution) ? waiting : small).push_back(std::move(one));
   }
   const auto fewer = [](const Waiting& a, const Waiting& b) { return a.undecided < b.undecided; };
   std::ranges::make_heap(waiting, fewer);

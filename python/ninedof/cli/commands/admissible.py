@@ -11,7 +11,7 @@ import typer
 
 from ninedof.cli.options import Options, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
-from ninedof.design.study import Study
+from ninedof.design.study import FAMILIES, Study, variable_kinds
 from ninedof.optimize.result import Result
 from ninedof.proof.admissible import AdmissibleSet, design_range
 from ninedof.proof.admissible import admissible as admissible_of
@@ -23,6 +23,7 @@ from ninedof.support.units import with_unit
 from ninedof.tables import RIGHT, Column, Table
 
 PLACE = 4
+ANGLES = {name for family in FAMILIES for name, kind in variable_kinds(family).items() if kind == "angle"}
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1
@@ -61,7 +62,12 @@ def admissible(options: AdmissibleOptions) -> None:
     screen = Screen(options.json)
     of, folder = _of(options)
     vary, at = dict(map(_vary, options.vary)), dict(map(_value, options.set or ()))
-    asked = design_range(of, vary, at, options.condition)
+    try:
+        asked = design_range(of, vary, at, options.condition)
+    except ValueError as error:
+        if not str(error).startswith("at"):
+            raise
+        raise ValueError(f"--set{str(error).removeprefix('at')}") from None
     file = None if folder is None else admissible_file(folder, asked)
     earlier = None if file is None else load_admissible(file, asked)
     goes_on()
@@ -120,13 +126,16 @@ def _vary(text: str) -> tuple[str, tuple[float, float] | None]:
 def _value(text: str) -> tuple[str, float]:
     name, _, value = text.partition("=")
     try:
-        return plain_name(name), _in_radians(name, float(value), 0.0)[0]
+        number = float(value)
     except ValueError:
         raise ValueError(f"--set: got {text}, expected NAME=VALUE") from None
+    return plain_name(name), _in_radians(name, number, 0.0)[0]
 
 
 def _in_radians(name: str, *values: float) -> tuple[float, float]:
     low, high = values if plain_name(name) == name else map(math.radians, values)
+    if name in ANGLES and max(abs(low), abs(high)) > 2.0 * math.pi:
+        raise ValueError(f"{name}: got more than a turn of radians, expected {name}_deg for degrees")
     return low, high
 
 
@@ -135,7 +144,8 @@ def _around(screen: Screen, found: AdmissibleSet) -> dict[str, list[float]] | No
     try:
         room = found.around()
     except ValueError as error:
-        screen.print(f"No box around the design is proved. {str(error).capitalize()}.")
+        words = str(error)
+        screen.print(f"No box around the design is proved. {words[:1].upper()}{words[1:]}.")
         return None
     heads = [Column("proved, all at once"), Column("design", "", RIGHT), Column("from", "", RIGHT)]
     rows = []
