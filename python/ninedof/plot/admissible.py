@@ -77,6 +77,7 @@ def admissible(found: AdmissibleSet, figure: Figure | None = None) -> Figure:
         keys += [style.key(colours[name], lw=6, label=f"outside: {name.replace('_', ' ')}") for name in found.excluded]
         keys += [style.key(UNDECIDED, lw=6, label="undecided"), style.key(**MARK, label="design")]
         keys += [style.key(style.INK, lw=0.8, label="worst condition number, sampled")] if lines else []
+        figure.suptitle(found.of.held, fontsize=style.SMALL_SIZE, color=style.MUTED)
         figure.legend(handles=keys, loc="outside lower center", ncols=2 if columns == 1 else 4)
     return figure
 
@@ -86,7 +87,7 @@ def _colours(found: AdmissibleSet) -> dict[str, Any]:
     others = iter(OTHERS * (1 + len(found.excluded) // len(OTHERS)))
     out = {}
     for name in found.excluded:
-        kind = "det" if name == "no singularity" else name.partition(" at ")[0]
+        kind = "det" if name == "no singularity" else name.partition(" at ")[0].removeprefix("condition_number")
         kind = next((key for key in KINDS if len(key) > 1 and kind.startswith(key)), "")
         strong = np.array(_rgb(KINDS[kind][1] if kind else next(others)))
         out[name] = tuple(PALE * strong + (1.0 - PALE))
@@ -122,8 +123,7 @@ def _plane(axes: Any, found: AdmissibleSet, i: int, j: int, colours: dict[str, A
     axes.grid(visible=False)
     axes.plot(*_shown(found, here[[i, j]][None], i, j)[0], **MARK)
     if others:
-        fixed = ", ".join(f"{names[k]} = {found.study.shown(names[k], here[k]):.5g}" for k in others)
-        axes.set_title(fixed)
+        axes.set_title(found.of.values([names[k] for k in others]))
 
 
 def _corners(low: Floats, high: Floats) -> Floats:

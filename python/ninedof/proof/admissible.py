@@ -100,6 +100,16 @@ class DesignRange:
             condition=math.inf if self.condition_number is None else float(self.condition_number),
         )
 
+    def values(self, names: Collection[str]) -> str:
+        """Return values of variables in words."""
+        shown = (f"{name} = {self.study.shown(name, self.at[name]):.5g}" for name in names)
+        return ", ".join(amount(words, self.study.unit_of(name)) for name, words in zip(names, shown, strict=True))
+
+    @property
+    def held(self) -> str:
+        """The values of the variables that do not vary, in words; without those that the study fixes at 0."""
+        return self.values([name for name in self.study.variables if name not in self.vary and self.at[name] != 0.0])
+
     def sampled_condition(self, first: int, second: int) -> tuple[Floats, Floats, Floats] | None:
         """Return the worst condition number over a sample of poses, at designs of the plane of two of the variables.
 
@@ -280,9 +290,10 @@ class AdmissibleSet:
         """Return what is proved, in words."""
         most = self.of.condition_number
         bound = "" if most is None else f" and a condition number of at most {most:g}"
+        held = f", at {self.of.held}" if self.of.held else ""
         inside, outside, undecided = (f"{self.shares[name]:.3%}" for name in STATES)
         out = [
-            f"Proved, of all designs with {self.of.words}: {inside} keep every limit{bound} at every pose, "
+            f"Proved, of all designs with {self.of.words}{held}: {inside} keep every limit{bound} at every pose, "
             f"{outside} break one; {undecided} are not decided."
         ]
         if self.of.moved:

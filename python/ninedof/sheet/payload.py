@@ -118,9 +118,13 @@ def largest_payload(
     if has_region(design):
         look, worst, _ = look_over_design(design, c[0], question, count)
         c = joined(c, worst)
-    shares = _core.sheet_numbers(question, c)["payload"].reshape(len(c), len(rows), 2, 9)
+    numbers = _core.sheet_numbers(question, c)
+    shares = numbers["payload"].reshape(len(c), len(rows), 2, 9)
+    most = float(shares.max())
+    if most == np.inf:  # a limit is passed without a payload: where it is passed most
+        own_forces = numbers["force"].reshape(len(c), len(rows), 9)
+        shares = np.stack([own_forces - limits[0], -own_forces - limits[1]], axis=2)
     pose, load, side, leg = (int(k) for k in np.unravel_index(int(np.argmax(shares)), shares.shape))
-    most = float(shares[pose, load, side, leg])
     mass = 0.0 if most == np.inf else 1.0 / most if most > 0.0 else np.inf
     down = np.asarray(gravity) * (mass if np.isfinite(mass) else 0.0)
     wrench = rows[load] + np.concatenate([np.cross(c[pose].rotation @ np.asarray(at), down), down])

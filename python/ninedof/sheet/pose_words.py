@@ -28,7 +28,7 @@ def turn_deg(c: Configuration, neutral_rotation: Floats) -> Floats:
 def vector_words(values: Iterable[float]) -> str:
     """Return numbers in brackets; what is rounding beside the largest is 0."""
     numbers = [float(x) for x in values]
-    least = 1e-9 * max((abs(x) for x in numbers), default=0.0)
+    least = 1e-6 * max((abs(x) for x in numbers), default=0.0)
     return "(" + ", ".join(f"{x if abs(x) > least else 0.0:g}" for x in numbers) + ")"
 
 

@@ -10,13 +10,13 @@ import numpy as np
 import typer
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.chosen_design import named_design
+from ninedof.cli.chosen_design import Chosen, named_design
 from ninedof.cli.options import LOAD, Design, Options, Three
 from ninedof.cli.posed import load_option
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.payload import Payload, largest_payload
-from ninedof.sheet.pose_words import vector_words
+from ninedof.sheet.pose_words import pose_words
 from ninedof.tables import RIGHT, Column, Table, grouped
 
 PLACE = 4
@@ -52,10 +52,10 @@ def payload(options: PayloadOptions) -> Answer:
     loads = [load_option(text) for text in options.load] if options.load else None
     centre = options.centre or (0.0, 0.0, 0.0)
     found = largest_payload(chosen.result or chosen.design, options.force, options.pull, centre, loads)
-    return Answer(_parts(found), found.to_dict(), DONE if found.fits else NO_RESULT)
+    return Answer(_parts(found, chosen), found.to_dict(), DONE if found.fits else NO_RESULT)
 
 
-def _parts(found: Payload) -> Iterator[Any]:
+def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
     if not found.fits:
         yield f"no payload: {found.leg} passes its limit ({found.side}) without one, at the pose below"
     elif np.isinf(found.mass):
@@ -63,8 +63,8 @@ def _parts(found: Payload) -> Iterator[Any]:
     else:
         yield f"largest payload {found.mass:.6g}: {found.leg} reaches its limit ({found.side}) first"
     if found.leg:
-        c = found.configuration
-        yield f"worst pose: p = {vector_words(c.position)}, O = {vector_words(c.internal_point)}"
+        neutral = chosen.configuration.rotation
+        yield f"worst pose: {pose_words(found.configuration, neutral, chosen.unit)}"
         rows = [(leg, f"{force:.5g}") for leg, force in zip(LEGS, found.forces, strict=True)]
         under = "with the payload" if found.fits else "without a payload"
         yield Table(
