@@ -71,80 +71,82 @@ Vec6 drawn(std::mt19937_64& random) {
 
 }  // namespace
 
-TEST_CASE("what is proved of designs holds of those drawn at random") {
-  DesignSettings settings;
-  settings.resolution = 0.02;
-  const DesignSet found = admissible_designs(question(), settings);
-  CHECK(found.inside > 0.1);
-  CHECK(found.outside > 0.1);
-  CHECK(found.undecided < 0.02);
-  CHECK(found.inside + found.outside + found.undecided == doctest::Approx(1.0));
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (const DesignPiece& piece : found.pieces) {
-    const double a2 = piece.low[0] + unit(random) * (piece.high[0] - piece.low[0]),
-                 b1 = piece.low[1] + unit(random) * (piece.high[1] - piece.low[1]);
-    if (piece.state == Membership::inside)
-      for (int n = 0; n < 20; ++n) REQUIRE(margin(a2, b1, drawn(random)) > 0.0);
-    if (piece.state != Membership::outside ||
-        found.demands[static_cast<std::size_t>(piece.demand)].limit == "no singularity")
-      continue;
-    Vec6 at = Vec6::Zero();
-    at.head<3>() = piece.at.shift;
-    at.segment<3>(3) = piece.at.tilt;
-    REQUIRE(margin(a2, b1, at) < 1e-9);
-  }
-}
-
-TEST_CASE("a run goes on with the undecided pieces of another, and threads change nothing") {
-  DesignSettings settings;
-  settings.resolution = 0.2;
-  const DesignSet coarse = admissible_designs(question(), settings);
-  settings.resolution = 0.05;
-  const DesignSet fine = admissible_designs(question(), settings, coarse.pieces);
-  CHECK(fine.undecided < coarse.undecided);
-  CHECK(fine.inside >= coarse.inside);
-  settings.threads = 1;
-  const DesignSet one = admissible_designs(question(), settings, coarse.pieces);
-  CHECK(one.inside == fine.inside);
-  CHECK(one.pieces.size() == fine.pieces.size());
-}
-
-TEST_CASE("the room around a design is inside, and is in the proportions that are asked for") {
-  const std::vector<double> design{5.0, 3.0};
-  for (const std::vector<double>& proportions : {std::vector<double>{}, std::vector<double>{2.0, 1.0}}) {
-    const DesignRoom room = room_around(question(), design, proportions, 20.0);
-    REQUIRE(room.found);
-    CHECK(room.low[0] < 5.0);
-    CHECK(room.high[0] > 5.0);
-    if (!proportions.empty())
-      CHECK((room.high[0] - room.low[0]) / (room.high[1] - room.low[1]) == doctest::Approx(2.0).epsilon(1e-6));
-    std::mt19937_64 random(5);
-    double least = 1.0;
-    for (int n = 0; n < 2000; ++n) {
-      const double a2 = (n & 1) != 0 ? room.high[0] : room.low[0], b1 = (n & 2) != 0 ? room.high[1] : room.low[1];
-      least = std::min(least, margin(a2, b1, drawn(random)));
+TEST_SUITE("admissible") {
+  TEST_CASE("what is proved of designs holds of those drawn at random") {
+    DesignSettings settings;
+    settings.resolution = 0.02;
+    const DesignSet found = admissible_designs(question(), settings);
+    CHECK(found.inside > 0.1);
+    CHECK(found.outside > 0.1);
+    CHECK(found.undecided < 0.02);
+    CHECK(found.inside + found.outside + found.undecided == doctest::Approx(1.0));
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (const DesignPiece& piece : found.pieces) {
+      const double a2 = piece.low[0] + unit(random) * (piece.high[0] - piece.low[0]),
+                   b1 = piece.low[1] + unit(random) * (piece.high[1] - piece.low[1]);
+      if (piece.state == Membership::inside)
+        for (int n = 0; n < 20; ++n) REQUIRE(margin(a2, b1, drawn(random)) > 0.0);
+      if (piece.state != Membership::outside ||
+          found.demands[static_cast<std::size_t>(piece.demand)].limit == "no singularity")
+        continue;
+      Vec6 at = Vec6::Zero();
+      at.head<3>() = piece.at.shift;
+      at.segment<3>(3) = piece.at.tilt;
+      REQUIRE(margin(a2, b1, at) < 1e-9);
     }
-    CHECK(least > 0.0);
-    CHECK(least < 0.5);  // it ends near a limit
   }
-  const DesignRoom none = room_around(question(), {9.5, 1.5}, {}, 20.0);
-  CHECK_FALSE(none.found);
-  CHECK(none.demand >= 0);
-}
 
-TEST_CASE("questions without an answer are refused") {
-  DesignQuestion none = question();
-  none.varied = {};
-  CHECK_THROWS_AS(admissible_designs(none, {}), InvalidArgument);
-  DesignQuestion twice = question();
-  twice.varied = {1, 1};
-  CHECK_THROWS_AS(admissible_designs(twice, {}), InvalidArgument);
-  DesignQuestion placed = question();
-  placed.region.front().placed = true;
-  CHECK_THROWS_AS(admissible_designs(placed, {}), InvalidArgument);
-  DesignQuestion free = question();
-  free.problem.characteristic_length.choice = StudyLength::Choice::kind;
-  free.condition = 4.0;
-  CHECK_THROWS_AS(admissible_designs(free, {}), InvalidArgument);
+  TEST_CASE("a run goes on with the undecided pieces of another, and threads change nothing") {
+    DesignSettings settings;
+    settings.resolution = 0.2;
+    const DesignSet coarse = admissible_designs(question(), settings);
+    settings.resolution = 0.05;
+    const DesignSet fine = admissible_designs(question(), settings, coarse.pieces);
+    CHECK(fine.undecided < coarse.undecided);
+    CHECK(fine.inside >= coarse.inside);
+    settings.threads = 1;
+    const DesignSet one = admissible_designs(question(), settings, coarse.pieces);
+    CHECK(one.inside == fine.inside);
+    CHECK(one.pieces.size() == fine.pieces.size());
+  }
+
+  TEST_CASE("the room around a design is inside, and is in the proportions that are asked for") {
+    const std::vector<double> design{5.0, 3.0};
+    for (const std::vector<double>& proportions : {std::vector<double>{}, std::vector<double>{2.0, 1.0}}) {
+      const DesignRoom room = room_around(question(), design, proportions, 20.0);
+      REQUIRE(room.found);
+      CHECK(room.low[0] < 5.0);
+      CHECK(room.high[0] > 5.0);
+      if (!proportions.empty())
+        CHECK((room.high[0] - room.low[0]) / (room.high[1] - room.low[1]) == doctest::Approx(2.0).epsilon(1e-6));
+      std::mt19937_64 random(5);
+      double least = 1.0;
+      for (int n = 0; n < 2000; ++n) {
+        const double a2 = (n & 1) != 0 ? room.high[0] : room.low[0], b1 = (n & 2) != 0 ? room.high[1] : room.low[1];
+        least = std::min(least, margin(a2, b1, drawn(random)));
+      }
+      CHECK(least > 0.0);
+      CHECK(least < 0.5);  // it ends near a limit
+    }
+    const DesignRoom none = room_around(question(), {9.5, 1.5}, {}, 20.0);
+    CHECK_FALSE(none.found);
+    CHECK(none.demand >= 0);
+  }
+
+  TEST_CASE("questions without an answer are refused") {
+    DesignQuestion none = question();
+    none.varied = {};
+    CHECK_THROWS_AS(admissible_designs(none, {}), InvalidArgument);
+    DesignQuestion twice = question();
+    twice.varied = {1, 1};
+    CHECK_THROWS_AS(admissible_designs(twice, {}), InvalidArgument);
+    DesignQuestion placed = question();
+    placed.region.front().placed = true;
+    CHECK_THROWS_AS(admissible_designs(placed, {}), InvalidArgument);
+    DesignQuestion free = question();
+    free.problem.characteristic_length.choice = StudyLength::Choice::kind;
+    free.condition = 4.0;
+    CHECK_THROWS_AS(admissible_designs(free, {}), InvalidArgument);
+  }
 }
