@@ -9,13 +9,16 @@ import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.options import LOAD, Design, Options
+from ninedof.cli.options import Design, Options
 from ninedof.cli.posed import load_option
 from ninedof.sheet.failure.failure import failure as failure_of
 from ninedof.sheet.failure.tables import failure_parts
 from ninedof.support.arguments import finite
 
 PLACE = 3
+OWN_LOAD = typer.Option(
+    help='A load "mx my mz fx fy fz" on the platform that is looked at, without weights. Repeatable.'
+)
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof failure runs/20260101-120000
@@ -34,7 +37,7 @@ class FailureOptions(Options):
         float | None,
         typer.Option(help="The condition number that shares of the region are about; twice the healthy worst."),
     ] = None
-    load: Annotated[list[str] | None, LOAD] = None
+    load: Annotated[list[str] | None, OWN_LOAD] = None
     pairs: Annotated[bool, typer.Option(help="Lock each pair of legs too.")] = True
 
 
