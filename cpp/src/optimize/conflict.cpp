@@ -171,11 +171,11 @@ Conflict find_conflict(const Problem& problem, const std::vector<Eigen::VectorXd
   else {
     // Limits are named before bounds, and what is at its limit at the least violation before the rest.
     const double worst = search.study.violation(nearest, search.study.all());
-    const std::vector<Demand>& demands = search.study.demands();
+    const std::vector<StudyDemand>& demands = search.study.demands();
     Indices order(demands.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto touched = [&](std::size_t d) {
-      const Demand& demand = demands[d];
+      const StudyDemand& demand = demands[d];
       if (!demand.is_bound()) return violations[d] >= worst - same_violation;
       const double y = nearest[demand.coordinate];
       return y - demand.low <= same_violation || demand.high - y <= same_violation;

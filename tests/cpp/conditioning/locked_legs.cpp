@@ -102,7 +102,7 @@ TEST_SUITE("locked_legs") {
         CHECK(std::abs(g.length - expected(k, coordinates - 1)) <= 1e-6);
       }
     }
-    CHECK(compared > 30);
+    CHECK(compared > cases(30));
   }
 
   TEST_CASE("no control: a singular pose, two legs in line, and where O alone moves a leg") {

@@ -86,6 +86,7 @@ def plant(files: Mapping[str, str], lines: Mapping[str, str]) -> dict[str, str]:
         ("src/support/new_idea.hpp", "#pragma once", "src/support/new_idea.hpp: in no room"),
         ("bindings/new_idea.cpp", "int x;", "bindings/new_idea.cpp: in no room"),
         ("../tests/cpp/new_idea.cpp", "int x;", "tests/cpp/new_idea.cpp: in no room"),
+        ("src/robot/new_idea.hpp", "namespace ninedof {\nstruct Limit {", "hpp: defines ninedof::Limit, as cpp"),
         ("src/robot/new_idea.cpp", "int x;", "new_idea.cpp: no header of its name"),
         ("src/robot/new_idea.cpp", "// Declared in robot/nowhere.hpp.", "new_idea.cpp: no header of its name"),
         ("src/robot/new_idea.cpp", "int x;\n// Declared in ninedof/robot/legs.hpp.", "cpp: no header of its name"),
@@ -102,6 +103,7 @@ def test_planted_include_is_caught(cpp_files, path, line, expected):
         ("src/robot/legs.cpp", '// #include "ninedof/workspace/workspace.hpp"'),
         (LEGS, "/// Solved by NLopt."),
         ("src/optimize/new_helper.hpp", '#include "ninedof/families/design_family.hpp"'),
+        ("src/robot/legs.cpp", "namespace ninedof {\nnamespace {\nstruct Limit {"),
         ("src/robot/new_idea.cpp", "/// Another way to\n/// the legs. Declared in ninedof/robot/legs.hpp."),
     ],
 )

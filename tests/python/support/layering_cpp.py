@@ -73,10 +73,23 @@ def wrong_includes(name: str, files: Mapping[str, str], used: Collection[str]) -
             yield f"{name}: a public header includes the private {other}"
 
 
+def classes(text: str) -> Iterator[str]:
+    """The classes that a file defines in namespaces with a name; clang-format keeps them at the beginning of lines."""
+    spaces: list[str] = []
+    for line in text.splitlines():
+        if opened := re.match(r"(?:inline )?namespace ?([\w: ]*) \{$", line):
+            spaces.append(opened[1])
+        elif line.startswith("}  // namespace"):
+            spaces.pop()
+        elif (defined := re.match(r"(?:struct|class) (\w+)(?: final)?(?: : .*)? \{", line)) and all(spaces):
+            yield "::".join((*spaces, defined[1]))
+
+
 def cpp_violations(files: Mapping[str, str]) -> list[str]:
     """One sentence for each violation; paths relative to the repository."""
     out: list[str] = []
     headers: dict[str, set[str]] = {}
+    defining: dict[str, str] = {}  # the file of each class; the linker takes a second one for the first
     for name, text in files.items():
         if name not in CPP_OUTSIDE and room_of(name) is None:
             out.append(f"{name}: in no room; the rooms are {', '.join(CPP_ROOMS)}")
@@ -91,6 +104,9 @@ def cpp_violations(files: Mapping[str, str]) -> list[str]:
             headers[name] = used
         if tree_of(name) not in (PUBLIC, PRIVATE):
             continue
+        for defined in classes(text):
+            if defining.setdefault(defined, name) != name:
+                out.append(f"{name}: defines {defined}, as {defining[defined]} does")
         for library, home in ONLY_IN.items():
             if re.search(library, code, flags=re.IGNORECASE) and name != home:
                 out.append(f"{name}: mentions {library}, which stays behind {home}")

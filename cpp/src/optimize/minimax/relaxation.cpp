@@ -94,7 +94,7 @@ void Relaxation::add_limits() {
     const auto at = static_cast<std::size_t>(known - keys.begin());
     if (known == keys.end()) {
       keys.push_back(key);
-      Demand demand{.name = p_.margin_name(static_cast<int>(k)), .words = "", .margins = {}};
+      StudyDemand demand{.name = p_.margin_name(static_cast<int>(k)), .words = "", .margins = {}};
       const bool high = key.side == Side::high;
       double bound = p_.condition_limit(std::max(0, -1 - constraint));
       const char* unit = "";
@@ -150,7 +150,7 @@ DesignEvaluation Relaxation::evaluated(const Eigen::VectorXd& y) const {
   return design;
 }
 
-double Relaxation::violation(const Demand& d, const DesignEvaluation& design, const Eigen::VectorXd& y) const {
+double Relaxation::violation(const StudyDemand& d, const DesignEvaluation& design, const Eigen::VectorXd& y) const {
   double worst = 0.0;
   for (const int k : d.margins) worst = std::max(worst, -p_.violation_factor(k) * design.margins[k]);
   return d.is_bound() ? std::max({worst, d.low - y[d.coordinate], y[d.coordinate] - d.high}) : worst;
@@ -159,7 +159,7 @@ double Relaxation::violation(const Demand& d, const DesignEvaluation& design, co
 std::vector<double> Relaxation::violations(const Eigen::VectorXd& y) const {
   const DesignEvaluation design = evaluated(y);
   std::vector<double> out;
-  for (const Demand& d : demands_) out.push_back(violation(d, design, y));
+  for (const StudyDemand& d : demands_) out.push_back(violation(d, design, y));
   return out;
 }
 
@@ -196,10 +196,10 @@ Eigen::VectorXd Relaxation::least(const Eigen::VectorXd& start, const Demands& c
   // Rows of margins with the share of t that they are given, and the box of the coordinates.
   std::vector<double> share(p_.margins.size(), -1.0);  // -1: does not count
   Eigen::VectorXd low = p_.coordinates.low(), high = p_.coordinates.high();
-  std::vector<const Demand*> moved;  // bounds that give
+  std::vector<const StudyDemand*> moved;  // bounds that give
   for (std::size_t d = 0; d < demands_.size(); ++d) {
     if (!counted[d]) continue;
-    const Demand& demand = demands_[d];
+    const StudyDemand& demand = demands_[d];
     for (const int k : demand.margins) share[at_index(k)] = give[d] ? 1.0 / p_.violation_factor(k) : 0.0;
     if (!demand.is_bound()) continue;
     if (give[d]) {
@@ -255,7 +255,7 @@ Eigen::VectorXd Relaxation::least(const Eigen::VectorXd& start, const Demands& c
         out.c_gradient.row(row).head(n) = -design.margin_gradient.row(m);
         out.c_gradient(row++, n) = -share[at_index(m)];
       }
-      for (const Demand* bound : moved)
+      for (const StudyDemand* bound : moved)
         for (const double side : {-1.0, 1.0}) {
           const double end = side < 0.0 ? bound->low : bound->high;
           const bool finite = std::isfinite(end);
@@ -280,7 +280,7 @@ Eigen::VectorXd Relaxation::least(const Eigen::VectorXd& start, const Demands& c
   return p_.with_auxiliary(y);
 }
 
-std::string Relaxation::enough(const Demand& demand, const Eigen::VectorXd& y) const {
+std::string Relaxation::enough(const StudyDemand& demand, const Eigen::VectorXd& y) const {
   if (demand.is_bound()) {
     const double value = p_.coordinates.variables(y)[p_.coordinates.variable(demand.coordinate)];
     if (p_.coordinates.info(demand.coordinate).kind == VariableKind::angle)

@@ -9,7 +9,7 @@
 namespace ninedof {
 
 /// One side of a limit, or of the bounds of a variable; of an angle, both.
-struct Demand {
+struct StudyDemand {
   std::string name;          ///< of the limit or the variable
   std::string words;         ///< "leg_length >= 3"
   std::vector<int> margins;  ///< of a limit: its rows of the prepared problem
@@ -30,7 +30,7 @@ class Relaxation {
  public:
   explicit Relaxation(const Problem& study);
 
-  const std::vector<Demand>& demands() const { return demands_; }
+  const std::vector<StudyDemand>& demands() const { return demands_; }
   Demands all() const { return Demands(demands_.size(), true); }
 
   /// Start number `index` within the bounds of the study, and without them; a design of the study: in the coordinates
@@ -58,17 +58,17 @@ class Relaxation {
                         const std::stop_token& stop, long& evaluations) const;
 
   /// What a demand would have to be for a design to meet it: "leg_length >= 1.414", with four digits, to the safe side.
-  std::string enough(const Demand& demand, const Eigen::VectorXd& y) const;
+  std::string enough(const StudyDemand& demand, const Eigen::VectorXd& y) const;
 
  private:
   DesignEvaluation evaluated(const Eigen::VectorXd& y) const;
-  double violation(const Demand& demand, const DesignEvaluation& design, const Eigen::VectorXd& y) const;
+  double violation(const StudyDemand& demand, const DesignEvaluation& design, const Eigen::VectorXd& y) const;
   void add_limits();
   void add_bounds(const Problem& study);
 
   PreparedProblem p_;
   PreparedProblem own_;  ///< with the bounds of the study: for its starts
-  std::vector<Demand> demands_;
+  std::vector<StudyDemand> demands_;
   std::vector<int> rules_;  ///< rows that no limit of the study states
 };
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "workspace/cells/tetrahedra.hpp"
+#include "workspace/criteria/limits.hpp"
 
 namespace ninedof {
 namespace {
@@ -85,7 +87,7 @@ Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& latt
   if (leaf.state == CellState::boundary && leaf.inside != 0 && leaf.inside != 255) {
     std::vector<CutCell::Piece> pieces;
     cut.boundary(Vec3::Ones(), pieces);
-    std::array<double, 64> area{};
+    std::vector<double> area(at_index(limit::count()));
     for (const CutCell::Piece& piece : pieces) area[at_index(piece.limit)] += piece.area;
     leaf.limit = static_cast<std::int16_t>(std::max_element(area.begin(), area.end()) - area.begin());
   } else if (leaf.state != CellState::inside) {
