@@ -52,6 +52,7 @@ def test_no_design_keeps_it():
     assert "fault_tolerant at neutral <= 3" in result.reason
 
 
+@pytest.mark.slow  # a proof over a region: seconds, and a minute under sanitizers
 def test_a_region():
     objective = {"region": nd.Region(box=[0.3, 0.3, 0.2], tilt=0.1)}
     result = optimum((None, 4.0), objective=objective)
