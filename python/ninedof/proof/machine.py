@@ -25,6 +25,8 @@ from ninedof.support.progress import Progress, phase
 from ninedof.support.schema import entries
 from ninedof.support.structs import from_core, options_of
 
+FOR_LIMITS = 5.0  # seconds of each: their enclosures are not gone on with, those of the condition number are
+
 
 class CertifyArguments(TypedDict, total=False):
     """Options of `certify`, which says what they mean."""
@@ -63,7 +65,7 @@ def certify(
     gap : float
         Relative width of the enclosure of the worst condition number.
     time_limit : float
-        Seconds for the condition number; limits take seconds.
+        Seconds for the condition number; each limit has five at least.
     tolerance : float
         Relative: a limit that is passed by no more counts as kept. Designs of the optimizer lie on their limits.
     threads : int
@@ -125,7 +127,7 @@ def certify(
     phase(progress, "proving the limits")
     alone = configurations[[0, 0]]
     machine = robot(alone if only_neutral else configurations, over, by_rule)
-    over_poses = _core.limits_over_poses(machine, study.problem(), tolerance, threads, seconds)
+    over_poses = _core.limits_over_poses(machine, study.problem(), tolerance, threads, max(seconds, FOR_LIMITS))
     limits = [_limit_proof(limit, only_neutral) for limit in over_poses.limits]
 
     phase(progress, "proving the condition number")

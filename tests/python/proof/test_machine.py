@@ -8,6 +8,7 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import numpy_model as model
@@ -22,6 +23,7 @@ from ninedof import _core
 from ninedof.proof.machine import certify, machine_digest
 from ninedof.proof.machine_record import MachineCertificate, outward
 
+EXAMPLES = Path(__file__).parents[3] / "examples"
 VARIABLES = {
     "base_external_radius": 500.0,
     "base_internal_radius": 230.0,
@@ -399,3 +401,13 @@ def test_every_number_of_a_region_is_part_of_the_machine():
     ]
     digests = {machine_digest(nd.Study(objective={"region": region}), g, c, 1.0) for region in regions}
     assert len(digests) == 4
+
+
+def test_no_known_pose_is_worse_than_the_worst_met():
+    """The condition number has a local maximum about each corner of a region, two of them equal in a minimax design."""
+    for name in ("18_requirement", "20_tool"):
+        result = nd.optimize(nd.Study.load(EXAMPLES / f"{name}.toml"), starts=4)
+        assert result.best is not None
+        certificate = result.certify(gap=0.3, time_limit=0.0)
+        assert certificate.condition[0] >= result.best.objective * (1.0 - 1e-9)
+        assert all(limit.answer != "undecided" for limit in certificate.limits)

@@ -43,61 +43,66 @@ double condition_at(const Domain& domain, int locked, const Box& point) {
       forms::gram(machine.geometry, machine.characteristic_length, domain.pose(point), unused));
 }
 
-/// Moves one coordinate after another while the condition number grows.
+/// Moves along coordinates and along random directions while the condition number grows: its greatest values lie on
+/// ridges, where singular values meet, and along a ridge no coordinate leads upward.
 Met climbed(const Domain& domain, int locked, const Box& root, Met met) {
+  constexpr std::size_t ways = 36;  // two of each coordinate, the others random
+  std::uint64_t drawn = 0;
   for (double step = 0.25; step > 1e-6; step *= 0.5) {
     bool better = true;
     while (better) {
       better = false;
-      for (std::size_t k = 0; k < PoseForm::size; ++k)
-        for (const double way : {-step, step}) {
-          Box next = met.at;
-          const double x = std::clamp(next.low[k] + way * (root.high[k] - root.low[k]), root.low[k], root.high[k]);
-          if (x == next.low[k]) continue;
-          next.low[k] = next.high[k] = x;
-          next = domain.nearest(next);
-          const double value = condition_at(domain, locked, next);
-          if (value > met.value * (1.0 + 1e-9)) {
-            met = {value, next};
-            better = true;
-          }
+      for (std::size_t way = 0; way < ways; ++way) {
+        Box next = met.at;
+        for (std::size_t k = 0; k < PoseForm::size; ++k) {
+          const double part = way >= 2 * PoseForm::size ? 2.0 * uniform_from(stream(0, drawn++)) - 1.0
+                              : way / 2 == k            ? (way % 2 == 0 ? -1.0 : 1.0)
+                                                        : 0.0;
+          const double x = next.low[k] + step * part * (root.high[k] - root.low[k]);
+          next.low[k] = next.high[k] = std::clamp(x, root.low[k], root.high[k]);
         }
+        next = domain.nearest(next);
+        const double value = condition_at(domain, locked, next);
+        if (value > met.value * (1.0 + 1e-9)) {
+          met = {value, next};
+          better = true;
+        }
+      }
     }
   }
   return met;
 }
 
-/// A pose where the condition number is large.
+/// A pose where the condition number is large: local maxima are many, one about each corner of a region.
 Met searched(const Domain& domain, int locked, int threads) {
-  constexpr std::uint64_t samples = 64;
+  constexpr std::size_t samples = 64, climbs = 24;
+  struct Start {
+    Met met;
+    std::size_t root;
+  };
   const std::vector<Box>& roots = domain.roots();
-  std::vector<Met> best(roots.size());
-  parallel_for(static_cast<long>(roots.size()), 1, threads, [&](long n, long) {
-    const Box& root = roots[static_cast<std::size_t>(n)];
-    Met& met = best[static_cast<std::size_t>(n)];
-    for (std::uint64_t sample = 0; sample < samples; ++sample) {
+  std::vector<Start> starts(roots.size() * samples);
+  parallel_for(static_cast<long>(starts.size()), 16, threads, [&](long first, long last) {
+    for (long n = first; n < last; ++n) {
+      const std::size_t sample = static_cast<std::size_t>(n) % samples, from = static_cast<std::size_t>(n) / samples;
+      const Box& root = roots[from];
       Box at = root;
       for (std::size_t k = 0; k < PoseForm::size; ++k) {
-        const double part = std::clamp(
-            1.5 * uniform_from(stream(static_cast<std::uint64_t>(n), sample * PoseForm::size + k)) - 0.25, 0.0,
-            1.0);  // a good part on the boundary
-        at.low[k] = at.high[k] =
+        const double part = std::clamp(1.5 * uniform_from(stream(from, sample * PoseForm::size + k)) - 0.25, 0.0, 1.0);
+        at.low[k] = at.high[k] =  // a good part on the boundary
             std::clamp(root.low[k] + part * (root.high[k] - root.low[k]), root.low[k], root.high[k]);
       }
       at = domain.nearest(at);
-      const double value = condition_at(domain, locked, at);
-      if (sample == 0 || value > met.value) met = {value, at};
+      starts[static_cast<std::size_t>(n)] = {{condition_at(domain, locked, at), at}, from};
     }
   });
-  std::vector<std::size_t> order(roots.size());
-  for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return best[a].value > best[b].value; });
-  Met out;
-  for (std::size_t n = 0; n < std::min<std::size_t>(order.size(), 8); ++n) {
-    const Met met = climbed(domain, locked, roots[order[n]], best[order[n]]);
-    if (n == 0 || met.value > out.value) out = met;
-  }
-  return out;
+  std::ranges::stable_sort(starts, [](const Start& a, const Start& b) { return a.met.value > b.met.value; });
+  starts.resize(std::min(starts.size(), climbs));
+  parallel_for(static_cast<long>(starts.size()), 1, threads, [&](long n, long) {
+    Start& start = starts[static_cast<std::size_t>(n)];
+    start.met = climbed(domain, locked, roots[start.root], start.met);
+  });
+  return std::ranges::max_element(starts, {}, [](const Start& one) { return one.met.value; })->met;
 }
 
 struct Looked {

@@ -40,7 +40,7 @@ class CertifyOptions(Options):
     run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")]
     condition: Annotated[float | None, typer.Option(help="A bound of the condition number to be proved too.")] = None
     gap: Annotated[float, typer.Option(help="Relative width of the enclosure of the worst condition number.")] = 0.05
-    time: Annotated[float, typer.Option(help="Seconds for the condition number; limits take seconds.")] = 300.0
+    time: Annotated[float, typer.Option(help="Seconds for the condition number; each limit has 5 at least.")] = 300.0
     tolerance: Annotated[float, typer.Option(help="By which limits may be passed, relative.")] = 1e-6
     threads: Threads = None
 
