@@ -57,7 +57,8 @@ def compare(comparison: Any, figure: Figure | None = None) -> Figure:
             handles.append(Line2D([], [], label=words, **_look(0, kind) | {"ls": "", "color": style.INK}))
         handles[-1].set(markeredgecolor=style.INK, markerfacecolor="white")
         handles[-2].set(markeredgecolor=style.INK)
-        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), frameon=False)
+        ncols = len(handles) if sum(map(len, comparison.names)) < 24 else 2  # long names would leave the page
+        figure.legend(handles=handles, loc="outside lower center", ncols=ncols, frameon=False)
     return figure
 
 

@@ -141,8 +141,9 @@ def _margins(axes: Any, t: Floats, margins: Mapping[str, Floats]) -> None:
     low, high = axes.get_ylim()
     if min(float(values.min()) for values in margins.values()) < 0.0:
         axes.axhspan(low, 0.0, **FORBIDDEN)
-    axes.set_ylim(low, high + 0.22 * (high - low))
+    columns = min(5, len(margins))
+    axes.set_ylim(low, high + (0.08 + 0.14 * -(-len(margins) // columns)) * (high - low))  # room for the legend
     words = f"least margin of each limit, drawn up to {100.0 * MOST_MARGIN:g} % of it"
     axes.set_title(words, size=style.TEXT_SIZE, weight="normal")
     axes.set(ylabel="margin (%)")
-    axes.legend(loc="upper center", ncols=min(5, len(margins)), handlelength=2.2, columnspacing=1.0)
+    axes.legend(loc="upper center", ncols=columns, handlelength=2.2, columnspacing=1.0)

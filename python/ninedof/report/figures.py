@@ -23,6 +23,10 @@ CAPTIONS = {
     "motion": "Leg lengths, condition number and margins along the path.",
     **{stem: f"{name}." for stem, name in FIGURES.items()},
 }
+ADMISSIBLE = (
+    "proved to keep every limit at every pose; proved not to, in the colour of the limit that excludes them; and "
+    "undecided, grey. Lines of the worst condition number are sampled, not proved."
+)
 OWN = ("drawing", "region")  # figures that are sections of the page
 LARGEST = 20_000_000  # bytes of a figure
 KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
@@ -57,4 +61,7 @@ def _own(file: Path) -> bool:
 
 
 def _caption(stem: str) -> str:
+    if stem.startswith("admissible-"):
+        names = stem.split("-")[1:]
+        return f"Designs in {', '.join(names)}: {ADMISSIBLE}"
     return CAPTIONS.get(stem, stem.replace("_", " ").replace("-", " ").capitalize() + ".")

@@ -34,7 +34,7 @@ def compare(options: CompareOptions) -> Answer:
     plot_argument(options.plot)
     chosen = [named_design(name) for name in options.designs]
     comparison = compare_designs(*(one.result or one.design for one in chosen))
-    answer = compared(comparison, options.plot)
     legend = [f"{letter}: {name}" for letter, name in zip(comparison.names, options.designs, strict=True)]
+    answer = compared(comparison, options.plot, legend)
     data = answer.data | {"designs": list(options.designs)}
     return answer._replace(parts=[*legend, *answer.parts], data=data)
