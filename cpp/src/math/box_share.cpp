@@ -10,7 +10,8 @@ namespace {
 /// them divided, rounding would be larger than what is lost so.
 constexpr double worth_a_division = 1e-3;
 
-/// More than a sum of three or four products of slopes and coordinates loses in rounding, relative to what `reach` gives.
+/// More than a sum of three or four products of slopes and coordinates loses in rounding, relative to what `reach`
+/// gives.
 constexpr double plane_rounding = 0x1p-48;
 
 /// The volume of the x in [0, 1]^n with sum a_k x_k < level, for positive a: by inclusion and exclusion, the simplex

@@ -145,11 +145,6 @@ Looked look(const Domain& domain, int locked, const Box& box, double condition) 
 WorstCondition worst_condition(const PosedRobot& machine, const ProofSettings& settings, const PoseBoxes& from,
                                const Control& control) {
   using namespace over_region;
-  Clock::time_point start = Clock::now();
-  const auto stopped = [&] {
-    return control.stop.stop_requested() ||
-           std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
-  };
   const Domain domain(machine);
   std::vector<Box> boxes = domain.roots();
   if (!from.empty()) {
@@ -167,7 +162,11 @@ WorstCondition worst_condition(const PosedRobot& machine, const ProofSettings& s
   if (locked >= 0 && (locked < 3 || locked > 8))
     throw InvalidArgument("locked", std::to_string(locked), "an internal leg, 3 to 8, or -1");
   Met met = searched(domain, locked, settings.threads);
-  start = Clock::now();  // the time is for boxes: every run goes on
+  const Clock::time_point start = Clock::now();  // the time is for boxes: every run goes on
+  const auto stopped = [&] {
+    return control.stop.stop_requested() ||
+           std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
+  };
   WorstCondition out;
   double proved = infinity;
   long count = 0;
