@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ninedof import _core
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.arguments import Vector, finite, instance, items, shown, text, vector
@@ -287,6 +288,14 @@ class Tolerances(Table):
 
     joints: float = entry(positive_or_zero, 0.0)
     legs: float = entry(positive_or_zero, 0.0)
+
+    def __bool__(self) -> bool:
+        """Whether anything may be off."""
+        return self.joints > 0.0 or self.legs > 0.0
+
+    def for_core(self) -> _core.Tolerances:
+        """Return them joint by joint and leg by leg."""
+        return _core.Tolerances(legs=np.full(9, self.legs), joints=np.full(12, self.joints))
 
 
 DUTIES: dict[str, type[Table]] = {
