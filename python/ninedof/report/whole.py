@@ -109,11 +109,12 @@ def _drawn(
         return {}
     g, c = page_.machine
     unit = page_.shown["unit"] if page_.shown else ""
+    tool = None if study is None else study.tool
     new: dict[str, Any] = {}
     if STILL not in have:
         new[STILL] = plot.mechanisms([plot.Robot("neutral pose", g, c)], unit)
     if "drawing" not in have:
-        new["drawing"] = plot.drawing(g, c, unit)
+        new["drawing"] = plot.drawing(g, c, unit, tool)
     if "region" not in have and result is not None and (of_region := region_map(result)) is not None:
         new["region"] = plot.region_map(of_region)
     for stem, one in new.items():

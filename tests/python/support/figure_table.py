@@ -154,6 +154,7 @@ def solids(*semi_axes):
     return {f"{k}": (np.eye(3), half) for k, half in enumerate(semi_axes)}
 
 
+TOOL, TOOL_ABOVE = nd.Tool((0.0, 0.0, -1.0)), nd.Tool((-0.7, 0.2, 0.9), (0.3, 0.0, 0.1))
 FIGURES = {
     "one mechanism": lambda: plot.mechanism(plot.Robot("a title", APART, AWAY), "mm"),
     "mechanism": lambda: plot.mechanisms([plot.Robot("optimum", APART, HOME, 3.9, "a note", [EDGES])], "mm"),
@@ -162,6 +163,8 @@ FIGURES = {
     "compare": lambda: plot.compare(nd.compare(nd.Design(G, HOME), nd.Design(APART, AWAY))),
     "drawing": lambda: plot.drawing(G, HOME, "mm"),
     "drawing, joints apart": lambda: plot.drawing(APART, AWAY, "m"),
+    "drawing, a tool": lambda: plot.drawing(*TOOL.robot(G, HOME), "mm", TOOL),
+    "drawing, a tool above": lambda: plot.drawing(*TOOL_ABOVE.robot(APART, AWAY), "m", TOOL_ABOVE),
     "condition": lambda: plot.condition_curves([curves(**COMPARED), curves()], "mm"),
     "objective over poses": lambda: plot.condition_curves([curves(**OVER_POSES)], "mm"),
     "region": lambda: plot.region_map(region()),
