@@ -62,6 +62,10 @@ def test_changes_that_do_not_fit_are_refused(run):
         ({"b1": "+1"}, "as '"),
         ({"b1": "wide"}, "as '"),
         ({}, "got none"),
+        ({"zs": 3.0, "zp": 3.0}, r"zs, zp: got zs = 3, expected 0 < zs < zp = 3"),
+        ({"zs": 0.0}, "zs: got zs = 0, expected 0 < zs < zp"),
+        ({"a1": 0.0, "a2": 0.0}, "a1, a2: .*expected a base of some size"),
+        ({"theta_z": 30.0}, "theta_z: got 30 rad, expected at most a turn, or theta_z_deg"),
     ):
         with pytest.raises(ValueError, match=words):
             run.with_changes(**changes)
