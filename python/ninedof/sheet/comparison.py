@@ -77,9 +77,9 @@ class Comparison:
             columns = [Column("limit"), *(Column(name, "", RIGHT) for name in self.names)]
             rows = [row for label, entry in self.limits.items() for row in _limit_rows(label, entry, self.sheets)]
             out.append(Table("Limits", columns, rows))
-        for name, rows, one in zip(self.names, self.outside, self.sheets, strict=True):
-            if rows:
-                beyond = ", ".join(_outside_words(label, *row, one.unit) for label, row in rows.items())
+        for name, outside, one in zip(self.names, self.outside, self.sheets, strict=True):
+            if outside:
+                beyond = ", ".join(_outside_words(label, *ends, one.unit) for label, ends in outside.items())
                 out.append(f"{name} is outside of the bounds of its study: {beyond}")
         for name, labels in zip(self.names, self.broken, strict=True):
             if labels:
@@ -98,8 +98,8 @@ class Comparison:
         }
         out = {"names": list(self.names), "numbers": {name: list(row) for name, row in self.numbers.items()}}
         differences = {key: list(values) for key, values in self.differences.items()}
-        out |= {"limits": limits, "differences": differences, "outside": [dict(rows) for rows in self.outside]}
-        return ({"unit": self.unit} if self.unit else {}) | out
+        more = {"limits": limits, "differences": differences, "outside": list(self.outside)}
+        return ({"unit": self.unit} if self.unit else {}) | out | more
 
     def __str__(self) -> str:
         """Show all tables as text."""

@@ -2,6 +2,7 @@
 
 import json
 import shlex
+from dataclasses import replace
 
 import pytest
 
@@ -47,6 +48,31 @@ def test_the_payload(folder, run):
     status, out = run(f"payload {folder} --force 1")
     assert status == 3
     assert "no payload" in out
+
+
+def test_the_force_is_that_of_the_study_where_it_has_one(folder, run, tmp_path):
+    machine = nd.load(folder)
+    limits = {"force": [{"max": 60.0}, {"max": 9.0, "at": "neutral"}]}
+    limited = replace(machine, study=replace(machine.study, constraints=limits))
+    nd.save(limited, tmp_path / "limited")
+    expected = nd.largest_payload(machine, 60.0).mass
+    status, out = run(f"payload {tmp_path / 'limited'} --json")
+    assert status == 0
+    assert json.loads(out)["mass"] == pytest.approx(expected, rel=1e-12)
+    assert nd.largest_payload(limited).mass == pytest.approx(expected, rel=1e-12)
+    assert "from the study: force at most 60" in run(f"payload {tmp_path / 'limited'}")[1]
+    assert "from the study" not in run(f"payload {tmp_path / 'limited'} --force 50")[1]
+    assert run(f"payload {folder}")[0] == 2
+
+
+def test_json_has_no_number_that_was_not_asked_for(folder, run):
+    def refuse(literal):
+        raise AssertionError(literal)
+
+    text = run(f"payload {folder} --force inf --json")[1]
+    data = json.loads(text, parse_constant=refuse)
+    assert data["mass"] == "inf"  # no leg reaches it
+    assert data["region"].keys() == {"region", "looked_at"}
 
 
 def test_forces_and_paths_have_the_masses_of_the_study(folder, run, tmp_path):
