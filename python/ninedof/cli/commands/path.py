@@ -111,6 +111,7 @@ def path(options: PathOptions) -> None:
         "geometry": triples(g),
         "home": arrays_of(home),
         **unit_entry(chosen.unit),
+        **chosen.stated,
         **how,
         "force": force,
         "moment": moment,
