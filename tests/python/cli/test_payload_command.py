@@ -4,6 +4,7 @@ import json
 import shlex
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import ninedof as nd
@@ -89,6 +90,29 @@ def test_forces_and_paths_have_the_masses_of_the_study(folder, run, tmp_path):
     load = (wrench[3:], wrench[:3])
     motion = nd.follow(machine.geometry, line, machine.configuration, "shifted", load=load, masses=machine.study.masses)
     assert [legs[leg]["rms"] for leg in legs] == pytest.approx(motion.drives["rms"].tolist(), rel=1e-12)
+
+
+def test_a_path_tells_the_forces_of_every_load_of_the_study(folder, run, tmp_path):
+    machine = nd.load(folder)
+    wrenches = [[0.0, 0.0, 0.0, 12.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0, 90.0, 0.0]]
+    study = replace(machine.study, loads={"wrenches": wrenches}, constraints={"force": {"max": 50.0}})
+    nd.save(replace(machine, study=study), tmp_path / "two")
+    line = "--line 0.1 0 0.1 --points 51"
+    status, out = run(f"path {tmp_path / 'two'} {line} --out {tmp_path / 'along'}")
+    assert "largest of 2 loads" in out
+    assert "from the study: 2 loads of [loads], [masses]" in out
+    motion = nd.load(tmp_path / "along")
+    each = []
+    for wrench in wrenches:
+        load = (wrench[3:], wrench[:3])
+        each.append(nd.follow(machine, motion.trajectory, load=load, masses=machine.study.masses).leg_forces)
+    assert motion.leg_forces == pytest.approx(np.array(each), rel=1e-9, abs=1e-9)
+    most = np.abs(each).max(axis=(0, 1))
+    (limit,) = json.loads((tmp_path / "along" / "record.json").read_text())["results"]["motion"]["limits"]
+    assert limit["value"] == pytest.approx(most.max(), rel=1e-9)
+    assert np.abs(each[0]).max() < 50.0 < most.max()  # the first load alone breaks nothing
+    assert status == 3
+    assert "each figure the largest of 2 loads" in (tmp_path / "along" / "report.html").read_text()
 
 
 def test_legs_that_never_carry_are_named(run, tmp_path):

@@ -75,6 +75,7 @@ def followed(kappa=None, lengths=LENGTHS, time=TIME, high=np.inf, unit="", force
         leg_lengths=lengths,
         leg_rates=np.gradient(lengths, time, axis=0),
         leg_forces=forces,
+        load_count=0 if forces is None else forces.size // lengths.size,
         force_unit="N" if unit else "",
         condition_number=lengths[:, 0] if kappa is None else kappa,
         limits=(np.zeros(9), np.full(9, high)),
@@ -198,6 +199,7 @@ FIGURES = {
     "body": lambda: plot.workspace_body(found().surface(20_000), home=HOME.position, lines=[EDGES], unit="m"),
     "motion": lambda: plot.motion(followed(high=3.05, unit="mm")),
     "motion with forces": lambda: plot.motion(followed(unit="mm", forces=30.0 * LENGTHS - 90.0)),
+    "motion with loads": lambda: plot.motion(followed(unit="mm", forces=np.stack([LENGTHS, 50.0 - 9.0 * LENGTHS]))),
     "margins": lambda: plot.motion(followed(), {"leg_length": 0.3 - TIME, "cone": TIME}),
     "two ellipsoids": lambda: plot.ellipsoids(velocities(TILTED)),
     "four ellipsoids": lambda: plot.ellipsoids(
