@@ -119,7 +119,8 @@ class Tool(Table):
     def words(self, unit: str = "") -> list[str]:
         """Return where it is on the plate and how it is turned, a line each; none where it is the plate's frame."""
         at, turn = (", ".join(f"{x:.5g}" for x in three) for three in (self.position, map(degrees_of, self.rotation)))
-        return [f"tool at {amount(f'({at})', unit)}"] * bool(self) + [f"tool turned ({turn})°"] * any(self.rotation)
+        where = amount(f"({at})", text("unit", unit))
+        return [f"tool at {where}"] * bool(self) + [f"tool turned ({turn})°"] * any(self.rotation)
 
     def seen(self, point: Vector) -> Vector:
         """Return a point of the platform's frame in the tool's frame."""

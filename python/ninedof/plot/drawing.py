@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Polygon
 
-from ninedof.design.duty import Tool
 from ninedof.plot import style
 from ninedof.plot.space.mechanism import DASHES, POINT_O, Robot
 from ninedof.robot.configuration import Configuration, require_single
@@ -34,11 +33,24 @@ CHIP: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "
 CENTRE: dict[str, Any] = {"color": style.MUTED, "lw": 0.5, "ls": (0, (8, 2, 2, 2))}
 
 
+class ToolOf(Protocol):
+    """The methods of `ninedof.Tool` that a drawing calls."""
+
+    def words(self, unit: str) -> list[str]:
+        """Say where it is."""
+
+    def plates(self, geometry: Geometry) -> Geometry:
+        """Return the plates in their own frames."""
+
+    def plate(self, configuration: Configuration) -> Configuration:
+        """Return where the plate's frame is."""
+
+
 def drawing(
     geometry: Geometry,
     configuration: Configuration,
     unit: str = "",
-    tool: Tool | None = None,
+    tool: ToolOf | None = None,
     figure: Figure | None = None,
 ) -> Figure:
     """Return a figure with the dimensions of a machine: base and platform from +z of their frames, and from the front.
@@ -71,11 +83,12 @@ def drawing(
     >>> figure = nd.plot.drawing(g, nd.Configuration.neutral(483.0, 319.0), unit="mm")
 
     """
-    tool = Tool() if tool is None else tool
     require_single("configuration", configuration)
-    points, at_tool = Robot("", geometry, configuration).points(), configuration.position
-    geometry, configuration = tool.plates(geometry), tool.plate(configuration)
-    seen = np.vstack([points, at_tool])[:, [0, 2]]
+    points, words = Robot("", geometry, configuration).points(), [] if tool is None else tool.words(unit)
+    if tool is not None and words:
+        points = np.vstack([points, configuration.position])
+        geometry, configuration = tool.plates(geometry), tool.plate(configuration)
+    seen = points[:, [0, 2]]
     with style.page(figure, style.TWO_COLUMNS, HEIGHT) as figure:
         for k, plate in enumerate(plates_of(geometry)):
             panel = _Panel(figure, (k / 3.0, REACH * plate.size, np.zeros(2)))
@@ -85,8 +98,8 @@ def drawing(
         low[1] = min(low[1], 0.0)
         panel = _Panel(figure, (2.0 / 3.0, 0.72 * float((high - low).max()), 0.5 * (low + high)))
         panel.title("Front, along +y, neutral pose")
-        panel.front(seen if tool else seen[:13], configuration, unit)
-        panel.note([*turn_words(configuration), *tool.words(unit)])
+        panel.front(seen, configuration, unit)
+        panel.note([*turn_words(configuration), *words])
     return figure
 
 
