@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
+from ninedof.design.changes import changed_variables
 from ninedof.design.design_point import infinite_if_singular
 from ninedof.design.duty import Tolerances
 from ninedof.design.limit_numbers import leg_limits_of
@@ -18,7 +19,6 @@ from ninedof.design.pose import rule_words
 from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.optimize.changes import changed_variables
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.tables import candidates_table
 from ninedof.optimize.words import agreement_sentence, price_words, reached_words
