@@ -310,6 +310,7 @@ TEST_SUITE("law") {
       for (int leg = 0; leg < 9; ++leg)
         CHECK(leg_length_row.number(look, leg) == doctest::Approx(lengths[at_index(leg)]).epsilon(1e-13));
       const FormHome form_home(one.g, one.home, one.options);
+      const AsBuilt drawn{one.g};
       const FormPose pose = form_pose(one.here);
       for (int k = 0; k < 3; ++k) {
         const double value = singularity_free_row.number(look, k), side = look.side(k);

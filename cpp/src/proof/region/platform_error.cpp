@@ -140,6 +140,11 @@ class ErrorShare final : public IndexOverPoses {
 
 ErrorOverPoses error_over_poses(const PosedRobot& machine, const ProofSettings& settings, const Control& control) {
   using namespace over_region;
+  if (machine.region.empty() && machine.poses.empty()) {
+    PosedRobot at_neutral = machine;
+    at_neutral.poses.push_back(machine.neutral);
+    return error_over_poses(at_neutral, settings, control);
+  }
   const Domain domain(machine);
   Errors met;
   Met at;
