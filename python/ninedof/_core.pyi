@@ -376,6 +376,7 @@ class PosedRobot:
         characteristic_length: float,
         region: Region | None,
         rule: PointRule | None,
+        tolerances: Tolerances | None = None,
         /,
     ) -> None: ...
 
@@ -403,8 +404,11 @@ class LimitsOverPoses:
     lengths: tuple[tuple[float, float], ...]
 
 def limits_over_poses(
-    machine: PosedRobot, problem: Problem, tolerance: float, threads: int, seconds: float, /
+    machine: PosedRobot, problem: Problem, slack: float, threads: int, seconds: float, /
 ) -> LimitsOverPoses: ...
+def error_over_poses(
+    machine: PosedRobot, gap: float, threads: int, seconds: float, /
+) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float]]: ...
 
 class ConditionSettings:
     def __init__(

@@ -39,7 +39,8 @@ void bind_structs(py::module_& m) {
       .def_readwrite("scale", &PointRule::scale)
       .def_readwrite("powers", &PointRule::powers)
       .def_property("coefficients", copy_of(&PointRule::coefficients), setter_of(&PointRule::coefficients), "Copied.");
-  py::class_<PosedRobot>(m, "PosedRobot", "A robot and all poses at which it is looked at.").def(py::init(&robot_from));
+  py::class_<PosedRobot>(m, "PosedRobot", "A robot and all poses at which it is looked at.")
+      .def(py::init(&robot_from), py::arg(), py::arg(), py::arg(), py::arg(), py::arg(), py::arg() = py::none());
   request<MetAt>(m, "MetAt", "Where a number was met.")
       .def_property(
           "shift", [](const MetAt& at) { return numbers(at.shift); }, [](MetAt& at, const Vec3& v) { at.shift = v; },

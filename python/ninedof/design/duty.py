@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ninedof import _core
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.angles import degrees_of
@@ -18,7 +17,7 @@ from ninedof.support.arguments import Vector, finite, instance, items, shown, te
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.schema import Table, entry, read
 from ninedof.support.short import short_repr
-from ninedof.support.units import amount
+from ninedof.support.units import amount, unit_argument
 
 Six = tuple[float, float, float, float, float, float]
 STANDARD: Vector = (0.0, 0.0, -9.81)
@@ -120,7 +119,7 @@ class Tool(Table):
     def words(self, unit: str = "") -> list[str]:
         """Return where it is on the plate and how it is turned, a line each; none where it is the plate's frame."""
         at, turn = (", ".join(f"{x:.5g}" for x in three) for three in (self.position, map(degrees_of, self.rotation)))
-        where = amount(f"({at})", text("unit", unit))
+        where = amount(f"({at})", unit_argument(unit))
         return [f"tool at {where}"] * bool(self) + [f"tool turned ({turn})°"] * any(self.rotation)
 
     def seen(self, point: Vector) -> Vector:
@@ -300,10 +299,6 @@ class Tolerances(Table):
     def __bool__(self) -> bool:
         """Whether anything may be off."""
         return self.joints > 0.0 or self.legs > 0.0
-
-    def for_core(self) -> _core.Tolerances:
-        """Return them joint by joint and leg by leg."""
-        return _core.Tolerances(legs=np.full(9, self.legs), joints=np.full(12, self.joints))
 
 
 DUTIES: dict[str, type[Table]] = {

@@ -382,7 +382,7 @@ class Result:
         Returns
         -------
         Tolerances
-            To 3 %. Both zero where a limit leaves no reserve: an optimum lies on its limits, unless the study has
+            To 5 %. Both zero where a limit leaves no reserve: an optimum lies on its limits, unless the study has
             tolerances.
 
         Raises
@@ -392,6 +392,7 @@ class Result:
 
         """
         place, design = self._placing(), self._machine()
+        progress_argument(options.get("progress"))
         if place is not None and not isinstance(options.get("rule"), PointRule):
             options["rule"] = rule_of(place, *design, options.get("threads", 0), options.get("progress"))
         options = {"gap": WIDE, "time_limit": 20.0} | options

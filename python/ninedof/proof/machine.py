@@ -125,9 +125,10 @@ def certify(
     end = perf_counter() + seconds  # finding a rule does not count for the time limit
     over = None if region is None else region.for_core()
     by_rule = None if rule is None else rule.for_core()
+    errors_of_all = _core.Tolerances(legs=np.full(9, built.legs), joints=np.full(12, built.joints))
 
     def robot(at: Configuration, *where: Any) -> _core.PosedRobot:
-        return _core.PosedRobot(geometry, at, float(characteristic_length), *where, built.for_core())
+        return _core.PosedRobot(geometry, at, float(characteristic_length), *where, errors_of_all)
 
     def settings(bounds: list[float]) -> _core.ConditionSettings:
         remaining = end - perf_counter()

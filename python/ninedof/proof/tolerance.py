@@ -7,11 +7,11 @@ from collections.abc import Callable
 from ninedof.design.duty import Tolerances
 
 FIRST, LEAST, MOST = 1e-4, 1e-6, 0.05  # of the machine's height
-STEP, HALVINGS = 4.0, 6
+STEP, HALVINGS = 4.0, 5
 
 
 def largest_tolerance(proved: Callable[[Tolerances], bool], shape: Tolerances, height: float) -> Tolerances:
-    """Return the largest tolerances that are proved, to 3 %; none at all where not even the least ones are.
+    """Return the largest tolerances that are proved, to 5 %; none at all where not even the least ones are.
 
     Parameters
     ----------

@@ -131,7 +131,7 @@ TEST_SUITE("condition_split") {
     for (int trial = 0; trial < 500; ++trial) {
       const Case one(draw, std::pow(10.0, -1.5 + draw()));
       Moves unused;
-      const SplitGramOf<T> split = split_gram(one.robot, 1.0, one.template pose<T>(), unused);
+      const SplitGramOf<T> split = split_gram(AsBuilt{one.robot}, 1.0, one.template pose<T>(), unused);
       REQUIRE(split.known);
       const Point t = draw.point();
       Case point = one;
@@ -159,7 +159,7 @@ TEST_SUITE("condition_split") {
       const Case one(draw, std::pow(10.0, -1.5 + draw()));
       const int locked = 3 + trial % 6;
       Moves unused;
-      const SplitGramOf<T> split = split_gram(one.robot, 1.0, one.template pose<T>(), unused, locked);
+      const SplitGramOf<T> split = split_gram(AsBuilt{one.robot}, 1.0, one.template pose<T>(), unused, locked);
       REQUIRE(split.known);
       const Point t = draw.point();
       Mat69 j = jacobian(one.robot, one.configuration(t), 1.0);
@@ -199,9 +199,9 @@ TEST_SUITE("condition_split") {
       const double limit = one.condition({}, locked) * (1.0 + draw() * one.half);
       if (!(limit > 1.0)) continue;
       Moves unused;
-      const SplitGram g = split_gram(one.robot, 1.0, one.pose(), unused, locked);
+      const SplitGram g = split_gram(AsBuilt{one.robot}, 1.0, one.pose(), unused, locked);
       const ConditionSplit split = split_by_condition(g, limit);
-      const bool all = bounded(split_gram(one.robot, 1.0, one.pose<CurvedForm>(), unused, locked), limit);
+      const bool all = bounded(split_gram(AsBuilt{one.robot}, 1.0, one.pose<CurvedForm>(), unused, locked), limit);
       everywhere += all;
       parts += !split.everywhere && std::isfinite(split.level);
       nowhere += lower(split.excess) > 0.0;

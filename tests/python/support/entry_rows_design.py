@@ -206,11 +206,15 @@ row("prove_optimum", few=4, huge=("time_limit",))(
 )
 row("applicable_bounds")(lambda: {"result": it.result()})
 row("check", huge=("perturbations",))(lambda: {"result": it.result(), "perturbations": 3, "seed": 0, "certify": False})
+row("Result.largest_tolerance", lambda **a: it.region_result().largest_tolerance(**a), few=2)(
+    lambda: {"condition_number": 50.0, "slack": 1e-3, "time_limit": 1.0, "threads": 1, "progress": None}
+)
 row("Result.certify", lambda **a: it.region_result().certify(**a), few=2)(
     lambda: {
         "condition_number": 50.0,
         "gap": 0.5,
         "time_limit": 1.0,
+        "slack": 1e-3,
         "tolerance": 1e-3,
         "threads": 1,
         "rule": None,

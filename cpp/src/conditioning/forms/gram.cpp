@@ -71,13 +71,13 @@ LegProducts<T> leg_products(const Robot& g, double characteristic_length, const 
   return out;
 }
 
-template LegProducts<PoseForm> leg_products(const Geometry&, double, const PoseOf<PoseForm>&, Moves&);
+template LegProducts<PoseForm> leg_products(const AsBuilt&, double, const PoseOf<PoseForm>&, Moves&);
 template LegProducts<CurvedForm> leg_products(const AsBuilt&, double, const PoseOf<CurvedForm>&, Moves&);
 template LegProducts<DesignForm> leg_products(const JointsOf<DesignForm>&, double, const PoseOf<DesignForm>&, Moves&);
 
 Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
   const double inverse_lc = 1.0 / characteristic_length;
-  const LegProducts<PoseForm> legs = leg_products(g, characteristic_length, pose, moves);
+  const LegProducts<PoseForm> legs = leg_products(AsBuilt{g}, characteristic_length, pose, moves);
   Symmetric6 out = legs.external;
   const Symmetric3 p = parallel(legs.upper, legs.lower);
   const FormVector y = inverse_lc * (pose.s - pose.p);

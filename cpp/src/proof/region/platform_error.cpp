@@ -18,6 +18,8 @@ namespace ninedof {
 namespace over_region {
 namespace {
 
+constexpr double widest_gap = 0.5;
+
 /// Of rotation, p and O.
 using Errors = std::array<double, 3>;
 
@@ -160,8 +162,15 @@ ErrorOverPoses error_over_poses(const PosedRobot& machine, const ProofSettings& 
   if (!(most > forms::tiny)) return {0.0, 0.0, 0.0};
   double share = infinity, most_met = 1.0;
   long boxes = 0;
-  if (std::isfinite(most)) {
-    const WorstOverPoses found = worst(ErrorShare(domain, met), {1.0, at.at}, settings, {}, control);
+  const ErrorShare index(domain, met);
+  ProofSettings how = settings;
+  how.gap = std::clamp(settings.gap, 1e-3, widest_gap);
+  Moves unused;
+  // The rest of second order grows with the bound: one that does not hold at a pose never will, a wider one may.
+  const auto hopeless = [&] { return !index.bounded(at.at, 1.0 + how.gap, unused); };
+  while (hopeless() && how.gap < widest_gap) how.gap = std::min(1.5 * how.gap, widest_gap);
+  if (std::isfinite(most) && !hopeless()) {
+    const WorstOverPoses found = worst(index, {1.0, at.at}, how, all_boxes(domain), control);
     share = found.extreme.high;
     most_met = std::max(found.extreme.low, 1.0);
     boxes = found.extreme.boxes;

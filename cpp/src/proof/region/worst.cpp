@@ -108,6 +108,17 @@ void require_part(const Domain& domain, const Box& box) {
   if (!part) throw InvalidArgument("boxes", "a box of other poses", "boxes that a run of the same machine has left");
 }
 
+PoseBoxes rows_of_boxes(const std::vector<Box>& boxes) {
+  PoseBoxes out;
+  for (const Box& box : boxes) {
+    std::array<double, 13> row{static_cast<double>(box.piece)};
+    std::copy(box.low.begin(), box.low.end(), row.begin() + 1);
+    std::copy(box.high.begin(), box.high.end(), row.begin() + 7);
+    out.push_back(row);
+  }
+  return out;
+}
+
 Looked look(const IndexOverPoses& index, const Box& box, double bound) {
   Looked out{true, false, 0.0, -1};
   const Domain& domain = index.domain();
@@ -120,6 +131,10 @@ Looked look(const IndexOverPoses& index, const Box& box, double bound) {
 }
 
 }  // namespace
+
+PoseBoxes all_boxes(const Domain& domain) {
+  return rows_of_boxes(domain.roots());
+}
 
 WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& settings, const PoseBoxes& from,
                      const Control& control) {
@@ -196,12 +211,7 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
   }
   out.extreme = {met.value, proved, domain.met(met.at), count};
   out.interrupted = control.stop.stop_requested();
-  for (const Box& box : boxes) {
-    std::array<double, 13> row{static_cast<double>(box.piece)};
-    std::copy(box.low.begin(), box.low.end(), row.begin() + 1);
-    std::copy(box.high.begin(), box.high.end(), row.begin() + 7);
-    out.left.push_back(row);
-  }
+  out.left = rows_of_boxes(boxes);
   return out;
 }
 

@@ -30,6 +30,9 @@ struct Met {
 /// tolerances.
 Met searched(const IndexOverPoses& index, int threads);
 
+/// The whole domain: a search from it has one bound, another one comes to it by wider ones.
+PoseBoxes all_boxes(const Domain& domain);
+
 /// As worst_condition, of any index, from where it was met.
 WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& settings, const PoseBoxes& from,
                      const Control& control);

@@ -195,7 +195,7 @@ void PoseCuts::look_at(const ConditionLimit& limit, const FormPose& pose, Found&
   if (!(found.open & bit(limit.bit))) return;
   Moves unused;
   const forms::ConditionSplit split = forms::split_by_condition(
-      forms::split_gram(geometry_, criteria_.characteristic_length, pose, unused, limit.locked), limit.high);
+      forms::split_gram(AsBuilt{geometry_}, criteria_.characteristic_length, pose, unused, limit.locked), limit.high);
   if (split.everywhere) {
     found.open &= ~bit(limit.bit);
     return;

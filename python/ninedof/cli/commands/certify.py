@@ -58,7 +58,8 @@ def certify(options: CertifyOptions) -> None:
     finite("--time", options.time, 0.0)
     if options.condition is not None:
         finite("--condition", options.condition, 1.0)
-    run, tolerance = options.run, _tolerance(options.tolerance)
+    run = options.run
+    tolerance = None if options.tolerance is None or options.tolerance == LARGEST else _length(options.tolerance)
     result = load(run)
     if not isinstance(result, Result):
         raise ValueError(
@@ -67,12 +68,13 @@ def certify(options: CertifyOptions) -> None:
     file = certificate_file(run)
     earlier = load_certificate(run) if file.exists() else None
     goes_on()
-    if tolerance == LARGEST:
+    if options.tolerance == LARGEST:
         with screen.bar("boxes", "certify") as bar:
-            tolerance = result.largest_tolerance(
+            built = result.largest_tolerance(
                 condition_number=options.condition, slack=options.slack, threads=options.threads or 0, progress=bar
             )
-    built = tolerances_of(tolerance, result.study)
+    else:
+        built = tolerances_of(tolerance, result.study)
     if earlier is not None and earlier.tolerances != built:  # a proof of other machines is not gone on with
         earlier = None
     states = []
@@ -117,10 +119,8 @@ def certify(options: CertifyOptions) -> None:
     raise typer.Exit(DONE if certificate.proved and not certificate.left_count else NO_RESULT)
 
 
-def _tolerance(given: str | None) -> float | str | None:
-    """Return the option: a length, "max", or None for that of the study."""
-    if given is None or given == LARGEST:
-        return given
+def _length(given: str) -> float:
+    """Return a tolerance that is no word."""
     try:
         return finite("--tolerance", float(given), 0.0)
     except ValueError:
@@ -132,7 +132,7 @@ def _largest(certificate: MachineCertificate) -> str:
     built = certificate.tolerances
     if built:
         joints, legs = (amount(f"{x:.4g}", certificate.unit) for x in (built.joints, built.legs))
-        return f"The largest tolerances that were proved, to 3 %: joints {joints}, legs {legs}."
+        return f"The largest tolerances that were proved, to 5 %: joints {joints}, legs {legs}."
     tight = min(certificate.limits, key=lambda limit: limit.margin)
     return (
         f"No tolerance was proved: {tight.name.replace('_', ' ')} leaves no reserve. `[tolerances]` in a study makes "
