@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ninedof.support.arguments import cleaned, finite, items, number, path_argument, shown, text
+from ninedof.support.arguments import cleaned, finite, instance, items, number, path_argument, shown, text
 from ninedof.support.files import csv_table, finite_or_nan, read_text, require_entries
 from ninedof.support.schema import Table, entries, entry, read
 from ninedof.support.short import short_repr
@@ -79,6 +79,7 @@ class Actuator(Table):
 
     def is_as_good_as(self, other: Actuator) -> bool:
         """Whether it can do all that another one can, and is not known to cost more."""
+        instance("other", other, Actuator)
         wide = self.shortest <= other.shortest and other.longest <= self.longest
         strong = self.force >= other.force and self.rate >= other.rate
         known = self.price is not None and other.price is not None

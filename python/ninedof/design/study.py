@@ -311,7 +311,7 @@ class Study:
     def with_actuators(self, rows: Mapping[str, Actuator]) -> Study:
         """Return the study of legs that have these rows, by "external", "upper" and "lower": with their limits."""
         limits = dict(self.constraints)
-        for kind, row in rows.items():
+        for kind, row in table("rows", rows).items():
             limits |= bought.row_limits(choice("rows", kind, LEG_KINDS), instance("rows", row, Actuator), self.stated)
         return self._with(constraints=limits, actuators=(), actuators_for=FOR[0], greatest_price=None)
 

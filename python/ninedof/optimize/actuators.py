@@ -24,8 +24,8 @@ from ninedof.support.structs import Fixed
 FEW = 4  # starts of a study of the search, besides those from the studies before it
 Rows = tuple[Actuator | None, ...]
 """A row for each group of legs; None where it may be any."""
-Solve = Callable[[Study, int, Sequence[Candidate], str], Result]
-"""Solves a study with so many starts and those of other designs; the words say which."""
+Solve = Callable[[Study, Sequence[Candidate], str, bool], Result]
+"""Solves a study, from other designs too; the words name it, and the flag asks why an infeasible one is."""
 
 
 class SearchEnded(Exception):  # no error
@@ -55,6 +55,10 @@ class ActuatorSearch:
             result = self._chosen(found) if found else self._nothing_fits()
         except SearchEnded as end:
             result = self._so_far(end.args[0])
+        except KeyboardInterrupt:  # between two studies
+            if not self.results:
+                raise
+            result = self._so_far(replace([*self.results.values()][-1], interrupted=True))
         return replace(result, seconds=self.seconds)
 
     def _best_first(self) -> list[Rows]:
@@ -107,7 +111,7 @@ class ActuatorSearch:
             before = [part for part in self._parts(rows) if part in self.results]
             warm = [best for part in before if (best := self.results[part].best) is not None]
             names = ", ".join("any" if row is None else row.name for row in rows)
-            self.results[rows] = self._solved(study, min(FEW, study.starts), warm, names)
+            self.results[rows] = self._solved(study, warm, names)
         return self.results[rows]
 
     def _parts(self, rows: Rows) -> list[Rows]:
@@ -119,8 +123,11 @@ class ActuatorSearch:
         )
         return [part for part in dict.fromkeys(parts) if part != rows]
 
-    def _solved(self, study: Study, starts: int, warm: Sequence[Candidate], names: str) -> Result:
-        result = self._solve(study, starts, warm, f"actuators {names} ({len(self.results)} solved)")
+    def _solved(
+        self, study: Study, warm: Sequence[Candidate], names: str, most_starts: int = FEW, explain: bool = False
+    ) -> Result:
+        study = study.with_solver(min(most_starts, self.study.starts))
+        result = self._solve(study, warm, f"actuators {names} ({len(self.results)} solved)", explain)
         self.seconds += result.seconds
         return result
 
@@ -140,13 +147,13 @@ class ActuatorSearch:
         other = None if next_best is None else self._combination(next_best, self.results[next_best])
         count = math.prod(map(len, self.rows))
         chosen = self._combination(rows, result)
-        notes = notes_of(self.study)
-        return replace(result, actuators=ActuatorChoice(chosen, other, count, len(self.results), self.left_out, notes))
+        choice = ActuatorChoice(chosen, other, count, len(self.results), self.left_out, notes_of(self.study))
+        return replace(result, actuators=choice, study=result.study.with_solver(self.study.starts))
 
     def _chosen(self, found: Sequence[Rows]) -> Result:
         rows, result = found[0], self.results[found[0]]
         names = ", ".join(row.name for row in rows if row)
-        again = self._solved(result.study, self.study.starts, result.candidates[:1], names)
+        again = self._solved(result.study, result.candidates[:1], names, most_starts=self.study.starts)
         if self._value(again, complete=True) <= self._value(result, complete=True) * (1.0 + 1e-9):
             result = again
         return self._with_choice(result, rows, found[1] if len(found) > 1 else None)
@@ -166,25 +173,19 @@ class ActuatorSearch:
 
     def _nothing_fits(self) -> Result:
         """Return why no rows fit: of each kind of legs the nearest row, and the limit that fails."""
-        free = self._solved(self.study.with_actuators({}), FEW, (), "none")
+        free = self._solved(self.study.with_actuators({}), (), "none", explain=True)
         if free.best is None:
             return replace(free, study=self.study, reason=f"without limits of actuators too: {free.reason}")
         reasons: list[str] = []
         causes: dict[str, None] = {}
         for kinds in self.groups:
             rows = sorted(self.study.actuators, key=lambda row: -self._least_margin(free, kinds, row))
-            nearest: Result | None = None
-            for row in rows:
-                study = self.study.with_actuators(dict.fromkeys(kinds, row))
-                result = self._solved(study, min(FEW, study.starts), free.candidates[:1], row.name)
-                if result.best is not None:
-                    break
-                nearest = nearest or result
-            else:
-                assert nearest is not None
-                reasons.append(
-                    f"no row fits the {' and '.join(kinds)} legs; the nearest, {rows[0].name}: {nearest.reason}"
-                )
+            studies = [self.study.with_actuators(dict.fromkeys(kinds, row)) for row in rows]
+            alone = (self._solved(one, free.candidates[:1], row.name) for one, row in zip(studies, rows, strict=True))
+            if all(result.best is None for result in alone):
+                nearest = self._solved(studies[0], free.candidates[:1], rows[0].name, explain=True)
+                which = f"no row fits the {' and '.join(kinds)} legs; the nearest, {rows[0].name}"
+                reasons.append(f"{which}: {nearest.reason}")
                 causes |= dict.fromkeys(nearest.causes)
         if not reasons:
             most, least = self.study.greatest_price, self._least_price(())

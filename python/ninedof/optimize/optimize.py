@@ -135,8 +135,10 @@ def _optimized(
     warm: Sequence[Mapping[str, float]],
     pieces: Pieces,
     time_limit: float = math.inf,
+    explain: bool = True,
 ) -> Result:
-    return pieces.result(study, lambda: _anew(study, threads, progress, warm, time_limit), time_limit)
+    how: dict[str, Any] = {"threads": threads, "time_limit": time_limit, "explain": explain}
+    return pieces.result(study, lambda: _anew(study, progress, warm, how), time_limit)
 
 
 def _with_actuators(
@@ -149,10 +151,10 @@ def _with_actuators(
 ) -> Result:
     begin = perf_counter()
 
-    def solve(one: Study, starts: int, others: Sequence[Candidate], words: str) -> Result:
+    def solve(one: Study, others: Sequence[Candidate], words: str, explain: bool) -> Result:
         left = max(begin + time_limit - perf_counter(), 1e-3)
         known = [*warm, *(other.variables for other in others)]
-        result = _optimized(one.with_solver(starts), threads, part_of(progress, words), known, pieces, left)
+        result = _optimized(one, threads, part_of(progress, words), known, pieces, left, explain)
         if result.interrupted or perf_counter() - begin >= time_limit:
             raise SearchEnded(result)
         return result
@@ -161,10 +163,9 @@ def _with_actuators(
 
 
 def _anew(
-    study: Study, threads: int, progress: Progress | None, warm: Sequence[Mapping[str, float]], time_limit: float
+    study: Study, progress: Progress | None, warm: Sequence[Mapping[str, float]], how: Mapping[str, Any]
 ) -> Result:
-    how: dict[str, Any] = {"seed": study.seed, "threads": threads, "time_limit": time_limit}
-    settings = _core.Settings(starts=study.starts, warm=warm_starts(study, warm), **how)
+    settings = _core.Settings(starts=study.starts, seed=study.seed, warm=warm_starts(study, warm), **how)
     begin, region = perf_counter(), study.objective.region
     report, study_at_poses = None, study
     if region is None:
