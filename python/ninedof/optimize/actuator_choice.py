@@ -77,10 +77,11 @@ class ActuatorChoice:
                 f"{self.next_best.objective:.6f}, {100.0 * more:.2g} % more" if more >= 5e-7 else "the same objective"
             )
             out.append(f"the next best: {self.next_best.words} has {size}{_priced(self.next_best)}")
-        searched = f"{self.solved} studies solved for {self.combinations} combinations of actuators"
+        out.append(f"{self.solved} studies solved for {self.combinations} combinations of actuators")
         if self.left_out:
-            searched += f"; without {', '.join(self.left_out)}, for which another does as much, or too short a stroke"
-        return [*out, searched, *self.notes]
+            why = "another can do as much for no more, or the region needs a longer stroke"
+            out.append(f"not tried: {', '.join(self.left_out)}; {why}")
+        return [*out, *self.notes]
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values."""
