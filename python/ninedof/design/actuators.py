@@ -94,9 +94,6 @@ def actuator_rows(name: str, value: Any) -> tuple[Actuator, ...]:
     rows = []
     for k, row in enumerate(items(name, value, "rows with name, shortest and longest")):
         where = f"{name}[{k}]"
-        missing = [one for one in COLUMNS[:3] if isinstance(row, Mapping) and one not in row]
-        if missing:
-            raise ValueError(f"{where}: got no {missing[0]}, expected {', '.join(COLUMNS[:3])}")
         rows.append(row if isinstance(row, Actuator) else read(Actuator, row, where))
     return _distinct(name, rows)
 

@@ -63,17 +63,29 @@ def test_the_choice_is_the_best_of_all_combinations():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("duty", [False, True])
-def test_the_choice_over_a_region_is_the_best_of_all_combinations(duty):
-    rows, study = [*BOTH, LONG], REGION
-    if duty:
-        rows = rows[:2]
-        study = replace(study, loads={"wrenches": [[0, 0, 0, 0, 0, -500]]}, speeds={"linear": 200.0})
-        rows = [replace(row, force=600.0 - 40.0 * k, rate=280.0) for k, row in enumerate(rows)]
+def test_the_choice_over_a_region_is_the_best_of_all_combinations():
+    rows = [*BOTH, LONG]
+    result = nd.optimize(replace(REGION, actuators=rows))
+    assert_choice(result, every_combination(REGION, rows))
+    assert {one.answer for one in result.certify().limits} == {"proved"}
+
+
+@pytest.mark.slow
+def test_forces_and_rates_choose_too():
+    duty = {"loads": {"wrenches": [[0, 0, 0, 0, 0, -500]]}, "speeds": {"linear": 200.0}}
+    study = replace(REGION, objective={"region": {"box": (30.0, 30.0, 20.0)}}, starts=2, **duty)
+    weak, strong = (replace(LARGE, name=name, force=force, rate=250.0, price=price)
+                    for name, force, price in (("weak", 330.0, 300.0), ("strong", 420.0, 500.0)))  # fmt: skip
+    rows = [replace(SMALL, force=300.0, rate=250.0), weak, strong]
     result = nd.optimize(replace(study, actuators=rows))
     assert_choice(result, every_combination(study, rows))
-    assert {one.answer for one in result.certify().limits} == {"proved"}
-    assert ("upper_force" in result.study.constraints) == duty
+    assert names(result.actuators.chosen) == ["weak", "small", "strong"]  # external legs carry nothing
+    assert "lower_force" in result.active
+    proved = {one.name: one.answer for one in result.certify().limits}
+    assert {proved[name] for name in ("upper_force", "lower_force", "external_rate", "lower_length")} == {"proved"}
+    cheap = nd.optimize(replace(study, actuators=rows, greatest_price=2100.0))
+    assert names(cheap.actuators.chosen) == ["weak", "small", "weak"]
+    assert cheap.objective > 1.01 * result.objective
 
 
 def test_equally_good_rows_go_by_their_price():
