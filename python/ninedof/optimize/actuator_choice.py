@@ -2,27 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
-from ninedof.design.actuators import Actuator, actuator_rows
+from ninedof.design.actuators import LEG_KINDS, Actuator
+from ninedof.design.duty import duty
 from ninedof.design.study import Study
-from ninedof.support.arguments import items, table
+from ninedof.support.arguments import items, number, text, whole
+from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr
-from ninedof.support.structs import Fixed
 
 EACH = 3  # legs of a kind
 
 
+def _texts(name: str, value: Any) -> tuple[str, ...]:
+    return tuple(text(name, one) for one in items(name, value, "a list of texts"))
+
+
 @short_repr
 @dataclass(frozen=True)
-class Combination:
-    """A row for each kind of legs, and the best design found with them."""
+class Combination(Table):
+    """A row for each kind of legs, and the objective of the best design found with them."""
 
-    rows: Mapping[str, Actuator]
-    """By kind of legs: "external", "upper", "lower"."""
-    objective: float
+    external: Actuator = entry(duty(Actuator))
+    upper: Actuator = entry(duty(Actuator))
+    lower: Actuator = entry(duty(Actuator))
+    objective: float = entry(number)
+
+    @property
+    def rows(self) -> dict[str, Actuator]:
+        """The rows by kind of legs."""
+        return {kind: getattr(self, kind) for kind in LEG_KINDS}
 
     @property
     def price(self) -> float | None:
@@ -33,76 +45,41 @@ class Combination:
     @property
     def words(self) -> str:
         """The names of the rows."""
-        names = [row.name for row in self.rows.values()]
-        return f"{names[0]} for all legs" if len(set(names)) == 1 else ", ".join(
-            f"{kind} {name}" for kind, name in zip(self.rows, names, strict=True)
-        )  # fmt: skip
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain values."""
-        rows = {kind: row.to_dict() for kind, row in self.rows.items()}
-        return {"rows": rows, "objective": self.objective, "price": self.price}
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Combination:
-        """Return the combination of a mapping as `to_dict` makes it."""
-        rows = table("actuators.rows", data.get("rows"))
-        return cls(Fixed({kind: actuator_rows(kind, [row])[0] for kind, row in rows.items()}), data["objective"])
+        if self.external == self.upper == self.lower:
+            return f"{self.external.name} for all legs"
+        return ", ".join(f"{kind} {row.name}" for kind, row in self.rows.items())
 
 
 @short_repr
 @dataclass(frozen=True)
-class ActuatorChoice:
+class ActuatorChoice(Table):
     """The combination of rows that a result has, and the search that chose it."""
 
-    chosen: Combination
-    next_best: Combination | None
+    chosen: Combination = entry(duty(Combination))
+    next_best: Combination | None = entry(duty(Combination), None)
     """The best of the others; None where none was found, or the search ended before."""
-    combinations: int
-    """Combinations of rows that are within the price."""
-    solved: int
+    combinations: int = entry(partial(whole, least=0), 0)
+    """All combinations of the rows that were tried."""
+    solved: int = entry(partial(whole, least=0), 0)
     """Continuous studies that were solved for the choice."""
-    left_out: tuple[str, ...] = ()
-    """Rows left out: another can do all that they can and costs no more, or their stroke is too short."""
-    notes: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = entry(_texts, ())
+    """Rows that were not tried: another can do as much and costs no more, or their stroke is too short."""
+    notes: tuple[str, ...] = entry(_texts, ())
     """What was not looked at."""
 
     @property
     def words(self) -> list[str]:
         """The choice in sentences."""
         out = [f"actuators: {self.chosen.words}{_priced(self.chosen)}"]
-        if self.next_best is not None:
-            more = self.next_best.objective / self.chosen.objective - 1.0
-            size = (
-                f"{self.next_best.objective:.6f}, {100.0 * more:.2g} % more" if more >= 5e-7 else "the same objective"
-            )
-            out.append(f"the next best: {self.next_best.words} has {size}{_priced(self.next_best)}")
+        if (other := self.next_best) is not None:
+            more = other.objective / self.chosen.objective - 1.0
+            value = f"{other.objective:.6f}, {100.0 * more:.2g} % more" if more >= 5e-7 else "the same objective"
+            out.append(f"the next best: {other.words} has {value}{_priced(other)}")
         out.append(f"{self.solved} studies solved for {self.combinations} combinations of actuators")
         if self.left_out:
             why = "another can do as much for no more, or the region needs a longer stroke"
             out.append(f"not tried: {', '.join(self.left_out)}; {why}")
         return [*out, *self.notes]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain values."""
-        return self.__dict__ | {
-            "chosen": self.chosen.to_dict(),
-            "next_best": None if self.next_best is None else self.next_best.to_dict(),
-            "left_out": list(self.left_out),
-            "notes": list(self.notes),
-        }
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> ActuatorChoice:
-        """Return the choice of a mapping as `to_dict` makes it."""
-        other = data.get("next_best")
-        return cls(
-            Combination.from_dict(table("actuators.chosen", data.get("chosen"))),
-            None if other is None else Combination.from_dict(table("actuators.next_best", other)),
-            data["combinations"],
-            data["solved"],
-            *(items(name, data.get(name), "names") for name in ("left_out", "notes")),
-        )
 
 
 def _priced(one: Combination) -> str:
@@ -115,5 +92,5 @@ def notes_of(study: Study) -> tuple[str, ...]:
     return tuple(
         f"the {column}s of the actuators are not looked at: the study states no {needs}"
         for column, needs in columns
-        if not study.stated[needs] and any(getattr(row, column) < float("inf") for row in study.actuators)
+        if not study.stated[needs] and any(getattr(row, column) < math.inf for row in study.actuators)
     )

@@ -19,7 +19,6 @@ from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.optimize.actuator_choice import EACH, ActuatorChoice, Combination, notes_of
 from ninedof.optimize.result import Candidate, Result, Status
-from ninedof.support.structs import Fixed
 
 FEW = 4  # starts of a study of the search, besides those from the studies before it
 Rows = tuple[Actuator | None, ...]
@@ -141,7 +140,8 @@ class ActuatorSearch:
         return {kind: row for kinds, row in zip(self.groups, rows, strict=True) for kind in kinds}
 
     def _combination(self, rows: Rows, result: Result) -> Combination:
-        return Combination(Fixed(self._by_kind([row for row in rows if row])), result.best.objective)  # type: ignore[union-attr]
+        by_kind = self._by_kind([row for row in rows if row is not None])
+        return Combination(**by_kind, objective=result.best.objective)  # type: ignore[union-attr]
 
     def _with_choice(self, result: Result, rows: Rows, next_best: Rows | None) -> Result:
         other = None if next_best is None else self._combination(next_best, self.results[next_best])
