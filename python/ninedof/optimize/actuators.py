@@ -66,11 +66,13 @@ class ActuatorSearch:
         heap: list[tuple[float, float, tuple[int, ...]]] = []
 
         def push(value: float, node: tuple[int, ...]) -> None:
-            price = self._least_price(node)
-            if value < math.inf and price <= _or_infinite(self.study.greatest_price):
-                heappush(heap, (float(f"{value:.6g}"), price, node))  # equally good ones by their price
+            if value < math.inf and self._is_within_price(node):
+                heappush(heap, (float(f"{value:.6g}"), self._least_price(node), node))  # equal ones by their price
 
-        push(self._value(self._ask((None,) * len(self.groups))), ())
+        root = self._ask((None,) * len(self.groups))
+        push(self._value(root), ())
+        if root.best is not None and self._is_within_price(guess := self._guess(root)):
+            self._ask(self._rows_of(guess))  # a design to begin with, should the search be interrupted
         while heap and len(found) < 2:
             bound, _, node = heappop(heap)
             rows = self._rows_of(node)
@@ -84,6 +86,18 @@ class ActuatorSearch:
                     known = self.results.get(self._last_alone((*node, k)))
                     push(bound if known is None else max(bound, self._value(known)), (*node, k))
         return found
+
+    def _guess(self, root: Result) -> tuple[int, ...]:
+        """Return the rows that are nearest to the best design of all."""
+        margins = (
+            [self._least_margin(root, kinds, row) for row in rows]
+            for kinds, rows in zip(self.groups, self.rows, strict=True)
+        )
+        return tuple(some.index(max(some)) for some in margins)
+
+    def _is_within_price(self, node: tuple[int, ...]) -> bool:
+        most = self.study.greatest_price
+        return most is None or self._least_price(node) <= most
 
     def _rows_of(self, node: tuple[int, ...]) -> Rows:
         fixed = tuple(rows[k] for rows, k in zip(self.rows, node, strict=False))
@@ -211,10 +225,6 @@ class ActuatorSearch:
 def _replaces(other: Actuator, j: int, row: Actuator, k: int) -> bool:
     """Whether another row makes one superfluous: of two that are equal the second is."""
     return j != k and other.is_as_good_as(row) and (j < k or not row.is_as_good_as(other))
-
-
-def _or_infinite(price: float | None) -> float:
-    return math.inf if price is None else price
 
 
 def least_travel(region: Region, kind: str) -> float:
