@@ -18,8 +18,10 @@ std::tuple<double, double, double> numbers(const Vec3& v) {
 
 /// The neutral configuration comes first in the stack, then the listed poses.
 PosedRobot robot_from(const Geometry& g, const ConfigurationStack& all, double characteristic_length,
-                      const std::optional<Region>& region, const std::optional<PointRule>& rule) {
+                      const std::optional<Region>& region, const std::optional<PointRule>& rule,
+                      const std::optional<Tolerances>& tolerances) {
   PosedRobot out{g, all[0], characteristic_length, {}, {}, {}};
+  if (tolerances) out.tolerances = *tolerances;
   if (region) {
     region->validate();
     out.region.push_back(*region);
@@ -77,15 +79,23 @@ void bind_structs(py::module_& m) {
 void bind_machine(py::module_& m) {
   bind_structs(m);
   m.def("limits_over_poses",
-        [](const PosedRobot& machine, const Problem& problem, double tolerance, int threads, double seconds) {
+        [](const PosedRobot& machine, const Problem& problem, double slack, int threads, double seconds) {
           require_sound_arithmetic();
           PosedRobot robot = machine;
           robot.tool = problem.tool;
           return interruptible(py::none(), [&](const Control& control) {
-            return limits_over_poses(robot, problem.limits, exempt_pairs(problem), tolerance,
+            return limits_over_poses(robot, problem.limits, exempt_pairs(problem), slack,
                                      {.threads = threads, .seconds = seconds}, control);
           });
         });
+  m.def("error_over_poses", [](const PosedRobot& machine, double gap, int threads, double seconds) {
+    require_sound_arithmetic();
+    return interruptible(py::none(), [&](const Control& control) {
+      const ErrorOverPoses e = error_over_poses(machine, {.threads = threads, .seconds = seconds, .gap = gap}, control);
+      const auto ends = [](const Interval& x) { return std::pair(x.lo, x.hi); };
+      return std::tuple(ends(e.position), ends(e.rotation), ends(e.internal_point));
+    });
+  });
 }
 
 }  // namespace ninedof::python

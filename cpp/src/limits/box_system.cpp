@@ -45,20 +45,19 @@ BoxSystem::BoxSystem(const std::array<NineForms, 9>& h) : h_(h) {
   for (std::size_t i = 0; i < 9; ++i)
     for (std::size_t j = 0; j < 9; ++j) middle(index(i), index(j)) = h_[i][j].c;
   inverse_ = middle.inverse();
-  Mat9 error;
   for (std::size_t i = 0; i < 9; ++i)
     for (std::size_t j = 0; j < 9; ++j) {
       const PoseForm seen = sum(inverse_.row(index(i)), [&](std::size_t k) -> auto& { return h_[k][j]; });
-      error(index(i), index(j)) = most_of(PoseForm(i == j ? 1.0 : 0.0) - seen);
+      error_(index(i), index(j)) = most_of(PoseForm(i == j ? 1.0 : 0.0) - seen);
     }
   // Near the eigenvector of the greatest eigenvalue: the norm that it weighs is the least.
   weight_.setOnes();
   for (int n = 0; n < 4; ++n) {
-    weight_ = error.lazyProduct(weight_).eval();
+    weight_ = error_.lazyProduct(weight_).eval();
     weight_.array() += 0.01 * weight_.maxCoeff() + forms::tiny;
     weight_ /= weight_.maxCoeff();
   }
-  moved_ = upward * error.lazyProduct(weight_);
+  moved_ = upward * error_.lazyProduct(weight_);
   shrinks_ = moved_.allFinite() ? upward * moved_.cwiseQuotient(weight_).maxCoeff() : 1.0;
 }
 
@@ -81,6 +80,29 @@ PoseForm BoxSystem::component(int k, const NineForms& b) const {
   }
   const double most = first.cwiseQuotient(weight_).maxCoeff() / (1.0 - shrinks_);
   out.r += upward * upward * most_of_b.dot(first + most * moved_) + forms::tiny;
+  return out;
+}
+
+std::array<NineForms, 9> BoxSystem::inverse() const {
+  std::array<NineForms, 9> out, seen;
+  if (!(shrinks_ < 1.0)) {
+    for (NineForms& row : out) row.fill(PoseForm::unknown());
+    return out;
+  }
+  for (std::size_t i = 0; i < 9; ++i)
+    for (std::size_t j = 0; j < 9; ++j)
+      seen[i][j] =
+          PoseForm(i == j ? 2.0 : 0.0) - sum(inverse_.row(index(i)), [&](std::size_t k) -> auto& { return h_[k][j]; });
+  for (std::size_t j = 0; j < 9; ++j) {
+    // |h^-1| is at most |inverse_| + |E| |h^-1|, as in `component`.
+    const Vec9 column = inverse_.col(index(j)).cwiseAbs();
+    const double most = column.cwiseQuotient(weight_).maxCoeff() / (1.0 - shrinks_);
+    const Vec9 rest = error_.lazyProduct(Vec9(error_.lazyProduct(Vec9(column + most * moved_))));
+    for (std::size_t i = 0; i < 9; ++i) {
+      out[i][j] = sum(inverse_.col(index(j)), [&](std::size_t k) -> auto& { return seen[i][k]; });
+      out[i][j].r += upward * upward * rest[index(i)] + forms::tiny;
+    }
+  }
   return out;
 }
 

@@ -19,10 +19,13 @@ class BoxSystem {
   ///     x_k = x~_k + y~.(b - A x~) + (e_k - A^T y~).A^-1 (b - A x~),
   /// of which the last is of second order. Unknown where h may be singular.
   PoseForm component(int k, const NineForms& b) const;
+  /// h^-1 by rows: with E = 1 - inverse_ h it is inverse_ + E inverse_ + E E h^-1. Unknown where h may be singular.
+  std::array<NineForms, 9> inverse() const;
 
  private:
   std::array<NineForms, 9> h_;
   Mat9 inverse_;  ///< of h in the middle
+  Mat9 error_;    ///< |E| is at most this, entry by entry
   // h^-1 = (1 - E)^-1 inverse_ with |E| weight_ <= moved_ <= shrinks_ weight_, entry by entry, for a positive weight_.
   Vec9 weight_, moved_;
   double shrinks_;

@@ -222,8 +222,8 @@ class FormLookOf {
   const PoseOf<T>& pose_;
   const HomeOf<T>& home_;
 };
-/// Over a box of poses; over that and a box of designs.
-using FormLook = FormLookOf<PoseForm, Geometry>;
+/// Over a box of poses, of every machine within tolerances; over a box of poses and a box of designs.
+using FormLook = FormLookOf<PoseForm, AsBuilt>;
 using DesignLook = FormLookOf<DesignForm, JointsOf<DesignForm>>;
 
 }  // namespace ninedof

@@ -51,15 +51,37 @@ inline const Vec3& joint_of(const Geometry& g, int point) {
   return triple[static_cast<std::size_t>(point % 3)];
 }
 
-/// The joint of a robot with this index of Points, or p or s. The robot is a Geometry or JointsOf<T>.
+/// A geometry whose joints lie anywhere in balls about their places: turned balls are the same balls.
+struct AsBuilt {
+  const Geometry& nominal;
+  std::array<double, 12> radius{};  ///< in the order of Points
+
+  /// A vector with the error of a joint.
+  template <class T>
+  Xyz<T> loose(Xyz<T> v, int point) const {
+    const double r = radius[static_cast<std::size_t>(point)];
+    if (r > 0.0)
+      for (T* x : {&v.x, &v.y, &v.z}) x->r = detail::above(x->r + r);
+    return v;
+  }
+};
+
+/// From p to a joint of the platform.
+template <class T, class Robot>
+Xyz<T> arm_at(const Robot& g, const PoseOf<T>& pose, int point) {
+  if constexpr (std::is_same_v<Robot, AsBuilt>) return g.loose(turned(pose, joint_of(g.nominal, point)), point);
+  else return turned(pose, joint_of(g, point));
+}
+
+/// The joint of a robot with this index of Points, or p or s. The robot is a Geometry, AsBuilt or JointsOf<T>.
 template <class T, class Robot>
 Xyz<T> point_at(const Robot& g, const PoseOf<T>& pose, int point) {
   if (point == point_p) return pose.p;
   if (point == point_s) return pose.s;
-  const auto& joint = joint_of(g, point);
-  if (point >= point_u) return pose.p + turned(pose, joint);
-  if constexpr (std::is_same_v<Robot, Geometry>) return constant<T>(joint);
-  else return joint;
+  if (point >= point_u) return pose.p + arm_at(g, pose, point);
+  if constexpr (std::is_same_v<Robot, AsBuilt>) return g.loose(constant<T>(joint_of(g.nominal, point)), point);
+  else if constexpr (std::is_same_v<Robot, Geometry>) return constant<T>(joint_of(g, point));
+  else return joint_of(g, point);
 }
 
 template <class T>

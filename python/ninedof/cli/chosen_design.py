@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.design.duty import Tool
@@ -43,6 +43,12 @@ class Chosen(NamedTuple):
     def duty(self) -> Study:
         """The study that says what the machine is for; one of the tool alone without a study."""
         return self.study or Study(tool=self.tool)
+
+    @property
+    def stated(self) -> dict[str, Any]:
+        """Title block and tool of its study, as entries of a record's question for the report; those that it has."""
+        entries = {"about": self.duty.about.to_dict(), "tool": self.tool.to_dict()}
+        return {name: entry for name, entry in entries.items() if entry}
 
     @property
     def permitted_lengths(self) -> tuple[Floats, Floats] | None:

@@ -26,6 +26,7 @@ from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry
 
 NO_SIDE = 1e-12  # a determinant that is zero but for rounding
+SAME = 1e-9  # relative: poses that differ by less coincide
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,9 +98,14 @@ class DesignAtPoses:
         chosen = named_design(options.design)
         return DesignAtPoses(chosen, options.poses(chosen))
 
+    def first(self, k: int) -> int:
+        """Return the first pose that coincides with one: poses of a study may, and are named and printed once."""
+        rows = np.concatenate([np.reshape(x, (len(self.c), -1)) for x in arrays_of(self.c).values()], axis=1)
+        return int(np.argmax(np.abs(rows - rows[k]).max(axis=1) <= SAME * np.abs(rows[k]).max()))
+
     def where(self, k: int) -> str:
         """Return " at pose 3", nothing where there is one pose."""
-        return f" at pose {k}" if len(self.c) > 1 else ""
+        return f" at pose {self.first(k)}" if len(self.c) > 1 else ""
 
     def answer(
         self, parts: Sequence[Any], data: Mapping[str, Any], used: Iterable[int] = (), status: int = DONE

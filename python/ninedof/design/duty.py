@@ -10,12 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ninedof import _core
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
+from ninedof.support.angles import degrees_of
 from ninedof.support.arguments import Vector, finite, instance, items, shown, text, vector
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.schema import Table, entry, read
 from ninedof.support.short import short_repr
+from ninedof.support.units import amount
 
 Six = tuple[float, float, float, float, float, float]
 STANDARD: Vector = (0.0, 0.0, -9.81)
@@ -113,6 +116,12 @@ class Tool(Table):
         x, y, z = np.asarray(self.rotation) / angle
         cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
         return np.asarray(np.eye(3) + np.sin(angle) * cross + 2.0 * np.sin(0.5 * angle) ** 2 * (cross @ cross))
+
+    def words(self, unit: str = "") -> list[str]:
+        """Return where it is on the plate and how it is turned, a line each; none where it is the plate's frame."""
+        at, turn = (", ".join(f"{x:.5g}" for x in three) for three in (self.position, map(degrees_of, self.rotation)))
+        where = amount(f"({at})", text("unit", unit))
+        return [f"tool at {where}"] * bool(self) + [f"tool turned ({turn})°"] * any(self.rotation)
 
     def seen(self, point: Vector) -> Vector:
         """Return a point of the platform's frame in the tool's frame."""
@@ -287,6 +296,14 @@ class Tolerances(Table):
 
     joints: float = entry(positive_or_zero, 0.0)
     legs: float = entry(positive_or_zero, 0.0)
+
+    def __bool__(self) -> bool:
+        """Whether anything may be off."""
+        return self.joints > 0.0 or self.legs > 0.0
+
+    def for_core(self) -> _core.Tolerances:
+        """Return them joint by joint and leg by leg."""
+        return _core.Tolerances(legs=np.full(9, self.legs), joints=np.full(12, self.joints))
 
 
 DUTIES: dict[str, type[Table]] = {

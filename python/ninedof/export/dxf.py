@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 
 from ninedof.export.model import Format, Model
-from ninedof.robot.plate_plan import Plate, free_angles, plates_of
+from ninedof.robot.plate_plan import Plate, free_angles, plates_of, turn_words
 from ninedof.support.arrays import Floats
 from ninedof.support.extras import optional
 from ninedof.support.placing import Placing, rectangle
-from ninedof.support.units import with_unit
+from ninedof.support.units import amount, with_unit
 
 INSUNITS = {"": 0, "in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6}
 IMPERIAL = ("in", "ft")
@@ -211,7 +211,12 @@ class _Drawing:
             for x, entry in zip(columns, row, strict=True):
                 align = "LEFT" if x == 0.0 else "RIGHT"
                 self._text(entry, start + np.array([x, -2.0 * k * self.height]), "TEXT", align)
-        self._text(CONES, start + np.array([0.0, -2.0 * (len(rows) + 1) * self.height]), "TEXT", "LEFT")
+        c, unit = model.configuration, model.unit
+        heights = {"zp": c.position, "zs": c.internal_point}
+        words = [f"{name} = {amount(f'{at[2]:.{self.decimals}f}', unit)}" for name, at in heights.items()]
+        pose = f"neutral pose: {', '.join([*words, *turn_words(c), *model.tool.words(unit)])}"
+        for k, note in enumerate((CONES, pose), start=len(rows) + 1):
+            self._text(note, start + np.array([0.0, -2.0 * k * self.height]), "TEXT", "LEFT")
 
     def _text(self, words: str, at: Floats, layer: str, align: str, scale: float = 1.0) -> None:
         places = optional("ezdxf.enums", "cad", PURPOSE).TextEntityAlignment

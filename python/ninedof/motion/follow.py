@@ -20,6 +20,7 @@ from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.robot.idle import idle_names, unloaded_names
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
+from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.statics.masses import GRAVITY, MassesOf, gravity_for_core, masses_for_core
 from ninedof.support.arguments import choice, finite, instance, pair
 from ninedof.support.arrays import Floats, as_number
@@ -79,7 +80,7 @@ class Followed(Saved):
     limits: tuple[Floats, Floats]
     """Least and greatest length of each leg, shapes (9,)."""
     leg_forces: Floats | None
-    """For loads and masses, positive if the leg pushes, shape (n, 9); None without both."""
+    """For load and masses, positive if the leg pushes, shape (n, 9), of k loads (k, n, 9); None without both."""
     tracked: bool
     """Whether `track` returns every pose from its leg lengths, to 1e-9 and each step with its proof."""
     tracked_until: float
@@ -116,11 +117,11 @@ class Followed(Saved):
     @property
     def unloaded_legs(self) -> tuple[str, ...]:
         """Legs whose force is 0 all along: backlash decides where in it they are. Empty without a load and masses."""
-        return () if self.leg_forces is None else unloaded_names(self.leg_forces)
+        return () if self.leg_forces is None else unloaded_names(self.leg_forces.reshape(-1, 9))
 
     @property
     def leg_powers(self) -> Floats | None:
-        """Force times rate, positive where the actuator does work, shape (n, 9); in watts where `force_unit` is "N"."""
+        """Force times rate, shaped as forces, positive where the actuator does work; in watts for `force_unit` "N"."""
         if self.leg_forces is None:
             return None
         with np.errstate(over="ignore", invalid="ignore"):
@@ -131,13 +132,20 @@ class Followed(Saved):
         """Of each leg over the path: "push", "pull", "rms", "power", "braking", "work", "returned", shapes (9,).
 
         Greatest forces, root of the mean square of the force over time, greatest power forth and back, and their
-        integrals over time, force and power linear between poses: joules where `force_unit` is "N". Empty without
-        forces.
+        integrals over time, force and power linear between poses: joules where `force_unit` is "N". Of several loads
+        each figure is the largest. Empty without forces.
         """
         if self.leg_forces is None:
             return {}
-        figures = _core.drive_figures(self.time, self.leg_forces, self.leg_rates)
-        return {name: values * (1.0 if name in FORCES else self._watts) for name, values in figures.items()}
+        loads = self.leg_forces.reshape(-1, len(self.time), 9)
+        each = [_core.drive_figures(self.time, forces, self.leg_rates) for forces in loads]
+        scales = {name: 1.0 if name in FORCES else self._watts for name in each[0]}
+        return {name: scale * np.max([figures[name] for figures in each], axis=0) for name, scale in scales.items()}
+
+    @property
+    def load_count(self) -> int:
+        """How many loads the forces are for, each on its own: 1 also for masses alone, 0 without forces."""
+        return 0 if self.leg_forces is None else self.leg_forces.size // (9 * len(self.time))
 
     @property
     def _watts(self) -> float:
@@ -170,6 +178,7 @@ class Followed(Saved):
             "idle_legs": list(self.idle_legs),
             "unloaded_legs": list(self.unloaded_legs),
             **({"force_unit": self.force_unit} if self.force_unit else {}),
+            **({"loads": self.load_count} if self.load_count > 1 else {}),
             "characteristic_length": self.characteristic_length,
             "condition_number": {
                 "first": float(self.condition_number[0]),
@@ -267,7 +276,8 @@ def follow(
         Length l_c of the condition number, or a kind of `characteristic_length`, taken at home; 1 by default, of a
         design its own.
     load : (force, moment), optional
-        On the platform at its origin, base axes, for the leg forces: each of shape (3,) or (n, 3), or None.
+        On the platform at its origin, base axes, for the leg forces: each of shape (3,) or (n, 3), or None. Several
+        loads, each on its own: (k, 1, 3) or (k, n, 3).
     masses : Masses, optional
         Weights and inertia of all bodies in the motion are added to the load, as in `inverse_dynamics`: in newtons for
         kilograms where the path has a length unit, time in seconds. None by default.
@@ -317,17 +327,24 @@ def follow(
     bounds, loads = leg_limits(limits), _loads(g, trajectory, *pair("load", load, "force and moment"))
     bodies = None if masses is None else masses_for_core(masses, trajectory.unit)
     down = gravity_for_core(gravity, trajectory.unit)
-    motion = _core.follow(g, home, time, p, q, rule, bounds, lc, loads, bodies, down)
-    poses, margins, forces = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
+    several = loads.ndim == 3
+    motion = _core.follow(g, home, time, p, q, rule, bounds, lc, loads[0] if several else loads, bodies, down)
+    poses, margins, own = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
+    c = Configuration(p, q, motion.pop("internal_point"))
+    forces: Floats | None = own if len(own) else None
+    if several:
+        v, a = motion["velocity"], motion["acceleration"]
+        others = [inverse_dynamics(g, c, v, a, masses, gravity, load, trajectory.unit).forces for load in loads[1:]]
+        forces = np.stack([own, *others])
     return Followed(
         geometry=g,
         trajectory=trajectory,
-        configurations=Configuration(p, q, motion.pop("internal_point")),
+        configurations=c,
         internal_point=rule,
         characteristic_length=lc,
         singularity_margins=SingularityMargins(*margins),
         limits=bounds,
-        leg_forces=forces if len(forces) else None,
+        leg_forces=forces,
         tracked=poses == len(trajectory),
         tracked_until=float(time[poses - 1]),
         unit=trajectory.unit,
@@ -337,12 +354,12 @@ def follow(
 
 
 def _loads(geometry: Geometry, trajectory: Trajectory, force: Any, moment: Any) -> Floats:
-    """Return moment and force at each pose, shape (n, 6); no rows without a load."""
+    """Return moment and force at each pose, shape (n, 6), of k loads (k, n, 6); no rows without a load."""
     if force is None and moment is None:
         return np.empty((0, 6))
     moment, force = (np.zeros(3) if value is None else value for value in (moment, force))
     poses = Configuration(trajectory.position, trajectory.rotation, trajectory.position)
     shape, _, load = operands_with(geometry, poses, moment=(moment, 3), force=(force, 3))
-    if shape != poses.shape:
+    if shape[-1:] != poses.shape or not 1 <= len(shape) <= 2 or 0 in shape:
         raise ValueError(f"load: got stacks of shape {shape}, expected one load for each of {len(poses)} poses")
-    return np.concatenate(load, axis=1)
+    return np.concatenate(load, axis=1).reshape(*shape, 6)

@@ -57,11 +57,13 @@ def drives_table(motion: Mapping[str, Any]) -> Table | None:
 
     rows = [(leg, *(text(name, values[name]) for name in units)) for leg, values in legs.items()]
     body: list[Any] = list(grouped(rows))
-    if "work" in units:
+    several = motion.get("loads", 1) > 1
+    if "work" in units and not several:  # the largest of several loads do not add up
         totals = {name: f"{sum(leg[name] for leg in legs.values()):.4g}" for name in WORKS}
         body += [(), ("all", *(totals.get(name, "") for name in units))]
     heads = [Column("leg"), *(Column(name, unit, RIGHT) for name, unit in units.items())]
-    return Table("Drives along the path", heads, body)
+    of = f", each figure the largest of {motion['loads']} loads" if several else ""
+    return Table(f"Drives along the path{of}", heads, body)
 
 
 def limits_table(motion: Mapping[str, Any]) -> Table:

@@ -11,21 +11,23 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
+from ninedof.design.changes import changed_variables
 from ninedof.design.design_point import infinite_if_singular
+from ninedof.design.duty import Tolerances
 from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.pose import rule_words
 from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.actuator_choice import ActuatorChoice
-from ninedof.optimize.changes import changed_variables
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.tables import candidates_table
 from ninedof.optimize.words import agreement_sentence, price_words, reached_words
 from ninedof.proof.machine import certify, machine_digest
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.optimum import OptimumProof
-from ninedof.proof.point_rule import rule_of
+from ninedof.proof.point_rule import PointRule, rule_of
+from ninedof.proof.tolerance import largest_tolerance
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -44,6 +46,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+WIDE = 20.0  # an enclosure that is proved at once, where only limits count
 MOST_PLACED = 200  # poses at which O is placed for the summary, a few milliseconds each
 
 
@@ -342,11 +345,12 @@ class Result:
         ----------
         **options
             condition_number : a bound of the condition number to be proved too. gap : relative width of the enclosure
-            of the worst one, 0.05. time_limit : seconds for it, 300. tolerance : by which limits may be passed,
-            relative, 1e-6. threads : 0, one per processor. rule : where O is, where the study places it anew at every
-            pose of a region; fitted to the best O if left out. resume : an earlier certificate to go on with.
-            progress : called with boxes done, 0 and the worst condition number met; one with a method `phase` is told
-            what begins. keep : called every 20 seconds with the certificate so far, which `resume` goes on with.
+            of the worst one, 0.05. time_limit : seconds for it, 300. slack : by which limits may be passed, relative,
+            1e-6. tolerance : of joints and legs as built, those of the study if left out. threads : 0, one per
+            processor. rule : where O is, where the study places it anew at every pose of a region; fitted to the best O
+            if left out. resume : an earlier certificate to go on with. progress : called with boxes done, 0 and the
+            worst condition number met; one with a method `phase` is told what begins. keep : called every 20 seconds
+            with the certificate so far, which `resume` goes on with.
 
         Returns
         -------
@@ -367,10 +371,45 @@ class Result:
             options["rule"] = lambda: rule_of(place, *design, *how)
         return certify(self.study, *design, **options)
 
+    def largest_tolerance(self, **options: Any) -> Tolerances:
+        """Return the largest tolerances of manufacture with which `certify` proves all limits.
+
+        Joints and legs are in the ratio of the study's tolerances, or alike.
+
+        Parameters
+        ----------
+        **options
+            condition_number, slack, threads, rule, progress : as those of `certify`. time_limit : seconds of each
+            proof, 20; there are a dozen.
+
+        Returns
+        -------
+        Tolerances
+            To 3 %. Both zero where a limit leaves no reserve: an optimum lies on its limits, unless the study has
+            tolerances.
+
+        Raises
+        ------
+        ValueError
+            Without a design; for a bad option.
+
+        """
+        place, design = self._placing(), self._machine()
+        if place is not None and not isinstance(options.get("rule"), PointRule):
+            options["rule"] = rule_of(place, *design, options.get("threads", 0), options.get("progress"))
+        options = {"gap": WIDE, "time_limit": 20.0} | options
+
+        def proved(tolerances: Tolerances) -> bool:
+            return certify(self.study, *design, **options | {"tolerance": tolerances}).proved
+
+        return largest_tolerance(proved, self.study.tolerances, float(design[1].position[0, 2]))
+
     def is_certified_by(self, certificate: MachineCertificate) -> bool:
         """Whether a certificate is one of this design at these poses, as `certify` returned it."""
         instance("certificate", certificate, MachineCertificate)
-        return self.best is not None and certificate.machine == machine_digest(self.study, *self._machine())
+        return self.best is not None and certificate.machine == machine_digest(
+            self.study, *self._machine(), certificate.tolerances
+        )
 
     def _machine(self) -> tuple[Geometry, Configuration, float]:
         best = self.best

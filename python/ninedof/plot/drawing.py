@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -12,10 +13,10 @@ from matplotlib.patches import Arc, Polygon
 
 from ninedof.plot import style
 from ninedof.plot.space.mechanism import DASHES, POINT_O, Robot
-from ninedof.robot.configuration import Configuration
+from ninedof.robot.configuration import Configuration, require_single
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.robot.plate_plan import Plate, free_angles, plates_of
+from ninedof.robot.plate_plan import Plate, free_angles, plates_of, turn_words
 from ninedof.robot.plates import outlines
 from ninedof.support.arrays import Floats
 from ninedof.support.placing import Placing, rectangle
@@ -32,12 +33,31 @@ CHIP: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "
 CENTRE: dict[str, Any] = {"color": style.MUTED, "lw": 0.5, "ls": (0, (8, 2, 2, 2))}
 
 
-def drawing(geometry: Geometry, configuration: Configuration, unit: str = "", figure: Figure | None = None) -> Figure:
+class ToolOf(Protocol):
+    """The methods of `ninedof.Tool` that a drawing calls."""
+
+    def words(self, unit: str) -> list[str]:
+        """Say where it is."""
+
+    def plates(self, geometry: Geometry) -> Geometry:
+        """Return the plates in their own frames."""
+
+    def plate(self, configuration: Configuration) -> Configuration:
+        """Return where the plate's frame is."""
+
+
+def drawing(
+    geometry: Geometry,
+    configuration: Configuration,
+    unit: str = "",
+    tool: ToolOf | None = None,
+    figure: Figure | None = None,
+) -> Figure:
     """Return a figure with the dimensions of a machine: base and platform from +z of their frames, and from the front.
 
     As in the DXF file, circles about the origin have their radii, hexagons of the paper their sides, and the first
     joints their angles from +x; E1 to E3 are external joints, I1 to I3 internal ones. The front is seen along +y of the
-    base at the neutral pose, with the heights of p and O.
+    base at the neutral pose, with the heights of the plate and of O, the twist theta_z and the tool.
 
     Parameters
     ----------
@@ -46,6 +66,8 @@ def drawing(geometry: Geometry, configuration: Configuration, unit: str = "", fi
         The neutral one, a single one.
     unit : str
         Of the lengths.
+    tool : Tool, optional
+        Whose point and axes geometry and configuration are about; None without one.
     figure : matplotlib.figure.Figure or SubFigure, optional
         To draw in; a new one by default.
 
@@ -61,18 +83,23 @@ def drawing(geometry: Geometry, configuration: Configuration, unit: str = "", fi
     >>> figure = nd.plot.drawing(g, nd.Configuration.neutral(483.0, 319.0), unit="mm")
 
     """
-    robot = Robot("", geometry, configuration)
-    points = robot.points()
+    require_single("configuration", configuration)
+    points, words = Robot("", geometry, configuration).points(), [] if tool is None else tool.words(unit)
+    if tool is not None and words:
+        points = np.vstack([points, configuration.position])
+        geometry, configuration = tool.plates(geometry), tool.plate(configuration)
+    seen = points[:, [0, 2]]
     with style.page(figure, style.TWO_COLUMNS, HEIGHT) as figure:
         for k, plate in enumerate(plates_of(geometry)):
             panel = _Panel(figure, (k / 3.0, REACH * plate.size, np.zeros(2)))
             panel.title(f"{plate.title}, from +z")
             panel.plate(plate, unit)
-        low, high = points[:, [0, 2]].min(axis=0), points[:, [0, 2]].max(axis=0)
+        low, high = seen.min(axis=0), seen.max(axis=0)
         low[1] = min(low[1], 0.0)
-        panel = _Panel(figure, (2.0 / 3.0, 0.8 * float((high - low).max()), 0.5 * (low + high)))
+        panel = _Panel(figure, (2.0 / 3.0, 0.72 * float((high - low).max()), 0.5 * (low + high)))
         panel.title("Front, along +y, neutral pose")
-        panel.front(points[:, [0, 2]], configuration, unit)
+        panel.front(seen, configuration, unit)
+        panel.note([*turn_words(configuration), *words])
     return figure
 
 
@@ -97,6 +124,11 @@ class _Panel:
 
     def title(self, words: str) -> None:
         self.axes.set_title(words, loc="center", size=style.TEXT_SIZE)
+
+    def note(self, lines: Sequence[str]) -> None:
+        self.axes.text(
+            0.5, 0.04, "\n".join(lines), size=style.SMALL_SIZE, ha="center", va="bottom", transform=self.axes.transAxes
+        )
 
     def write(self, words: str, centres: Floats, colour: str = style.INK) -> None:
         """Write words at the one of some centres, shape (n, 2), where they cover least."""
@@ -173,8 +205,14 @@ class _Panel:
         words = f"{ends[1] - ends[0]:.4g}°"
         self.write(words, np.concatenate([self.beside(radius * way, words, s * way, 1.5) for s in (1.0, -1.0)]))
 
+    def tool(self, plate: Floats, at: Floats) -> None:
+        """Draw the way from the origin of the plate to the tool's point, and name it."""
+        self.line(np.array([plate, at]), color=style.REGION, lw=1.6)
+        self.axes.plot(*at, "v", color=style.REGION, ms=5.0, mec="white", mew=0.5, zorder=7)
+        self.write("tool", self.beside(at, "tool", at - plate)[:36], style.REGION)  # near it, whatever it covers
+
     def front(self, points: Floats, c: Configuration, unit: str) -> None:
-        """Draw the machine from the front with the heights of p and O."""
+        """Draw the machine from the front with the heights of p and O; a point after O is the tool's."""
         base, platform, o = points[:6], points[6:12], points[12]
         for body, colour in ((base, style.BASE), (platform, style.PLATFORM)):
             flat = np.column_stack([body, np.zeros(6)])
@@ -197,9 +235,13 @@ class _Panel:
                 tip = np.array([x + side * 3.0 * self.point, start[1]])
                 self.line(np.array([start, tip]), color=style.INK, lw=0.4, zorder=0)
             self._arrow(np.array([x, 0.0]), np.array([x, at[1]]))
-            words = f"{name} = {amount(f'{at[1]:.5g}', unit)}"
-            self.write(words, self.beside(np.array([x, at[1]]), words, np.array([0.0, 1.0]), 3.0))
+            words = f"{name} = {amount(f'{at[1]:.5g}', unit)}"  # along the arrow, as on any drawing
+            middle = np.array([x + side * LINE * self.point, 0.5 * at[1]])
+            self.axes.text(*middle, words, size=style.SMALL_SIZE, rotation=90.0, ha="center", va="center", zorder=8)
+            self.places.words.append(rectangle(middle, LINE * self.point, LETTER * self.point * len(words)))
         self.write("O", self.beside(o, "O", np.array([-1.0, 0.3])))
+        for tool in points[13:]:
+            self.tool(c.position[[0, 2]], tool)
         for name, (start, end) in legs.items():
             share = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8])[:, None]
             normal = np.array([end[1] - start[1], start[0] - end[0]]) / max(float(np.linalg.norm(end - start)), 1e-300)

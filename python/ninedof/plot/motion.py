@@ -25,8 +25,7 @@ FORBIDDEN: dict[str, Any] = {"color": style.ALARM, "alpha": 0.12, "lw": 0.0, "zo
 def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, figure: Figure | None = None) -> Figure:
     """Return a figure of lengths, rates and forces of the legs over time by kind, the condition number, and margins.
 
-    Forces are drawn where the motion has a load or masses, the limits of the lengths where it has them.
-
+    Forces are drawn where the motion has loads or masses, a curve for each load; limits of lengths where it has them.
     Where the robot is singular the curve of the condition number has a gap.
 
     Parameters
@@ -53,7 +52,8 @@ def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, f
     samples = _drawn(kappa)
     bands = {"length": (lengths, followed.unit), "rate": (followed.leg_rates, per(followed.unit, "s"))}
     if followed.leg_forces is not None:
-        bands["force"] = (followed.leg_forces, followed.force_unit)
+        count = followed.load_count
+        bands["force" if count == 1 else f"force, {count} loads"] = (followed.leg_forces, followed.force_unit)
     rows = [*([1.0] * len(bands)), 0.85, *([0.85] if others else [])]
     height = 2.15 * sum(rows)
     with style.page(figure, style.TWO_COLUMNS, height) as figure:
@@ -63,7 +63,7 @@ def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, f
         for row, (what, (values, unit)) in enumerate(bands.items()):
             for k, (kind, title) in enumerate(style.LEG_WORDS.items()):
                 axes, legs = figure.add_subplot(grid[row, k]), slice(3 * k, 3 * k + 3)
-                _legs(axes, t[samples], values[samples, legs], kind)
+                _legs(axes, t[samples], values[..., samples, legs], kind)
                 if what == "length":
                     _limits(axes, followed.limits[0][legs], followed.limits[1][legs], lengths[:, legs])
                     axes.set_title(title, size=style.TEXT_SIZE)
@@ -92,7 +92,9 @@ def _drawn(kappa: Floats) -> NDArray[np.intp]:
 
 def _legs(axes: Any, t: Floats, lengths: Floats, kind: str) -> None:
     for j, dashes in enumerate(style.DASHES[:3]):
-        axes.plot(t, lengths[:, j], color=style.LEG_COLOURS[kind], ls=dashes, label=f"{kind}{j + 1}")
+        look: dict[str, Any] = {"color": style.LEG_COLOURS[kind], "ls": dashes}
+        for k, values in enumerate(lengths.reshape(-1, len(t), 3)):
+            axes.plot(t, values[:, j], **look, label=None if k else f"{kind}{j + 1}")
     least, most = float(lengths.min()), float(lengths.max())
     room = max(0.08 * (most - least), 0.01 * max(abs(least), abs(most))) or 1.0
     axes.set_ylim(least - room, most + 3.0 * room)

@@ -115,7 +115,8 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section[WorkspaceSlice]], 
             _boundary(axes, section.plane, turn, kinds)
             _marks(axes, section, turn, unit, style.INK)
         if filled is not None:
-            bar = above.colorbar(filled, ax=list(panels), fraction=0.03, pad=0.02, aspect=28, ticks=bands)
+            size: dict[str, Any] = {"fraction": 0.03, "pad": 0.02, "aspect": 28}
+            bar = above.colorbar(filled, ax=list(panels), **size, ticks=bands, panchor=False)
             bar.ax.yaxis.set_major_formatter("{x:g}")
             bar.ax.yaxis.set_minor_locator(NullLocator())
             more = "" if most is None else f", {most:.4g} at most" if np.isfinite(most) else ", without a bound"
@@ -283,7 +284,8 @@ def _marks(axes: Any, section: Section[Plane], turn: Any, unit: str, region: str
         axes.plot(*turn(np.asarray(section.home, dtype=np.float64)), **style.HOME)
     s = section.plane
     axes.grid(visible=False)
-    axes.set(xlabel=style.with_unit(s.axes[0], unit), ylabel=style.with_unit(s.axes[1], unit), aspect="equal")
+    axes.set(xlabel=style.with_unit(s.axes[0], unit), ylabel=style.with_unit(s.axes[1], unit))
+    axes.set_aspect("equal", anchor="N")  # titles at one height
     axes.set_title(f"{s.plane[0]} = {amount(style.signed(float(turn(s.plane[1]))), unit)}")
 
 

@@ -15,10 +15,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.changes import angles_in_radians, given_values
 from ninedof.design.region_poses import configurations_at, places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine_record import ProofPose
 from ninedof.robot.configuration import Configuration
+from ninedof.support.angles import plain_name
 from ninedof.support.arguments import finite, instance, items, pair, shown, table, text, whole
 from ninedof.support.arrays import MOST_THREADS, Floats, as_floats
 from ninedof.support.files import sha256
@@ -51,7 +53,7 @@ class HasDesign(Protocol):
 class AdmissibleArguments(TypedDict, total=False):
     """Options of `admissible`, which says what they mean."""
 
-    at: Mapping[str, float] | None
+    at: Mapping[str, float | str] | None
     condition_number: float | None
     time_limit: float | None
     resolution: float
@@ -335,9 +337,10 @@ def admissible(
         where O is; poses without a choice of O. A limit of the condition number needs a characteristic length that is
         a number.
     vary : names, or mapping of names to (low, high)
-        One to four variables of the family; the ends of the study's bounds where none are given.
+        One to four variables of the family; the ends of the study's bounds where none are given. Angles in radians, or
+        in degrees with _deg behind the name.
     at : mapping, optional
-        Values of variables, in place of those of the study or the result.
+        Values of variables, in place of those of the study or the result, or changes of these: {"zs": "+10%"}.
     condition_number : float, optional
         A bound of the condition number besides the limits.
     time_limit : float, optional
@@ -411,7 +414,7 @@ def admissible(
 def design_range(
     of: Study | HasDesign,
     vary: Collection[str] | Mapping[str, tuple[float, float] | None],
-    at: Mapping[str, float] | None = None,
+    at: Mapping[str, float | str] | None = None,
     condition_number: float | None = None,
 ) -> DesignRange:
     """Return what `admissible` is asked for, checked; it says what the arguments mean."""
@@ -424,9 +427,11 @@ def design_range(
     )
     if not 1 <= len(given) <= MOST_VARIED:
         raise ValueError(f"vary: got {shown(vary)}, expected {expected}")
-    ranges = tuple(_range(study, name, ends) for name, ends in given.items())
+    ends = angles_in_radians(study, {name: two for name, two in given.items() if two is not None}, _ends)
+    names = tuple(dict.fromkeys(map(plain_name, given)))
+    ranges = tuple(_range(study, name, ends.get(name)) for name in names)
     known, moved = set(values), list[str]()
-    for name, (low, high) in zip(given, ranges, strict=True):
+    for name, (low, high) in zip(names, ranges, strict=True):
         if not low <= values.get(name, math.nan) <= high:
             values[name] = 0.5 * (low + high)
             moved += [name] if name in known else []
@@ -435,7 +440,7 @@ def design_range(
         raise ValueError(f"at: got no {missing[0]}, expected a value: it is free in the study and does not vary")
     if condition_number is not None:
         condition_number = finite("condition_number", condition_number, 1.0)
-    return DesignRange(study, tuple(given), ranges, Fixed(values), condition_number, tuple(moved))
+    return DesignRange(study, names, ranges, Fixed(values), condition_number, tuple(moved))
 
 
 def _values(of: HasDesign | Mapping[str, float]) -> Mapping[str, float]:
@@ -445,7 +450,7 @@ def _values(of: HasDesign | Mapping[str, float]) -> Mapping[str, float]:
     return table("design", values)
 
 
-def _asked(of: Study | HasDesign, at: Mapping[str, float] | None) -> tuple[Study, dict[str, float]]:
+def _asked(of: Study | HasDesign, at: Mapping[str, float | str] | None) -> tuple[Study, dict[str, float]]:
     """Return the study and the known values of its variables."""
     study = of if isinstance(of, Study) else getattr(of, "study", None)
     if not isinstance(study, Study):
@@ -454,10 +459,7 @@ def _asked(of: Study | HasDesign, at: Mapping[str, float] | None) -> tuple[Study
     values = {name: ends for name, ends in study.variables.items() if not isinstance(ends, tuple)}
     if of is not study:
         values |= {name: x for name, x in _values(of).items() if name in study.variables}  # type: ignore[arg-type]
-    for name, value in ({} if at is None else table("at", at)).items():
-        if name not in study.variables:
-            raise ValueError(f"at: got {shown(name)}, expected variables of the study: {', '.join(study.variables)}")
-        values[name] = finite(f"at.{name}", value)
+    values |= given_values(study, values, {} if at is None else table("at", at), "at")
     region = study.objective.region
     if region is not None and not places_o(region):
         raise ValueError('internal_point: got "best", expected a region that says where O is: "shifted" or "held"')
@@ -468,13 +470,18 @@ def _name(name: object) -> str:
     return text("vary", name)
 
 
-def _range(study: Study, name: str, ends: object) -> tuple[float, float]:
+def _ends(name: str, ends: object) -> tuple[float, float]:
+    low, high = (finite(f"vary.{name}", end) for end in pair(f"vary.{name}", ends, "(low, high)"))
+    return low, high
+
+
+def _range(study: Study, name: str, ends: tuple[float, float] | None) -> tuple[float, float]:
     if name not in study.variables:
         raise ValueError(f"vary: got {shown(name)}, expected variables of the study: {', '.join(study.variables)}")
-    bounds = study.variables[name] if ends is None else pair(f"vary.{name}", ends, "(low, high)")
+    bounds = study.variables[name] if ends is None else ends
     if not isinstance(bounds, tuple):
         raise ValueError(f"vary.{name}: got a variable that is fixed in the study, expected its ends (low, high) too")
-    low, high = (finite(f"vary.{name}", end) for end in bounds)
+    low, high = _ends(name, bounds)
     if not low < high:
         raise ValueError(f"vary.{name}: got ({low:g}, {high:g}), expected low < high")
     return low, high

@@ -9,6 +9,7 @@ from typing import Any, TypedDict, Unpack
 import numpy as np
 
 from ninedof import _core
+from ninedof.design.duty import Tolerances
 from ninedof.design.limits import label
 from ninedof.design.region import Region
 from ninedof.design.region_poses import places_o
@@ -25,6 +26,8 @@ from ninedof.support.progress import Progress, phase
 from ninedof.support.schema import entries
 from ninedof.support.structs import from_core, options_of
 
+DRAWN = Tolerances()
+FOR_ERRORS = 0.2  # of the time
 FOR_LIMITS = 5.0  # seconds of each: their enclosures are not gone on with, those of the condition number are
 
 
@@ -34,7 +37,8 @@ class CertifyArguments(TypedDict, total=False):
     condition_number: float | None
     gap: float
     time_limit: float
-    tolerance: float
+    slack: float
+    tolerance: float | Tolerances | None
     threads: int
     rule: PointRule | Callable[[], PointRule] | None
     resume: MachineCertificate | None
@@ -63,11 +67,15 @@ def certify(
     condition_number : float, optional
         A bound of the condition number to be proved: one more limit.
     gap : float
-        Relative width of the enclosure of the worst condition number.
+        Relative width of the enclosure of the worst condition number, twice that of the errors of a machine as built.
     time_limit : float
         Seconds for the condition number; each limit has five at least.
-    tolerance : float
+    slack : float
         Relative: a limit that is passed by no more counts as kept. Designs of the optimizer lie on their limits.
+    tolerance : float or Tolerances, optional
+        As built: all is proved of every machine whose joint centres and leg lengths are within the tolerances of the
+        drawing, the error of its pose to the lengths of the drawing too. A number is that of joints and legs. Those of
+        the study by default; 0 for the machine of the drawing alone.
     threads : int
         0: one per processor.
     rule : PointRule or callable, optional
@@ -91,10 +99,11 @@ def certify(
         For a bad argument.
 
     """
-    values = options_of("certify", CertifyArguments, options, gap=0.05, time_limit=300.0, tolerance=1e-6, threads=0)
+    values = options_of("certify", CertifyArguments, options, gap=0.05, time_limit=300.0, slack=1e-6, threads=0)
     region = study.objective.region
     gap, seconds = finite("gap", values["gap"], 1e-9), finite("time_limit", values["time_limit"], 0.0)
-    tolerance = finite("tolerance", values["tolerance"], 0.0, 0.01)
+    slack = finite("slack", values["slack"], 0.0, 0.01)
+    built = tolerances_of(values["tolerance"], study)
     threads = whole("threads", values["threads"], 0, MOST)
     resume, progress, keep = values["resume"], values["progress"], values["keep"]
     if (condition_number := values["condition_number"]) is not None:
@@ -108,7 +117,7 @@ def certify(
         raise ValueError(
             f"resume: got a certificate over {resume.where}, expected one over {_where(study, only_neutral)}"
         )
-    digest = machine_digest(study, geometry, configurations, characteristic_length)
+    digest = machine_digest(study, geometry, configurations, characteristic_length, built)
     if resume is not None and resume.machine != digest:
         raise ValueError("resume: got a certificate of another machine, expected one of this machine")
     begin = perf_counter()
@@ -118,17 +127,22 @@ def certify(
     by_rule = None if rule is None else rule.for_core()
 
     def robot(at: Configuration, *where: Any) -> _core.PosedRobot:
-        return _core.PosedRobot(geometry, at, float(characteristic_length), *where)
+        return _core.PosedRobot(geometry, at, float(characteristic_length), *where, built.for_core())
 
     def settings(bounds: list[float]) -> _core.ConditionSettings:
         remaining = end - perf_counter()
-        return _core.ConditionSettings(threads=threads, seconds=remaining, gap=gap, wanted=bounds, tolerance=tolerance)
+        return _core.ConditionSettings(threads=threads, seconds=remaining, gap=gap, wanted=bounds, tolerance=slack)
 
     phase(progress, "proving the limits")
     alone = configurations[[0, 0]]
     machine = robot(alone if only_neutral else configurations, over, by_rule)
-    over_poses = _core.limits_over_poses(machine, study.problem(), tolerance, threads, max(seconds, FOR_LIMITS))
+    over_poses = _core.limits_over_poses(machine, study.problem(), slack, threads, max(seconds, FOR_LIMITS))
     limits = [_limit_proof(limit, only_neutral) for limit in over_poses.limits]
+
+    errors = None
+    if built:
+        phase(progress, "proving the error of the platform")
+        errors = _core.error_over_poses(machine, 2.0 * gap, threads, max(FOR_ERRORS * seconds, FOR_LIMITS))
 
     phase(progress, "proving the condition number")
     objective = study.objective
@@ -141,10 +155,10 @@ def certify(
         )
         if of_neutral.interrupted:
             raise KeyboardInterrupt
-        at_neutral.append(_condition_proof(label("condition_limit", "neutral"), bound, of_neutral, True, tolerance))
+        at_neutral.append(_condition_proof(label("condition_limit", "neutral"), bound, of_neutral, True, slack))
 
     def certificate(state: _core.ConditionState, interrupted: bool) -> MachineCertificate:
-        of_condition = [_condition_proof(*bound, state, only_neutral, tolerance) for bound in limits_of_index.items()]
+        of_condition = [_condition_proof(*bound, state, only_neutral, slack) for bound in limits_of_index.items()]
         return MachineCertificate(
             where=_where(study, only_neutral),
             unit=study.unit,
@@ -156,7 +170,10 @@ def certify(
             left=tuple(map(tuple, state.left)),
             left_count=state.left_count,
             target=state.target,
-            tolerance=tolerance,
+            slack=slack,
+            joint_tolerance=built.joints,
+            leg_tolerance=built.legs,
+            errors=errors,
             seconds=perf_counter() - begin,
             interrupted=interrupted,
             rule=rule,
@@ -171,19 +188,35 @@ def certify(
 
 
 def machine_digest(
-    study: Study, geometry: Geometry, configurations: Configuration, characteristic_length: float
+    study: Study,
+    geometry: Geometry,
+    configurations: Configuration,
+    characteristic_length: float,
+    built: Tolerances = DRAWN,
 ) -> str:
     """Return a digest of every number on which a proof of the condition number depends."""
     region = study.objective.region
     # Its repr is for people, with six digits.
     exact = None if region is None else tuple(getattr(region, one.name) for one in entries(Region))
     digest = sha256(repr((float(characteristic_length), exact)).encode())
+    if built:
+        digest.update(repr((built.joints, built.legs)).encode())
     if study.tool:
         digest.update(repr((study.tool.position, study.tool.rotation)).encode())
     joints = (geometry.base_external, geometry.base_internal, geometry.platform_external, geometry.platform_internal)
     for array in (*joints, configurations.position, configurations.rotation, configurations.internal_point):
         digest.update(repr(np.asarray(array, float).tolist()).encode())
     return digest.hexdigest()
+
+
+def tolerances_of(tolerance: float | Tolerances | None, study: Study) -> Tolerances:
+    """Return the tolerances of a question: those of the study where it has none of its own."""
+    if tolerance is None:
+        return study.tolerances
+    if isinstance(tolerance, Tolerances):
+        return tolerance
+    size = finite("tolerance", tolerance, 0.0)
+    return Tolerances(joints=size, legs=size)
 
 
 def _state_of(earlier: MachineCertificate | None) -> _core.ConditionState:
@@ -235,10 +268,10 @@ def _proof_pose(at: _core.MetAt, neutral: bool) -> ProofPose:
 
 
 def _condition_proof(
-    name: str, limit: float, state: _core.ConditionState, only_neutral: bool, tolerance: float
+    name: str, limit: float, state: _core.ConditionState, only_neutral: bool, slack: float
 ) -> LimitProof:
     low, high = state.low, state.high
-    edge = limit * (1.0 + tolerance)
+    edge = limit * (1.0 + slack)
     answer = PROVED if high <= edge else VIOLATED if low > edge else UNDECIDED
     margin = float(margin_of("ratio", "max", limit, high))
     at = (_proof_pose(state.at, only_neutral),)

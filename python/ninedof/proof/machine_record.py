@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ninedof import _core
+from ninedof.design.duty import Tolerances
 from ninedof.design.limits import kind_unit
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.leg_names import LEGS
@@ -16,7 +17,7 @@ from ninedof.support.short import short_repr
 from ninedof.support.structs import entries_of
 from ninedof.support.units import amount
 
-FORMAT = "ninedof-machine-certificate-2"
+FORMAT = "ninedof-machine-certificate-3"
 PROVED, VIOLATED, UNDECIDED = "proved", "violated", "undecided"
 
 
@@ -115,9 +116,16 @@ class MachineCertificate:
     left_count: int
     target: float
     """The bound that was tried last; infinite where none was."""
-    tolerance: float
+    slack: float
     """Relative: limits count as kept up to this."""
     seconds: float
+    joint_tolerance: float = 0.0
+    """All is proved of every machine whose joint centres are within this of the drawing."""
+    leg_tolerance: float = 0.0
+    """And whose leg lengths are within this of what they are read as."""
+    errors: tuple[tuple[float, float], ...] | None = None
+    """As built: with the lengths of the drawing p, the platform (radians) and O are off by at most so much. The first
+    number is found to first order, the second is proved; None without tolerances."""
     interrupted: bool = False
     rule: PointRule | None = None
     """The rule for O, if a region places it anew at every pose: all of this is proved of O placed by it."""
@@ -146,6 +154,8 @@ class MachineCertificate:
         if math.isfinite(self.condition[1]):
             index = f", and the condition number is at most {outward(self.condition[1], True)}"
         by_rule = "" if self.rule is None else ", O placed by the rule"
+        if self.tolerances:
+            by_rule += ", as built"
         out = [f"Proved: at every pose of {self.where}{by_rule}, {legs}{index}."]
         if self.rule is not None:
             out.insert(
@@ -154,6 +164,8 @@ class MachineCertificate:
                 "What is proved holds for this rule. With O placed for the least condition number, that is at no "
                 "pose larger.",
             )
+        if self.tolerances:
+            out.insert(0, self._as_built())
         names = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
         if self.limits and self.limits[0].answer == PROVED:
             out.append(
@@ -161,7 +173,7 @@ class MachineCertificate:
             )
         if names:
             limits = "the limit" if len(names) == 1 else "the limits"
-            out.append(f"Proved, up to {self.tolerance:g} of each: {limits} {', '.join(names)}.")
+            out.append(f"Proved, up to {self.slack:g} of each: {limits} {', '.join(names)}.")
         if self.condition[0] > 0.0:
             out.append(
                 f"The worst condition number met is {outward(self.condition[0], False)}, at "
@@ -193,6 +205,23 @@ class MachineCertificate:
                 )
                 out.append(f"Undecided: {name}: {between}.")
         return out
+
+    @property
+    def tolerances(self) -> Tolerances:
+        """Of every machine that all of this is proved of."""
+        return Tolerances(self.joint_tolerance, self.leg_tolerance)
+
+    def _as_built(self) -> str:
+        joints, legs = (amount(f"{x:.6g}", self.unit) for x in (self.joint_tolerance, self.leg_tolerance))
+        words = f"As built: every joint centre within {joints} and every leg length within {legs} of the drawing."
+        if self.errors is None or not all(math.isfinite(high) for _, high in self.errors):
+            return f"{words} No bound of the error of its pose is proved."
+        position, turn, point = (high for _, high in self.errors)
+        return (
+            f"{words} With the lengths of the drawing p is off by at most "
+            f"{amount(outward(position, True), self.unit)}, the platform by "
+            f"{outward(math.degrees(turn) * (1 + 1e-12), True)}°, O by {amount(outward(point, True), self.unit)}."
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values, for a file."""

@@ -85,9 +85,7 @@ def _figures(
         for name, g, c, kappa, _ in designs
     ]
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
-    files += plot.save(
-        plot.drawing(tool.plates(designs[-1][1]), tool.plate(designs[-1][2]), note), directory, "drawing"
-    )
+    files += plot.save(plot.drawing(*designs[-1][1:3], note, tool), directory, "drawing")
     say("drawing the condition number along zs and theta_z")
     posed = not compared and len(result.solved.objective.poses) > 0
     curves = [_curves(tool, designs[0], **compared), *(_curves(tool, design) for design in designs[1:])]

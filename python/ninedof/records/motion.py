@@ -58,7 +58,7 @@ def write_motion(
 
 
 def legs_csv(motion: Followed) -> bytes:
-    """Return legs.csv: time, lengths, rates and accelerations of the legs, forces and powers if there is a load."""
+    """Return legs.csv: time, lengths, rates and accelerations of the legs, forces and powers of each load."""
     return _csv(*_legs(motion))
 
 
@@ -78,19 +78,18 @@ def plain(motion: Followed, limits: PathLimits | None) -> dict[str, Any]:
 
 
 def _legs(motion: Followed) -> tuple[list[str], Iterable[Floats]]:
-    """Return t, nine lengths, nine rates, nine accelerations, and nine forces and powers if there is a load."""
-    parts = {"": motion.leg_lengths, RATE: motion.leg_rates, ACCELERATION: motion.leg_accelerations}
+    """Return t, nine lengths, nine rates, nine accelerations, and nine forces and powers for each load."""
+    unit, shape = motion.unit, (-1, len(motion.time), 9)
+    parts = [("", unit, motion.leg_lengths), (RATE, per(unit, "s"), motion.leg_rates)]
+    parts.append((ACCELERATION, per(unit, "s^2"), motion.leg_accelerations))
     if motion.leg_forces is not None and motion.leg_powers is not None:
-        parts |= {FORCE: motion.leg_forces, POWER: motion.leg_powers}
-    units = {
-        POWER: "W" if motion.force_unit else "",
-        "": motion.unit,
-        RATE: per(motion.unit, "s"),
-        ACCELERATION: per(motion.unit, "s^2"),
-        FORCE: motion.force_unit,
-    }
-    names = ["t", *(with_unit(leg + what, units[what]) for what in parts for leg in LEGS)]
-    return names, (motion.time[:, None], *parts.values())
+        loads = zip(motion.leg_forces.reshape(shape), motion.leg_powers.reshape(shape), strict=True)
+        for k, (forces, powers) in enumerate(loads, start=1):
+            number = f"_{k}" if motion.load_count > 1 else ""
+            parts.append((FORCE + number, motion.force_unit, forces))
+            parts.append((POWER + number, "W" if motion.force_unit else "", powers))
+    names = ["t", *(with_unit(leg + what, of) for what, of, _ in parts for leg in LEGS)]
+    return names, (motion.time[:, None], *(values for *_, values in parts))
 
 
 def _poses(motion: Followed, margins: Mapping[str, Floats]) -> tuple[list[str], Iterable[Floats]]:

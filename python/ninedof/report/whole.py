@@ -88,8 +88,13 @@ def _page_of(
     return replace(page_, sections={**page_.sections, "answer": joined(published, page_.sections["answer"])})
 
 
+def _stated(question: Mapping[str, Any]) -> Study:
+    """Return a study with what the question of a record without one has of it: title block, tool and unit."""
+    return Study(**{name: question[name] for name in ("about", "tool", "unit") if name in question})
+
+
 def _text(page_: Page, record: Record, folder: Path | None, name: str, result: Result | None = None) -> str:
-    study = record.question if isinstance(record.question, Study) else None
+    study = record.question if isinstance(record.question, Study) else _stated(record.question)
     with TemporaryDirectory() as spare:
         have = {} if folder is None else dict.fromkeys(stems(folder), folder)
         have = _drawn(page_, result, study, have, Path(spare)) | have
@@ -99,9 +104,7 @@ def _text(page_: Page, record: Record, folder: Path | None, name: str, result: R
         return page(page_, name, record.created, drawn, study)
 
 
-def _drawn(
-    page_: Page, result: Result | None, study: Study | None, have: Mapping[str, Path], folder: Path
-) -> dict[str, Path]:
+def _drawn(page_: Page, result: Result | None, study: Study, have: Mapping[str, Path], folder: Path) -> dict[str, Path]:
     """Draw what the page shows and the folder of its run does not have; return the folder of each figure."""
     from ninedof import plot
 
@@ -113,7 +116,7 @@ def _drawn(
     if STILL not in have:
         new[STILL] = plot.mechanisms([plot.Robot("neutral pose", g, c)], unit)
     if "drawing" not in have:
-        new["drawing"] = plot.drawing(g, c, unit)
+        new["drawing"] = plot.drawing(g, c, unit, study.tool)
     if "region" not in have and result is not None and (of_region := region_map(result)) is not None:
         new["region"] = plot.region_map(of_region)
     for stem, one in new.items():

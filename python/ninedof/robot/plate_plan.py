@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.plates import outlines
 from ninedof.support.arrays import Floats
@@ -88,6 +89,14 @@ def _sides(external: Floats, internal: Floats, names: tuple[str, str]) -> dict[s
         return {}
     sides = zip(names, others, lengths, strict=True)
     return {name: (external[0], other[0]) for name, other, length in sides if length[0] > scale}
+
+
+def turn_words(configuration: Configuration) -> list[str]:
+    """Return how the platform is turned about z, in words; none where it is tilted too."""
+    q = configuration.rotation
+    if q[2, 2] < 1.0 - SAME:
+        return []
+    return [f"theta_z = {round(math.degrees(math.atan2(q[1, 0], q[0, 0])), 9) + 0.0:.5g}°"]
 
 
 def free_angles(plate: Plate) -> Floats:

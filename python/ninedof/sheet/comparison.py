@@ -10,16 +10,17 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from ninedof.design.study import LENGTH
 from ninedof.sheet.limit_rows import LimitRow, limit_amount
 from ninedof.sheet.pose_words import pose_words
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.sheet.tables import over
 from ninedof.support.arguments import shown
 from ninedof.support.margins import is_violated, margin_words
-from ninedof.support.units import metres
+from ninedof.support.units import amount, metres
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table
 from ninedof.tables.html import notebook
-from ninedof.tables.numbers import short
+from ninedof.tables.numbers import ROUNDING, short
 from ninedof.tables.plain import plain
 
 MOST = 3  # designs: more do not fit on 80 columns
@@ -39,6 +40,9 @@ class Comparison:
     """Limit and side, as "stroke_ratio max", to its row in the sheet of each design; lengths in the unit of each."""
     differences: dict[str, tuple[Any, ...]]
     """Entries of the studies that are not the same, to the value in each; None where a study has none."""
+    outside: tuple[dict[str, tuple[float, float, float]], ...]
+    """For each design its variables that lie outside of the bounds of its own study: value, low and high, in the unit
+    of the design, angles in radians."""
     sheets: tuple[Sheet, ...] = field(repr=False)
     """The sheet of each design."""
 
@@ -73,6 +77,10 @@ class Comparison:
             columns = [Column("limit"), *(Column(name, "", RIGHT) for name in self.names)]
             rows = [row for label, entry in self.limits.items() for row in _limit_rows(label, entry, self.sheets)]
             out.append(Table("Limits", columns, rows))
+        for name, outside, one in zip(self.names, self.outside, self.sheets, strict=True):
+            if outside:
+                beyond = ", ".join(_outside_words(label, *ends, one.unit) for label, ends in outside.items())
+                out.append(f"{name} is outside of the bounds of its study: {beyond}")
         for name, labels in zip(self.names, self.broken, strict=True):
             if labels:
                 out.append(f"{name} breaks {', '.join(labels)}")
@@ -90,7 +98,8 @@ class Comparison:
         }
         out = {"names": list(self.names), "numbers": {name: list(row) for name, row in self.numbers.items()}}
         differences = {key: list(values) for key, values in self.differences.items()}
-        return ({"unit": self.unit} if self.unit else {}) | out | {"limits": limits, "differences": differences}
+        more = {"limits": limits, "differences": differences, "outside": list(self.outside)}
+        return ({"unit": self.unit} if self.unit else {}) | out | more
 
     def __str__(self) -> str:
         """Show all tables as text."""
@@ -153,6 +162,7 @@ def compare(*designs: Any, names: Sequence[str] | None = None) -> Comparison:
         _numbers(designs, sheets, scales),
         {f"{name} {side}": entry for (name, side), entry in limits.items()},
         _differences([getattr(design, "study", None) for design in designs]),
+        tuple(map(_outside, designs)),
         sheets,
     )
 
@@ -198,6 +208,24 @@ def _numbers(designs: Sequence[Any], sheets: Sequence[Sheet], scales: Sequence[f
 def _variables(design: Any) -> Mapping[str, float]:
     study, values = getattr(design, "study", None), getattr(design, "variables", None) or {}
     return {name: values[name] for name in study.variables if name in values} if study else {}
+
+
+def _outside(design: Any) -> dict[str, tuple[float, float, float]]:
+    """Return the variables of a design outside of the bounds of its study, with these."""
+    study, values = getattr(design, "study", None), getattr(design, "variables", None) or {}
+    if study is None:
+        return {}
+    ends = {**study.variables, LENGTH: study.characteristic_length}
+    bounds = {name: two if isinstance(two, tuple) else (two, two) for name, two in ends.items() if name in values}
+    rows = {name: (values[name], *two) for name, two in bounds.items()}
+    return {name: row for name, row in rows.items() if max(row[1] - row[0], row[0] - row[2]) > ROUNDING * abs(row[0])}
+
+
+def _outside_words(name: str, value: float, low: float, high: float, unit: str) -> str:
+    angle = name.endswith(ANGLES)
+    at, *ends = (f"{math.degrees(x) if angle else x:.6g}" for x in (value, low, high))
+    bounds = f"fixed at {ends[0]}" if low == high else f"{ends[0]} to {ends[1]}"
+    return f"{name} = {f'{at}°' if angle else amount(at, unit)} ({bounds})"
 
 
 def _differences(studies: Sequence[Any]) -> dict[str, tuple[Any, ...]]:

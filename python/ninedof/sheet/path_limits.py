@@ -74,7 +74,8 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
 
     Every limit at poses but those on leg lengths, which are limits of `follow`: cones, clearance, determinants,
     condition number, and spreads of lengths. A spread at a time is that over the path until then. Limits of rates are
-    held against those of the motion, and of forces and powers where it has a load; else those at rest count.
+    held against those of the motion, and of forces and powers where it has loads, the largest of them; else those at
+    rest count.
 
     Parameters
     ----------
@@ -116,12 +117,14 @@ def _duty_of(name: str) -> str:
 
 
 def _of_motion(study: Study, values: Mapping[str, Floats]) -> Iterator[PoseLimit]:
-    """Yield the limits of forces, rates and powers of a motion, each of shape (n, 9)."""
+    """Yield the limits of forces, rates and powers of a motion, shape (n, 9) or (k, n, 9): the largest of k loads."""
     for limit in study.limits:
         duty = _duty_of(limit.name)
         if duty not in values or limit.at != "poses":
             continue
+        moduli = np.abs(values[duty])
+        most = moduli.reshape(-1, *moduli.shape[-2:]).max(axis=0)
         for leg in PARTS[limit.name]:
-            value = np.abs(values[duty][:, LEGS.index(leg)])
+            value = most[:, LEGS.index(leg)]
             margin = margin_of(limit.kind, "max", limit.high, value)
             yield PoseLimit(limit.name, leg, "max", limit.high, value, np.asarray(margin))

@@ -43,18 +43,21 @@ class Payload(NamedTuple):
     """The number of that load in `loads`, from 0."""
     region: RegionSearch | None
     """The search of the region; None for listed poses. It is a search and no proof."""
+    limits: tuple[Floats, Floats]
+    """Greatest forces of each leg, pushing and pulling, shapes (9,): those given, or of the study."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values."""
         c = self.configuration
         pose = {"position": c.position, "rotation": c.rotation, "internal_point": c.internal_point}
-        search = None if self.region is None else self.region._asdict()
+        looked = None if self.region is None else self.region._asdict()
+        search = None if looked is None else {name: looked[name] for name in ("region", "looked_at")}
         return {**self._asdict(), "configuration": pose, "region": search, "proved": False}
 
 
 def largest_payload(
     design: Any,
-    force: ArrayLike,
+    force: ArrayLike | None = None,
     pull: ArrayLike | None = None,
     centre: Vector = (0.0, 0.0, 0.0),
     loads: ArrayLike | None = None,
@@ -69,9 +72,9 @@ def largest_payload(
     ----------
     design : Result, Candidate, DesignPoint or a design of a file
         As for `sheet`. Loads, masses and gravity of its study act besides the payload.
-    force : float or array_like of shape (9,)
+    force : float or array_like of shape (9,), optional
         Greatest force with which a leg may push, for all legs or in the order of `leg_lengths`; in newtons for
-        kilograms and a gravity of 9.81.
+        kilograms and a gravity of 9.81. The limit `force` of the study by default.
     pull : float or array_like of shape (9,), optional
         Greatest force with which it may pull; `force` by default.
     centre : (3,) floats
@@ -106,6 +109,7 @@ def largest_payload(
     g, c, _ = robot_of(design, None)
     own = duty.loads.wrenches if loads is None else load_rows(loads)
     rows = np.array(own).reshape(-1, 6) if len(own) else np.zeros((1, 6))
+    force = _stated(duty) if force is None else force
     limits = [_limit(name, value) for name, value in (("force", force), ("pull", force if pull is None else pull))]
     count = whole("samples", samples, 1, MOST_SAMPLES)
     gravity, masses = duty.loads.gravity, masses_of(duty)
@@ -117,6 +121,7 @@ def largest_payload(
     look = None
     if has_region(design):
         look, worst, _ = look_over_design(design, c[0], question, count)
+        look = look._replace(mean=np.nan, mean_error=np.nan)  # of the condition number, which is not asked for
         c = joined(c, worst)
     numbers = _core.sheet_numbers(question, c)
     shares = numbers["payload"].reshape(len(c), len(rows), 2, 9)
@@ -130,7 +135,15 @@ def largest_payload(
     wrench = rows[load] + np.concatenate([np.cross(c[pose].rotation @ np.asarray(at), down), down])
     forces = inverse_dynamics(g, c[pose], masses=masses, gravity=gravity, load=wrench).forces
     names = (LEGS[leg], ("push", "pull")[side]) if most > 0.0 else ("", "")
-    return Payload(mass, most < np.inf, *names, c[pose], forces, load, look)
+    return Payload(mass, most < np.inf, *names, c[pose], forces, load, look, (limits[0], limits[1]))
+
+
+def _stated(study: Study) -> float:
+    """Return the greatest leg force that a study allows at its poses."""
+    limit = min((one.high for one in study.limits if one.name == "force" and one.at == "poses"), default=None)
+    if limit is None:
+        raise ValueError("force: got none, expected a number: there is no study with a limit of force at its poses")
+    return limit
 
 
 def _limit(name: str, value: ArrayLike) -> Floats:

@@ -155,7 +155,8 @@ int wrong_forms(const PoseRow& row, const Case& one, double half, Random& random
   const PoseBox box{one, half};
   const FormPose pose = box.forms();
   const FormHome form_home(one.g, one.home, one.options);
-  const FormLook look(one.g, pose, form_home);
+  const AsBuilt drawn{one.g};
+  const FormLook look(drawn, pose, form_home);
   const PosedPoints home = posed_points(one.g, one.home);
   int out = 0;
   for (int item = 0; item < row.items; ++item) {
@@ -178,7 +179,8 @@ int wrong_distances(const Case& one, double half, Random& random) {
   const PoseBox box{one, half};
   const FormPose pose = box.forms();
   const FormHome form_home(one.g, one.home, one.options);
-  const FormLook look(one.g, pose, form_home);
+  const AsBuilt drawn{one.g};
+  const FormLook look(drawn, pose, form_home);
   const PosedPoints home = posed_points(one.g, one.home);
   int out = 0;
   for (int pair = 0; pair < leg_pairs; ++pair) {
@@ -308,12 +310,13 @@ TEST_SUITE("law") {
       for (int leg = 0; leg < 9; ++leg)
         CHECK(leg_length_row.number(look, leg) == doctest::Approx(lengths[at_index(leg)]).epsilon(1e-13));
       const FormHome form_home(one.g, one.home, one.options);
+      const AsBuilt drawn{one.g};
       const FormPose pose = form_pose(one.here);
       for (int k = 0; k < 3; ++k) {
         const double value = singularity_free_row.number(look, k), side = look.side(k);
         CHECK(std::abs(value - side * det[at_index(k)]) <= 1e-13);
         CHECK(side == form_home.side[at_index(k)]);
-        const PoseForm numerator = singularity_free_row.numerator(FormLook(one.g, pose, form_home), k);
+        const PoseForm numerator = singularity_free_row.numerator(FormLook(drawn, pose, form_home), k);
         if (std::abs(value) > 1e-10) CHECK(numerator.c * value > 0.0);
       }
     }

@@ -166,6 +166,32 @@ TEST_SUITE("limits") {
     }
   }
 
+  TEST_CASE("errors of the platform: none beyond what is proved, and the bound is near that of first order") {
+    Random random(4);
+    for (int n = 0; n < cases(4); ++n) {
+      const Robot robot = random_symmetric_robot(random);
+      PosedRobot machine{robot.geometry, neutral(4.0, 2.2), 1.0, {}, {}, {}};
+      machine.tolerances.legs.setConstant(1e-5);
+      machine.tolerances.joints.fill(3e-5);
+      const ErrorOverPoses found = error_over_poses(machine, {.gap = 0.05});
+      const ErrorBounds first = error_bounds(machine.geometry, machine.neutral, machine.tolerances);
+      const std::array bounds{first.rotation, first.position, first.internal_point};
+      const std::array ranges{found.rotation, found.position, found.internal_point};
+      for (std::size_t k = 0; k < bounds.size(); ++k) {
+        CHECK(ranges[k].lo == doctest::Approx(bounds[k]).epsilon(1e-9));
+        CHECK(ranges[k].hi <= 1.06 * bounds[k]);
+      }
+      for (std::uint64_t k = 0; k < 200; ++k) {
+        const Vec9 off = error_sample(machine.geometry, machine.neutral, machine.tolerances, 1, k);
+        CHECK(off.head<3>().norm() <= found.rotation.hi);
+        CHECK(off.segment<3>(3).norm() <= found.position.hi);
+        CHECK(off.tail<3>().norm() <= found.internal_point.hi);
+      }
+    }
+    PosedRobot exact{random_symmetric_robot(random).geometry, neutral(4.0, 2.2), 1.0, {}, {}, {}};
+    CHECK(error_over_poses(exact, {}).position.hi == 0.0);
+  }
+
   TEST_CASE("a leg that vanishes in a region: its ratio has no upper end, and is named") {
     // The lower internal joints are in the way of O, which moves with the platform.
     const Geometry g = Geometry::hexagonal(0.5, 3.0, 1.5, 0.2);

@@ -64,6 +64,20 @@ def test_a_run_gives_the_other_variables(run, study, tmp_path):
     assert status == 0
     assert (folder / "admissible-a2-zp.npz").exists()
     assert "zp from 2 to 8" in " ".join(out.split())
+    result = nd.load(folder)
+    line = (
+        f"admissible {folder} --vary theta_z_deg=-20:20 --set zs=+10% --set theta_z_deg=5 --set b1=-5% --resolution 0.1"
+    )
+    status, out, _ = run(f"{line} --json")
+    assert status == 0
+    at = {"zs": 1.1 * result.variables["zs"], "b1": 0.95 * result.variables["b1"], "theta_z": np.radians(5.0)}
+    expected = nd.admissible(result, {"theta_z": np.radians((-20.0, 20.0))}, at=at, resolution=0.1)
+    same = nd.admissible(
+        result, {"theta_z_deg": (-20.0, 20.0)}, at={"zs": "+10%", "b1": "-5%", "theta_z_deg": 5.0}, resolution=0.1
+    )
+    assert same.of.ranges == expected.of.ranges == (tuple(np.radians((-20.0, 20.0))),)
+    assert same.of.at == pytest.approx(expected.of.at, rel=1e-15)
+    assert json.loads(out)["shares"] == pytest.approx(expected.shares)
 
 
 @pytest.mark.parametrize(
@@ -74,7 +88,11 @@ def test_a_run_gives_the_other_variables(run, study, tmp_path):
         ("--vary a2=8:2", "vary.a2: got (8, 2), expected low < high"),
         ("--vary a2=1", "--vary: got a2=1, expected NAME or NAME=LOW:HIGH"),
         ("--vary a2", "--set: got no b1, expected a value"),
-        ("--vary a2 --set b1=x", "--set: got b1=x, expected NAME=VALUE"),
+        ("--vary a2 --set b1=x", "--set: got 'b1=x', expected NAME=VALUE"),
+        ("--vary a2 --set zs=+10%", "zs: got '+10%', expected a number: it has no value to change"),
+        ("--vary a2 --set theta_z=30", "theta_z: got 30 rad, expected at most a turn, or theta_z_deg"),
+        ("--vary theta_z=0:30", "theta_z: got 30 rad, expected at most a turn, or theta_z_deg"),
+        ("--vary a2 --set b9=1", "--set: got 'b9', expected one of a1, a2"),
         ("", "Missing option '--vary'"),
     ],
 )

@@ -1,6 +1,7 @@
 """The argument DESIGN, and the commands that ask one question about a design: their numbers are the library's."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -355,3 +356,24 @@ def test_the_table_of_indices_names_determinants_and_fits_80_columns(run, tmp_pa
     assert any(line.startswith("│ singularity margins: det N, B, C ") for line in lines)
     rows = [line.split("│") for line in lines if line.startswith("│")]
     assert all(value.strip() for _, _, value, _ in rows)
+
+
+def test_poses_that_coincide_are_named_once(run, folder):
+    """Poses 3 and 4 are poses 0 and 2 but for rounding, as poses found by a search are."""
+    poses = [{}, {"position": [0.05, 0.0, 0.0]}, {}, {"position": [0.05 + 1e-12, 0.0, 0.0]}]
+    study = nd.Study(
+        family="symmetric", constraints={"radius_ratio": (None, 2.0)}, objective={"poses": poses}, starts=1
+    )
+    nd.save(nd.optimize(study), folder / "twice")
+    for line in ("accuracy twice --leg-error 0.01 --all-poses", "stiffness twice --leg-stiffness 2e4 --all-poses"):
+        status, out, _ = run(line)
+        assert status == 0
+        names = set(re.findall(r"pose (\d)\b", out)) - {"0"}
+        assert names <= {"2"}
+        assert out.count("pose 2:") == len(names)
+    numbers = [
+        row.split("│")[-2].strip()
+        for row in run("accuracy twice --leg-error 0.01 --all-poses")[1].splitlines()
+        if row.startswith("│")
+    ]
+    assert set(numbers) == {"0", "2"}

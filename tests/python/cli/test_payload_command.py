@@ -2,7 +2,9 @@
 
 import json
 import shlex
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import ninedof as nd
@@ -49,6 +51,31 @@ def test_the_payload(folder, run):
     assert "no payload" in out
 
 
+def test_the_force_is_that_of_the_study_where_it_has_one(folder, run, tmp_path):
+    machine = nd.load(folder)
+    limits = {"force": [{"max": 60.0}, {"max": 9.0, "at": "neutral"}]}
+    limited = replace(machine, study=replace(machine.study, constraints=limits))
+    nd.save(limited, tmp_path / "limited")
+    expected = nd.largest_payload(machine, 60.0).mass
+    status, out = run(f"payload {tmp_path / 'limited'} --json")
+    assert status == 0
+    assert json.loads(out)["mass"] == pytest.approx(expected, rel=1e-12)
+    assert nd.largest_payload(limited).mass == pytest.approx(expected, rel=1e-12)
+    assert "from the study: force at most 60" in run(f"payload {tmp_path / 'limited'}")[1]
+    assert "from the study" not in run(f"payload {tmp_path / 'limited'} --force 50")[1]
+    assert run(f"payload {folder}")[0] == 2
+
+
+def test_json_has_no_number_that_was_not_asked_for(folder, run):
+    def refuse(literal):
+        raise AssertionError(literal)
+
+    text = run(f"payload {folder} --force inf --json")[1]
+    data = json.loads(text, parse_constant=refuse)
+    assert data["mass"] == "inf"  # no leg reaches it
+    assert data["region"].keys() == {"region", "looked_at"}
+
+
 def test_forces_and_paths_have_the_masses_of_the_study(folder, run, tmp_path):
     machine = nd.load(folder)
     wrench = DUTY["loads"]["wrenches"][0]
@@ -63,6 +90,29 @@ def test_forces_and_paths_have_the_masses_of_the_study(folder, run, tmp_path):
     load = (wrench[3:], wrench[:3])
     motion = nd.follow(machine.geometry, line, machine.configuration, "shifted", load=load, masses=machine.study.masses)
     assert [legs[leg]["rms"] for leg in legs] == pytest.approx(motion.drives["rms"].tolist(), rel=1e-12)
+
+
+def test_a_path_tells_the_forces_of_every_load_of_the_study(folder, run, tmp_path):
+    machine = nd.load(folder)
+    wrenches = [[0.0, 0.0, 0.0, 12.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0, 90.0, 0.0]]
+    study = replace(machine.study, loads={"wrenches": wrenches}, constraints={"force": {"max": 50.0}})
+    nd.save(replace(machine, study=study), tmp_path / "two")
+    line = "--line 0.1 0 0.1 --points 51"
+    status, out = run(f"path {tmp_path / 'two'} {line} --out {tmp_path / 'along'}")
+    assert "largest of 2 loads" in out
+    assert "from the study: 2 loads of [loads], [masses]" in out
+    motion = nd.load(tmp_path / "along")
+    each = []
+    for wrench in wrenches:
+        load = (wrench[3:], wrench[:3])
+        each.append(nd.follow(machine, motion.trajectory, load=load, masses=machine.study.masses).leg_forces)
+    assert motion.leg_forces == pytest.approx(np.array(each), rel=1e-9, abs=1e-9)
+    most = np.abs(each).max(axis=(0, 1))
+    (limit,) = json.loads((tmp_path / "along" / "record.json").read_text())["results"]["motion"]["limits"]
+    assert limit["value"] == pytest.approx(most.max(), rel=1e-9)
+    assert np.abs(each[0]).max() < 50.0 < most.max()  # the first load alone breaks nothing
+    assert status == 3
+    assert "each figure the largest of 2 loads" in (tmp_path / "along" / "report.html").read_text()
 
 
 def test_legs_that_never_carry_are_named(run, tmp_path):

@@ -229,6 +229,15 @@ def test_angles_are_dimensioned_and_listed():
     assert f"{np.degrees(-0.75):.4f}" in words
 
 
+def test_the_neutral_pose_and_the_tool_are_written():
+    turned, tool = nd.Configuration.neutral(320.0, 180.0, 0.3), nd.Tool((0.0, 0.0, -40.0))
+    g, c = tool.robot(HEXAGON.geometry, turned)
+    document = drawing(nd.Design(g, c, 1.0, "mm", tool))
+    notes = {text.dxf.text for text in on(document, "TEXT", "TEXT")}
+    height = r"neutral pose: zp = 320\.0+ mm, zs = 180\.0+ mm, theta_z = 17\.189°, tool at \(0, 0, -40\) mm"
+    assert any(re.fullmatch(height, words) for words in notes)
+
+
 def test_a_plate_on_edge_has_no_outline():
     upright = np.array([[0.0, 1.0, 0.0], [0.0, -1.0, 1.0], [0.0, -1.0, -1.0]])
     design = PAPER._replace(geometry=nd.Geometry(upright, 2.0 * upright, *plates_of_paper()))

@@ -110,3 +110,28 @@ def test_a_saved_motion_keeps_its_forces(lifted, tmp_path):
     again = nd.load(tmp_path / "motion.npz")
     assert_allclose(again.leg_powers, lifted.leg_powers, rtol=0.0, atol=0.0)
     assert again.force_unit == lifted.force_unit
+
+
+def test_of_several_loads_forces_are_those_of_each_and_drives_the_largest(lifted, tmp_path):
+    """A load of one pose in shape (k, 1, 3), and with a moment for each pose."""
+    force = np.array([[0.0, 0.0, -30.0], [40.0, 0.0, 0.0], [0.0, -5.0, 60.0]])[:, None]
+    moment = np.linspace(0.0, 3.0, 2001)[:, None] * [0.0, 0.0, 1.0]
+    g, how = lifted.geometry, {"internal_point": 0.5, "masses": MASSES}
+    every = nd.follow(g, lifted.trajectory, HOME, load=(force, moment), **how)
+    each = [nd.follow(g, lifted.trajectory, HOME, load=(one[0], moment), **how) for one in force]
+    assert (every.leg_forces.shape, every.load_count, each[0].load_count, lifted.load_count) == ((3, 2001, 9), 3, 1, 1)
+    assert_allclose(every.leg_forces, [one.leg_forces for one in each], rtol=1e-12, atol=1e-9)
+    assert_allclose(every.leg_powers, [one.leg_powers for one in each], rtol=1e-12, atol=1e-9)
+    for name, values in every.drives.items():
+        assert_allclose(values, np.max([one.drives[name] for one in each], axis=0), rtol=1e-12, atol=1e-9)
+    assert every.unloaded_legs == ()
+    nd.save(every, tmp_path / "run")
+    assert_allclose(nd.load(tmp_path / "run").leg_forces, every.leg_forces, rtol=0.0)
+    rows = np.genfromtxt(tmp_path / "run" / "legs.csv", delimiter=",", names=True)
+    assert_allclose(rows["r2_force_3"], every.leg_forces[2, :, 7])
+    assert_allclose(rows["l1_power_2"], every.leg_powers[1, :, 0], atol=1e-12)
+    table = drives_table(every.to_dict())
+    assert "each figure the largest of 3 loads" in table.title
+    assert "all" not in plain(table)  # the largest do not add up
+    with pytest.raises(ValueError, match="load: got stacks"):
+        nd.follow(g, lifted.trajectory, HOME, load=(force[:, :, None], None), **how)

@@ -185,6 +185,28 @@ def test_the_drawing_has_every_dimension_of_the_plates_and_the_heights(geometry)
     assert {"zp = 3.9828 mm", "zs = 2.3745 mm", "O", *LEGS} <= words[2]
     for axes in (base, platform, front):
         assert axes.get_aspect() == 1.0
+    for text in front.texts:  # beside the middle of its arrow
+        name, _, value = text.get_text().partition(" = ")
+        if name in ("zs", "zp"):
+            x, z = text.get_position()
+            assert z == pytest.approx(0.5 * float(value.split()[0]), rel=1e-4)
+            assert min(abs(x - arrow.xy[0]) for arrow in front.texts if not arrow.get_text()) < 0.06 * np.ptp(
+                front.get_xlim()
+            )
+
+
+def test_the_drawing_has_the_twist_and_the_tool_on_the_plates_as_they_are_made():
+    turned, tool = nd.Configuration.neutral(3.9828, 2.3745, 0.3), nd.Tool((0.2, 0.0, -1.0), (0.0, 0.0, 0.5))
+    without = plot.drawing(G, turned, "mm").axes
+    with_tool = plot.drawing(*tool.robot(G, turned), "mm", tool).axes
+    words = [[{text.get_text() for text in axes.texts} for axes in figure] for figure in (without, with_tool)]
+    assert "theta_z = 17.189°" in words[0][2]
+    assert words[1][:2] == words[0][:2]
+    assert "theta_z = 17.189°\ntool at (0.2, 0, -1) mm\ntool turned (0, 0, 28.648)°" in words[1][2]
+    assert {"zp = 3.9828 mm", "tool"} <= words[1][2]
+    (mark,) = [line for line in with_tool[2].lines if line.get_marker() == "v"]
+    at = turned.position + turned.rotation @ np.array(tool.position)
+    assert np.ravel(mark.get_data()) == pytest.approx(at[[0, 2]])
 
 
 # --- The body of a workspace ------------------------------------------------------------------------------------------

@@ -1,16 +1,18 @@
 """The figure of a workspace: one scale of round bands for all sections, arrows beyond it, limits told apart."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from figure_table import made, section, space
+from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 
 import ninedof as nd
 from ninedof import plot
 from ninedof.plot import style
-from ninedof.plot.workspace import KINDS
+from ninedof.plot.workspace import KINDS, kind_of
 
 
 @pytest.mark.parametrize(
@@ -45,6 +47,11 @@ def test_bounds_are_drawn_in_the_style_of_their_limits():
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == ["upper internal legs"]
     assert len({str(KINDS[kind][2]) for kind in "lqr"}) == 3  # kinds differ without colours
+
+
+def test_limits_of_one_kind_of_legs_have_the_colour_of_all():
+    names = ("upper_force q1", "lower_rate r2", "base_cone_external l1", "det N", "q3 high")
+    assert [kind_of(name) for name in names] == ["force", "rate", "base_cone", "det", "q"]
 
 
 def test_a_workspace_of_orientations_is_drawn_in_degrees():
@@ -103,3 +110,21 @@ def test_the_lower_panels_are_for_a_designer():
     assert "l1 at its longest" in names
     assert not any(name.endswith((" high", " low")) for name in names)
     assert not [axes for axes in figure.axes if "error" in axes.get_title(loc="left")]
+
+
+def of_two_shapes():
+    wide = section(np.full((9, 9), 4.0))
+    tall = replace(wide, plane=wide.plane._replace(vertical=0.5 * wide.plane.vertical))
+    return plot.workspace(space([3.0, 4.0, 5.0]), [wide, tall])
+
+
+@pytest.mark.parametrize("figure_of", [of_two_shapes, lambda: made("certified")])
+def test_the_titles_of_sections_stand_at_one_height(figure_of):
+    figure = figure_of()
+    with style.settings():
+        figure.canvas.draw()
+    panels = [axes for axes in figure.findobj(Axes) if " = " in axes.get_title(loc="left")]
+    tops, sizes = (np.array([getattr(axes.get_position(), side) for axes in panels]) for side in ("y1", "height"))
+    assert len(panels) == 2
+    assert np.ptp(sizes) > 1e-3  # else any anchor would do
+    assert np.ptp(tops) < 1e-9

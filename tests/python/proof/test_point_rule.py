@@ -132,7 +132,7 @@ def test_a_bound_below_the_worst_pose_of_a_rule_is_never_proved(shape, degree):
         rule = random_rule(region, rng, degree)
         worst = float(climbed(region, rule, rng))
         found = proved(
-            region, rule, condition_number=worst * (1.0 - 1e-9), tolerance=0.0, gap=0.01, time_limit=size(1.0, 20.0)
+            region, rule, condition_number=worst * (1.0 - 1e-9), slack=0.0, gap=0.01, time_limit=size(1.0, 20.0)
         )
         assert found.limits[-1].answer != "proved"
         assert found.condition[1] >= worst

@@ -5,6 +5,8 @@ import re
 
 import pytest
 
+import ninedof as nd
+from ninedof import plot
 from ninedof.cli.app import main
 
 DESIGN = """
@@ -82,3 +84,25 @@ def test_an_atlas(here):
 def test_no_report_where_none_is_asked_for(here):
     assert run("path", "design.toml", "--circle", "30", "--points", "41", "--no-report") == 0
     assert not (here / "run" / "report.html").exists()
+
+
+def test_paths_and_workspaces_of_a_run_have_its_title_block_and_its_tool(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    variables = {"a1": 0.0, "a2": 581.24, "b1": 290.62, "b2": 0.0, "zp": 398.28, "zs": 244.35}
+    about = {"project": "Polishing head", "author": "A. Smith", "revision": "C"}
+    study = nd.Study(
+        variables=variables, unit="mm", characteristic_length=100.0, about=about, tool={"position": [0, 0, -50]}
+    )
+    nd.save(nd.optimize(study), "machine")
+    drawn = []
+    monkeypatch.setattr(plot, "drawing", lambda *a: drawn.append(a[3]) or plot.mechanisms([plot.Robot("", *a[:2])]))
+    for words in (
+        ["path", "machine", "--line", "5", "0", "5", "--points", "21"],
+        ["workspace", "machine", "--legs", "200", "470"],
+    ):
+        with pytest.raises(SystemExit):
+            main([*words, "--out", words[0]])
+        page = shown((tmp_path / words[0] / "report.html").read_text())
+        assert "project Polishing head author A. Smith revision C" in page
+        assert "lengths in mm" in page
+    assert drawn == [study.tool]

@@ -49,6 +49,18 @@ def test_the_limits_that_a_change_breaks_are_named(run):
     assert "changed breaks" in str(both)
 
 
+def test_values_outside_of_the_bounds_of_their_study_are_named(run):
+    changed = run.with_changes(a2=6.5, b1=2.0, theta_z_deg=10.0)
+    both = nd.compare(run, changed, names=("run", "changed"))
+    assert both.outside == ({}, {"a2": (6.5, 1.0, 6.0), "theta_z": (pytest.approx(np.radians(10.0)), 0.0, 0.0)})
+    words = "changed is outside of the bounds of its study: a2 = 6.5 mm (1 to 6), theta_z = 10° (fixed at 0)"
+    assert words in str(both)
+    assert both.to_dict()["outside"][1]["a2"] == (6.5, 1.0, 6.0)
+    assert "outside" not in str(nd.compare(run, run.with_changes(a2=6.0)))
+    metres = nd.compare(nd.Design(run.geometry, run.configuration, 1.0, "mm"), changed)
+    assert metres.outside[0] == {}
+
+
 def test_a_change_of_nothing_changes_nothing(run):
     both = nd.compare(run, run.with_changes(b1=run.variables["b1"]))
     assert all(one == pytest.approx(other, rel=1e-9) for one, other in both.numbers.values())
@@ -62,6 +74,10 @@ def test_changes_that_do_not_fit_are_refused(run):
         ({"b1": "+1"}, "as '"),
         ({"b1": "wide"}, "as '"),
         ({}, "got none"),
+        ({"zs": 3.0, "zp": 3.0}, r"zs, zp: got zs = 3, expected 0 < zs < zp = 3"),
+        ({"zs": 0.0}, "zs: got zs = 0, expected 0 < zs < zp"),
+        ({"a1": 0.0, "a2": 0.0}, "a1, a2: .*expected a base of some size"),
+        ({"theta_z": 30.0}, "theta_z: got 30 rad, expected at most a turn, or theta_z_deg"),
     ):
         with pytest.raises(ValueError, match=words):
             run.with_changes(**changes)

@@ -1,6 +1,7 @@
 """Failure of legs: against numpy's singular values of J' without columns, equilibria without a leg, random poses."""
 
 import json
+import re
 from itertools import combinations
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,6 +15,7 @@ from ninedof import _core
 from ninedof.optimize.region_report import posed
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.failure.failure import SETS
+from ninedof.sheet.failure.tables import free_table, loads_table, locked_table, pairs_table
 
 DESIGN = Path(__file__).resolve().parents[3] / "examples" / "04_design.toml"
 RNG = np.random.default_rng(14)
@@ -174,3 +176,34 @@ def test_a_stack_is_one_pose_after_the_other():
     c = nd.Configuration.neutral(np.linspace(3.0, 5.0, 7), 2.0)
     both = [_core.locked_condition_numbers(g, c[k], np.array([1.0]), list(SETS), 1)[0] for k in range(7)]
     assert (_core.locked_condition_numbers(g, c, np.array([1.0]), list(SETS), 2) == np.array(both)).all()
+
+
+def test_loads_and_weights_of_the_study_are_taken():
+    duty = {
+        "loads": {"wrenches": [[0, 0, 0, 5.0, 0, 0], [0, 0, 0, 0, 0, -7.0]], "gravity": [0, 0, 9.81]},
+        "masses": {"platform": 2.0, "centre": [0.1, 0, 0], "rod": 0.3},
+    }
+    variables = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.4}
+    result = nd.optimize(nd.Study(variables=variables, tool={"position": [0, 0, -0.5]}, **duty))
+    masses = result.study.masses.seen_from(result.study.tool)
+    for load, k in ((None, 0), (None, 1), ([0, 0, 0, 0, 3.0, 0], 0)):
+        one = nd.failure(result, loads=load, pairs=False)
+        row = duty["loads"]["wrenches"][k] if load is None else load
+        expected = nd.inverse_dynamics(
+            result.geometry, result.configuration, masses=masses, gravity=(0, 0, 9.81), load=row
+        )
+        carried = [free.loads[k].carries for free in one.free]
+        assert carried == pytest.approx(np.abs(expected.forces).tolist(), rel=1e-9)
+    assert "each with the weights of the masses of the study" in one.summary()
+    study = nd.Study(variables=variables)
+    assert not len(nd.failure(nd.optimize(study), pairs=False).loads)
+
+
+def test_numbers_of_a_column_have_the_same_decimals():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    one = nd.failure(g, nd.Configuration.neutral([3.9828], 2.3745), loads=[0, 2.0, 0, 0, 0, -10.0])
+    for table in (locked_table(one, one.locked), pairs_table(one), free_table(one), loads_table(one)):
+        rows = [row for group in table.texts() for row in group]
+        for column in list(zip(*rows, strict=True))[1:]:
+            numbers = [re.search(r"\.(\d+)", cell) for cell in column]
+            assert len({len(found[1]) for found in numbers if found}) <= 1, column

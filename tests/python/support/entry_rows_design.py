@@ -86,6 +86,7 @@ row("Tool.own", nd.Tool(**DUTY["tool"]).own)(lambda: {"points": np.array([1.0, 2
 row("Tool.robot", nd.Tool(**DUTY["tool"]).robot)(ROBOT.copy)
 row("Tool.plates", nd.Tool(**DUTY["tool"]).plates)(lambda: {"geometry": it.g()})
 row("Tool.plate", nd.Tool(**DUTY["tool"]).plate)(lambda: {"configuration": it.c()})
+row("Tool.words", nd.Tool(**DUTY["tool"]).words)(lambda: {"unit": "mm"})
 row("Study.zp", lambda **a: it.study().zp(**a))(lambda: {"neutral": it.c()})
 row("Masses.seen_from", nd.Masses(**DUTY["masses"]).seen_from)(lambda: {"tool": nd.Tool(**DUTY["tool"])})
 row("Study.paper", nd.Study.paper)(dict)

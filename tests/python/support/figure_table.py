@@ -75,6 +75,7 @@ def followed(kappa=None, lengths=LENGTHS, time=TIME, high=np.inf, unit="", force
         leg_lengths=lengths,
         leg_rates=np.gradient(lengths, time, axis=0),
         leg_forces=forces,
+        load_count=0 if forces is None else forces.size // lengths.size,
         force_unit="N" if unit else "",
         condition_number=lengths[:, 0] if kappa is None else kappa,
         limits=(np.zeros(9), np.full(9, high)),
@@ -154,6 +155,7 @@ def solids(*semi_axes):
     return {f"{k}": (np.eye(3), half) for k, half in enumerate(semi_axes)}
 
 
+TOOL, TOOL_ABOVE = nd.Tool((0.0, 0.0, -1.0)), nd.Tool((-0.7, 0.2, 0.9), (0.3, 0.0, 0.1))
 FIGURES = {
     "one mechanism": lambda: plot.mechanism(plot.Robot("a title", APART, AWAY), "mm"),
     "mechanism": lambda: plot.mechanisms([plot.Robot("optimum", APART, HOME, 3.9, "a note", [EDGES])], "mm"),
@@ -162,6 +164,8 @@ FIGURES = {
     "compare": lambda: plot.compare(nd.compare(nd.Design(G, HOME), nd.Design(APART, AWAY))),
     "drawing": lambda: plot.drawing(G, HOME, "mm"),
     "drawing, joints apart": lambda: plot.drawing(APART, AWAY, "m"),
+    "drawing, a tool": lambda: plot.drawing(*TOOL.robot(G, HOME), "mm", TOOL),
+    "drawing, a tool above": lambda: plot.drawing(*TOOL_ABOVE.robot(APART, AWAY), "m", TOOL_ABOVE),
     "condition": lambda: plot.condition_curves([curves(**COMPARED), curves()], "mm"),
     "objective over poses": lambda: plot.condition_curves([curves(**OVER_POSES)], "mm"),
     "region": lambda: plot.region_map(region()),
@@ -195,6 +199,7 @@ FIGURES = {
     "body": lambda: plot.workspace_body(found().surface(20_000), home=HOME.position, lines=[EDGES], unit="m"),
     "motion": lambda: plot.motion(followed(high=3.05, unit="mm")),
     "motion with forces": lambda: plot.motion(followed(unit="mm", forces=30.0 * LENGTHS - 90.0)),
+    "motion with loads": lambda: plot.motion(followed(unit="mm", forces=np.stack([LENGTHS, 50.0 - 9.0 * LENGTHS]))),
     "margins": lambda: plot.motion(followed(), {"leg_length": 0.3 - TIME, "cone": TIME}),
     "two ellipsoids": lambda: plot.ellipsoids(velocities(TILTED)),
     "four ellipsoids": lambda: plot.ellipsoids(

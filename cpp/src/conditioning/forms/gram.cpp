@@ -60,7 +60,7 @@ LegProducts<T> leg_products(const Robot& g, double characteristic_length, const 
   };
   LegProducts<T> out;
   for (int i = 0; i < 3; ++i) {
-    const Xyz<T> e = direction(i), u = turned(pose, joint_of(g, point_u + i));
+    const Xyz<T> e = direction(i), u = arm_at(g, pose, point_u + i);
     const Xyz<T> m = inverse_lc * cross(u, e);
     const std::array<const T*, 6> row{&m.x, &m.y, &m.z, &e.x, &e.y, &e.z};
     for (std::size_t j = 0; j < 6; ++j)
@@ -72,7 +72,7 @@ LegProducts<T> leg_products(const Robot& g, double characteristic_length, const 
 }
 
 template LegProducts<PoseForm> leg_products(const Geometry&, double, const PoseOf<PoseForm>&, Moves&);
-template LegProducts<CurvedForm> leg_products(const Geometry&, double, const PoseOf<CurvedForm>&, Moves&);
+template LegProducts<CurvedForm> leg_products(const AsBuilt&, double, const PoseOf<CurvedForm>&, Moves&);
 template LegProducts<DesignForm> leg_products(const JointsOf<DesignForm>&, double, const PoseOf<DesignForm>&, Moves&);
 
 Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {

@@ -181,7 +181,7 @@ template Xyz<PoseForm> direction_of(const Xyz<PoseForm>&);
 template Xyz<CurvedForm> direction_of(const Xyz<CurvedForm>&);
 template Xyz<DesignForm> direction_of(const Xyz<DesignForm>&);
 template SplitGram split_gram(const Geometry&, double, const PoseOf<PoseForm>&, Moves&, int);
-template SplitGramOf<CurvedForm> split_gram(const Geometry&, double, const PoseOf<CurvedForm>&, Moves&, int);
+template SplitGramOf<CurvedForm> split_gram(const AsBuilt&, double, const PoseOf<CurvedForm>&, Moves&, int);
 template SplitGramOf<DesignForm> split_gram(const JointsOf<DesignForm>&, double, const PoseOf<DesignForm>&, Moves&,
                                             int);
 

@@ -91,7 +91,7 @@ Checked checked(const RuleTask& task, const PointRule& rule, int threads, const 
   const ProofSettings how{.threads = threads, .seconds = proof_seconds, .gap = wide_gap};
   const LimitsOverPoses limits =
       limits_over_poses(machine, task.problem.limits, exempt_pairs(task.problem), 0.0, how, control);
-  const WorstCondition condition = worst_condition(machine, how, {}, control);
+  const WorstOverPoses condition = worst_condition(machine, how, {}, control);
   if (control.stop.stop_requested()) throw Stopped{};
   Checked out;
   for (const LimitOverPoses& limit : limits.limits) {

@@ -1,234 +1,54 @@
-/// The worst condition number over all poses: a pose where it is attained, and a bound proved box after box.
-/// Declared in ninedof/proof/machine.hpp.
-
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <cmath>
+/// The worst condition number over all poses. Declared in ninedof/proof/machine.hpp.
 
 #include "conditioning/forms/gram.hpp"
-#include "math/numbers.hpp"
-#include "math/splitmix.hpp"
 #include "ninedof/conditioning/locked_legs.hpp"
 #include "ninedof/math/error.hpp"
-#include "ninedof/math/parallel.hpp"
-#include "proof/region/pose.hpp"
+#include "proof/region/worst.hpp"
 
 namespace ninedof {
 namespace over_region {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+class ConditionOverPoses final : public IndexOverPoses {
+ public:
+  ConditionOverPoses(const Domain& domain, int locked)
+      : IndexOverPoses(domain), length_(domain.machine().characteristic_length), locked_(locked) {}
 
-constexpr std::size_t most_boxes = 8'000'000;  // open at a time: a gigabyte
-
-struct Met {
-  double value = 0.0;
-  Box at;
-};
-
-/// With a leg locked it is that of doubles, with room for rounding.
-double condition_at(const Domain& domain, int locked, const Box& point) {
-  constexpr double room = 1e-9;
-  const PosedRobot& machine = domain.machine();
-  if (locked >= 0) {
-    const FormPose pose = domain.pose(point);
-    Mat3 rotation;
-    rotation << centre(pose.q[0]), centre(pose.q[1]), centre(pose.q[2]);
-    const PosedPoints here = posed_points(machine.geometry, {centre(pose.p), rotation, centre(pose.s)});
-    return LockedLegs(here.at, here.legs, machine.characteristic_length).condition_number({locked}) * (1.0 - room);
-  }
-  Moves unused;
-  return forms::condition_attained(
-      forms::gram(machine.geometry, machine.characteristic_length, domain.pose(point), unused));
-}
-
-/// Moves along coordinates and along random directions while the condition number grows: its greatest values lie on
-/// ridges, where singular values meet, and along a ridge no coordinate leads upward.
-Met climbed(const Domain& domain, int locked, const Box& root, Met met) {
-  constexpr std::size_t ways = 36;  // two of each coordinate, the others random
-  std::uint64_t drawn = 0;
-  for (double step = 0.25; step > 1e-6; step *= 0.5) {
-    bool better = true;
-    while (better) {
-      better = false;
-      for (std::size_t way = 0; way < ways; ++way) {
-        Box next = met.at;
-        for (std::size_t k = 0; k < PoseForm::size; ++k) {
-          const double part = way >= 2 * PoseForm::size ? 2.0 * uniform_from(stream(0, drawn++)) - 1.0
-                              : way / 2 == k            ? (way % 2 == 0 ? -1.0 : 1.0)
-                                                        : 0.0;
-          const double x = next.low[k] + step * part * (root.high[k] - root.low[k]);
-          next.low[k] = next.high[k] = std::clamp(x, root.low[k], root.high[k]);
-        }
-        next = domain.nearest(next);
-        const double value = condition_at(domain, locked, next);
-        if (value > met.value * (1.0 + 1e-9)) {
-          met = {value, next};
-          better = true;
-        }
-      }
+  /// With a leg locked it is that of doubles, with room for rounding.
+  double at(const Geometry& g, const Box& point) const override {
+    constexpr double room = 1e-9;
+    const FormPose pose = domain().pose(point);
+    if (locked_ >= 0) {
+      Mat3 rotation;
+      rotation << centre(pose.q[0]), centre(pose.q[1]), centre(pose.q[2]);
+      const PosedPoints here = posed_points(g, {centre(pose.p), rotation, centre(pose.s)});
+      return LockedLegs(here.at, here.legs, length_).condition_number({locked_}) * (1.0 - room);
     }
+    Moves unused;
+    return forms::condition_attained(forms::gram(g, length_, pose, unused));
   }
-  return met;
-}
+  bool bounded(const Box& box, double bound, Moves& moves) const override {
+    const PoseOf<CurvedForm> pose = domain().pose<CurvedForm>(box);
+    return forms::bounded(forms::split_gram(domain().built(), length_, pose, moves, locked_), bound);
+  }
 
-/// A pose where the condition number is large: local maxima are many, one about each corner of a region.
-Met searched(const Domain& domain, int locked, int threads) {
-  constexpr std::size_t samples = 64, climbs = 24;
-  struct Start {
-    Met met;
-    std::size_t root;
-  };
-  const std::vector<Box>& roots = domain.roots();
-  std::vector<Start> starts(roots.size() * samples);
-  parallel_for(static_cast<long>(starts.size()), 16, threads, [&](long first, long last) {
-    for (long n = first; n < last; ++n) {
-      const std::size_t sample = static_cast<std::size_t>(n) % samples, from = static_cast<std::size_t>(n) / samples;
-      const Box& root = roots[from];
-      Box at = root;
-      for (std::size_t k = 0; k < PoseForm::size; ++k) {
-        const double part = std::clamp(1.5 * uniform_from(stream(from, sample * PoseForm::size + k)) - 0.25, 0.0, 1.0);
-        at.low[k] = at.high[k] =  // a good part on the boundary
-            std::clamp(root.low[k] + part * (root.high[k] - root.low[k]), root.low[k], root.high[k]);
-      }
-      at = domain.nearest(at);
-      starts[static_cast<std::size_t>(n)] = {{condition_at(domain, locked, at), at}, from};
-    }
-  });
-  std::ranges::stable_sort(starts, [](const Start& a, const Start& b) { return a.met.value > b.met.value; });
-  starts.resize(std::min(starts.size(), climbs));
-  parallel_for(static_cast<long>(starts.size()), 1, threads, [&](long n, long) {
-    Start& start = starts[static_cast<std::size_t>(n)];
-    start.met = climbed(domain, locked, roots[start.root], start.met);
-  });
-  return std::ranges::max_element(starts, {}, [](const Start& one) { return one.met.value; })->met;
-}
-
-struct Looked {
-  bool looked = false, proved = false;
-  double met = 0.0;
-  int divide = -1;
+ private:
+  double length_;
+  int locked_;
 };
-
-/// Throws unless the box is a part of the domain: boxes may come from a file.
-void require_part(const Domain& domain, const Box& box) {
-  const bool part = std::ranges::any_of(domain.roots(), [&](const Box& root) {
-    if (root.piece != box.piece) return false;
-    for (std::size_t k = 0; k < PoseForm::size; ++k)
-      if (!(root.low[k] <= box.low[k] && box.low[k] <= box.high[k] && box.high[k] <= root.high[k])) return false;
-    return true;
-  });
-  if (!part) throw InvalidArgument("boxes", "a box of other poses", "boxes that a run of the same machine has left");
-}
-
-Looked look(const Domain& domain, int locked, const Box& box, double condition) {
-  Looked out{true, false, 0.0, -1};
-  if (domain.outside(box)) {
-    out.proved = true;
-    return out;
-  }
-  Moves moves;
-  const PosedRobot& machine = domain.machine();
-  const PoseOf<CurvedForm> pose = domain.pose<CurvedForm>(box);
-  out.proved = forms::bounded(forms::split_gram(machine.geometry, machine.characteristic_length, pose, moves, locked),
-                              condition);
-  if (out.proved) return out;
-  out.divide = divided_coordinate(box, moves.along);
-  out.met = condition_at(domain, locked, domain.nearest(middle_of(box)));
-  return out;
-}
 
 }  // namespace
 }  // namespace over_region
 
-WorstCondition worst_condition(const PosedRobot& machine, const ProofSettings& settings, const PoseBoxes& from,
+WorstOverPoses worst_condition(const PosedRobot& machine, const ProofSettings& settings, const PoseBoxes& from,
                                const Control& control) {
   using namespace over_region;
-  const Domain domain(machine);
-  std::vector<Box> boxes = domain.roots();
-  if (!from.empty()) {
-    boxes.clear();
-    for (const auto& row : from) {
-      Box box;
-      box.piece = std::abs(row[0]) < 1e9 ? static_cast<int>(row[0]) : std::numeric_limits<int>::max();
-      std::copy_n(row.begin() + 1, PoseForm::size, box.low.begin());
-      std::copy_n(row.begin() + 7, PoseForm::size, box.high.begin());
-      require_part(domain, box);
-      boxes.push_back(box);
-    }
-  }
   const int locked = settings.locked;
   if (locked >= 0 && (locked < 3 || locked > 8))
     throw InvalidArgument("locked", std::to_string(locked), "an internal leg, 3 to 8, or -1");
-  Met met = searched(domain, locked, settings.threads);
-  const Clock::time_point start = Clock::now();  // the time is for boxes: every run goes on
-  const auto stopped = [&] {
-    return control.stop.stop_requested() ||
-           std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
-  };
-  WorstCondition out;
-  double proved = infinity;
-  long count = 0;
-  // One bound after another: what is proved for one begins the next, and there always is a bound to return.
-  std::vector<double> gaps{1.0, 0.3, 0.1};
-  if (machine.region.empty()) gaps = {1.0, settings.gap, 1e-6, 1e-9};  // points need no division
-  else std::erase_if(gaps, [&](double gap) { return gap <= settings.gap; });
-  if (!from.empty()) gaps.clear();
-  if (gaps.empty() || gaps.back() > settings.gap) gaps.push_back(settings.gap);
-  for (const double gap : gaps) {
-    bool given = gap == gaps.back() && settings.condition > met.value;
-    double target = given ? settings.condition : met.value * (1.0 + gap);
-    std::vector<Box> ahead = std::move(boxes), leaves, stuck;
-    boxes.clear();
-    while (!ahead.empty() && !stopped() && ahead.size() < most_boxes) {
-      std::vector<Looked> looked(ahead.size());
-      parallel_for(static_cast<long>(ahead.size()), 16, settings.threads, [&](long first, long last) {
-        if (stopped()) return;
-        for (long n = first; n < last; ++n)
-          looked[static_cast<std::size_t>(n)] = look(domain, locked, ahead[static_cast<std::size_t>(n)], target);
-      });
-      std::vector<Box> next;
-      Met best;
-      for (std::size_t n = 0; n < ahead.size(); ++n) {
-        const Looked& seen = looked[n];
-        if (!seen.looked) {
-          next.push_back(ahead[n]);
-          continue;
-        }
-        ++count;
-        if (seen.met > best.value) best = {seen.met, domain.nearest(middle_of(ahead[n]))};
-        if (seen.proved) leaves.push_back(ahead[n]);
-        else if (seen.divide < 0) stuck.push_back(ahead[n]);
-        else
-          for (const Box& half : halves(ahead[n], seen.divide)) next.push_back(half);
-      }
-      if (best.value > met.value) {
-        met = best;
-        given = given && met.value < target;
-        if (!given) target = std::max(target, met.value * (1.0 + gap));
-      }
-      ahead = std::move(next);
-      if (control.progress) control.progress(count, 0, met.value);
-    }
-    ahead.insert(ahead.end(), stuck.begin(), stuck.end());
-    out.tried = target;
-    if (!ahead.empty()) {
-      boxes = std::move(ahead);
-      break;
-    }
-    proved = target;
-    if (gap != gaps.back()) boxes = std::move(leaves);
-  }
-  out.extreme = {met.value, proved, domain.met(met.at), count};
-  out.interrupted = control.stop.stop_requested();
-  for (const Box& box : boxes) {
-    std::array<double, 13> row{static_cast<double>(box.piece)};
-    std::copy(box.low.begin(), box.low.end(), row.begin() + 1);
-    std::copy(box.high.begin(), box.high.end(), row.begin() + 7);
-    out.left.push_back(row);
-  }
-  return out;
+  const Domain domain(machine);
+  const ConditionOverPoses index(domain, locked);
+  return worst(index, searched(index, settings.threads), settings, from, control);
 }
 
 }  // namespace ninedof

@@ -106,7 +106,7 @@ class ConditionSearch {
       control.progress = [&, before = state_.boxes](long done, long total, double value) {
         control_.progress(before + done, total, value);
       };
-    WorstCondition found = worst_condition(machine_, how, from, control);
+    WorstOverPoses found = worst_condition(machine_, how, from, control);
     if (state_.low == 0.0 || found.extreme.low > state_.low) {
       state_.low = found.extreme.low;
       state_.at = found.extreme.at;

@@ -11,6 +11,7 @@
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "proof/region/pose.hpp"
+#include "proof/region/worst_machine.hpp"
 
 namespace ninedof {
 namespace over_region {
@@ -44,30 +45,38 @@ class Sought {
         row_(checked_row(wanted)),
         item_(wanted.item),
         limit_(wanted.limit),
+        reading_(row_.first_leg < 0 ? 0.0 : reading_error(domain.machine().tolerances, row_.first_leg + item_)),
         home_(domain.machine().geometry, domain.machine().neutral, wanted.options),
         sign_(!row_.pairs && wanted.greatest != row_.falls ? 1.0 : -1.0) {}
 
+  /// Whether machines within tolerances differ in more than what `number` adds.
+  bool loose() const {
+    return row_.first_leg < 0 && std::ranges::any_of(domain_.built().radius, [](double r) { return r > 0.0; });
+  }
   /// At least every value at the poses of the domain in the box.
   double bound(const Box& box, std::array<double, PoseForm::size>& slope, Moves& moves) const {
     const FormPose pose = domain_.pose(box);
-    const FormLook look(domain_.machine().geometry, pose, home_);
+    const AsBuilt nominal{domain_.machine().geometry};
+    const FormLook look(row_.first_leg < 0 ? domain_.built() : nominal, pose, home_);
     if (row_.pairs) return less_distance(look, box, slope, moves);
     const PoseForm f = sign_ * row_.form(look, item_);
     slope = f.a;
     row_.moves(look, item_, moves);
     return domain_.greatest(f, box);
   }
-  /// At most the value at a box of one pose.
-  double attained(const Box& point) const {
+  /// At most the value of one machine at a box of one pose.
+  double attained(const Geometry& g, const Box& point) const {
     const FormPose pose = domain_.pose(point);
-    const FormLook look(domain_.machine().geometry, pose, home_);
+    const AsBuilt machine{g};
+    const FormLook look(machine, pose, home_);
     if (!row_.pairs) return lower(sign_ * row_.form(look, item_));
     return -detail::above(std::sqrt(upper(squared_distance_above(leg_pair_forms(look, item_)))));
   }
   /// The number, where the function is within `value`.
   Interval number(const Interval& value) const {
     const Interval u = sign_ > 0.0 ? value : -value;
-    return row_.pairs ? u : row_.read(u);  // a distance is less what was sought
+    const Interval number = row_.pairs ? u : row_.read(u);  // a distance is less what was sought
+    return reading_ > 0.0 ? number + Interval(sign_ * reading_) : number;
   }
 
  private:
@@ -96,7 +105,7 @@ class Sought {
   const Domain& domain_;
   const PoseRow& row_;
   int item_;
-  double limit_;
+  double limit_, reading_;
   FormHome home_;
   double sign_;
 };
@@ -121,7 +130,7 @@ class Climb {
       const Open top = open_.top();
       const bool near = contains(sought_.number({met_, top.bound}), wanted_.limit);
       const double size = std::max(std::abs(met_), near ? 0.0 : wanted_.scale);
-      if (top.bound <= met_ + (near ? settings_.relative : wanted_.relative) * size) break;
+      if (top.bound <= reached_ + (near ? settings_.relative : wanted_.relative) * size) break;
       if (boxes >= most_boxes_ || (boxes % 256 == 0 && stopped())) break;
       open_.pop();
       if (top.divide < 0) {
@@ -131,7 +140,11 @@ class Climb {
       for (const Box& half : halves(top.box, top.divide)) look(half);
       ++boxes;
     }
-    const double most = std::max({met_, done, open_.empty() ? -infinity : open_.top().bound});
+    const double most = std::max({reached_, done, open_.empty() ? -infinity : open_.top().bound});
+    if (sought_.loose())
+      met_ = std::max(met_, sought_.attained(worst_machine(domain_.machine(),
+                                                           [&](const Geometry& g) { return sought_.attained(g, at_); }),
+                                             at_));
     const Interval number = sought_.number({met_, most});
     return {number.lo, number.hi, domain_.met(at_), boxes};
   }
@@ -142,13 +155,15 @@ class Climb {
     std::array<double, PoseForm::size> slope{};
     Moves moves;
     const double bound = sought_.bound(box, slope, moves);
-    if (!(bound > met_)) return;
+    if (!(bound > reached_)) return;
     const Box point = domain_.towards(slope, box);
-    const double value = sought_.attained(point);
+    const double value = sought_.attained(domain_.machine().geometry, point);
     if (value > met_) {
       met_ = value;
       at_ = point;
     }
+    Moves unused;
+    reached_ = std::max(reached_, sought_.loose() ? sought_.bound(point, slope, unused) : value);
     open_.push({bound, box, divided_coordinate(box, moves.along)});
   }
 
@@ -159,6 +174,7 @@ class Climb {
   long most_boxes_;
   std::priority_queue<Open> open_;
   double met_ = -infinity;
+  double reached_ = -infinity;  ///< no division makes bounds less: that of all machines at one pose
   Box at_;
 };
 

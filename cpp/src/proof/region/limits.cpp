@@ -7,6 +7,7 @@
 #include "math/numbers.hpp"
 #include "ninedof/limits/numbers.hpp"
 #include "proof/region/questions.hpp"
+#include "proof/region/worst_machine.hpp"
 
 namespace ninedof {
 namespace {
@@ -21,11 +22,11 @@ Interval ratio_of(const Interval& longest, const Interval& shortest) {
 
 class Statements {
  public:
-  Statements(const PosedRobot& machine, const std::array<bool, 21>& exempt, double tolerance,
-             const ProofSettings& settings, const Control& control)
+  Statements(const PosedRobot& machine, const std::array<bool, 21>& exempt, double slack, const ProofSettings& settings,
+             const Control& control)
       : machine_(machine),
         exempt_(pairs_sharing_a_joint(machine.geometry, exempt)),
-        tolerance_(tolerance),
+        slack_(slack),
         control_(control),
         questions_(machine, settings, control) {
     // In the frames of the plates, which limits of the design alone are about.
@@ -52,7 +53,7 @@ class Statements {
     const auto open = [this](const Stroke& s) {
       return out_.limits[s.limit].answer == LimitOverPoses::Answer::undecided;
     };
-    if (tolerance_ > 0.0 && !control_.stop.stop_requested() && std::ranges::any_of(strokes_, open)) {
+    if (slack_ > 0.0 && !control_.stop.stop_requested() && std::ranges::any_of(strokes_, open)) {
       questions_.search_lengths_again();
       answer();
     }
@@ -83,9 +84,7 @@ class Statements {
     out_.limits.push_back(one);
     return out_.limits.back();
   }
-  double edge(Side side, double limit) const {
-    return limit * (side == Side::high ? 1.0 + tolerance_ : 1.0 - tolerance_);
-  }
+  double edge(Side side, double limit) const { return limit * (side == Side::high ? 1.0 + slack_ : 1.0 - slack_); }
   LimitOverPoses::Answer answer_of(const LimitOverPoses& one) const {
     using enum LimitOverPoses::Answer;
     const double end = edge(one.side, one.limit);
@@ -129,7 +128,11 @@ class Statements {
   Touched<Interval> touched(std::pair<int, int> joints) const {
     const auto exact = [&](int joint) {
       const Vec3& x = joints_[at_index(joint)];
-      return joint < point_u ? Xyz<Interval>{x.x(), x.y(), x.z()} : exact_[at_index(joint - point_u)];
+      Xyz<Interval> out = joint < point_u ? Xyz<Interval>{x.x(), x.y(), x.z()} : exact_[at_index(joint - point_u)];
+      const double radius = machine_.tolerances.joints[at_index(joint)];
+      if (radius > 0.0)
+        for (Interval* k : {&out.x, &out.y, &out.z}) *k = *k + Interval(-radius, radius);
+      return out;
     };
     return {exact(joints.first), exact(joints.second), exact_zp(), machine_.neutral.internal_point.z()};
   }
@@ -161,11 +164,13 @@ class Statements {
     const double bound = whole && limit.of != Unit::length ? given * (side == Side::high ? unit.lo : unit.hi) : given;
     put(limit.label(), row, side, bound, false).value = value;
   }
-  /// Which joint is farthest from z was decided in doubles.
+  /// Which joint of a body is farthest from z was decided in doubles, of the drawing: another one may be farther.
   Interval widest_share() const {
-    const double arm = machine_.tool.position.norm();
-    const double far = arm == 0.0 ? 0.0 : arm / joints_[at_index(widest_joint(joints_, point_u))].head<2>().norm();
-    return {1.0 - 0x1p-49 * (1.0 + far), 1.0 + 0x1p-49 * (1.0 + far)};
+    const double arm = machine_.tool.position.norm(), loose = std::ranges::max(machine_.tolerances.joints);
+    const auto width = [this](int body) { return joints_[at_index(widest_joint(joints_, body))].head<2>().norm(); };
+    const double far = arm == 0.0 ? 0.0 : arm / width(point_u);
+    const double away = loose == 0.0 ? 0.0 : loose / std::min(width(point_r), width(point_u));
+    return {1.0 - 0x1p-49 * (1.0 + far) - away, 1.0 + 0x1p-49 * (1.0 + far) + away};
   }
   Interval unit_of(Unit of, int body) const {
     if (of == Unit::zp) return exact_zp();
@@ -203,6 +208,7 @@ class Statements {
       Interval shortest, longest;
       MetAt shortest_at, longest_at;
       std::string name;
+      double reading;
     };
     std::vector<Leg> legs;
     limit.boxes = 0;
@@ -211,7 +217,12 @@ class Statements {
       const auto& [first, second] = stroke.ends[at_index(k)];
       const Extreme &a = questions_[first], &b = questions_[second];
       limit.boxes += a.boxes + b.boxes;
-      legs.push_back({{a.low, a.high}, {b.low, b.high}, a.at, b.at, leg_name(k)});
+      legs.push_back({{a.low, a.high},
+                      {b.low, b.high},
+                      a.at,
+                      b.at,
+                      leg_name(k),
+                      over_region::reading_error(machine_.tolerances, k)});
     }
     if (!stroke.row->each_leg) {
       Leg all = legs.front();
@@ -220,13 +231,19 @@ class Statements {
         if (leg.longest.lo > all.longest.lo) all.longest_at = leg.longest_at;
         all.shortest = min(all.shortest, leg.shortest);
         all.longest = max(all.longest, leg.longest);
+        all.reading = std::max(all.reading, leg.reading);
       }
       all.name = "all legs";
       legs = {all};
     }
     Interval value(-infinity);
     for (const Leg& leg : legs) {
-      const Interval one = stroke.row->ratio ? ratio_of(leg.longest, leg.shortest) : leg.longest - leg.shortest;
+      Interval one = stroke.row->ratio ? ratio_of(leg.longest, leg.shortest) : leg.longest - leg.shortest;
+      if (leg.reading > 0.0) {
+        // What is off by most at one end need not be so at the other: the machine of the drawing has the lower end.
+        const Interval longest = leg.longest - Interval(leg.reading), shortest = leg.shortest + Interval(leg.reading);
+        one.lo = std::max((stroke.row->ratio ? ratio_of(longest, shortest) : longest - shortest).lo, 0.0);
+      }
       if (one.lo > value.lo || limit.part.empty()) {
         limit.part = leg.name;
         limit.at = {leg.longest_at, leg.shortest_at};
@@ -238,7 +255,7 @@ class Statements {
 
   const PosedRobot& machine_;
   std::array<bool, 21> exempt_;
-  double tolerance_;
+  double slack_;
   const Control& control_;
   std::array<Vec3, 12> joints_;
   std::array<Xyz<Interval>, 6> exact_;  ///< those of the platform
@@ -251,9 +268,9 @@ class Statements {
 }  // namespace
 
 LimitsOverPoses limits_over_poses(const PosedRobot& machine, const std::vector<Limit>& limits,
-                                  const std::array<bool, 21>& exempt, double tolerance, const ProofSettings& settings,
+                                  const std::array<bool, 21>& exempt, double slack, const ProofSettings& settings,
                                   const Control& control) {
-  return Statements(machine, exempt, tolerance, settings, control).prove(limits);
+  return Statements(machine, exempt, slack, settings, control).prove(limits);
 }
 
 }  // namespace ninedof

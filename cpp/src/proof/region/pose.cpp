@@ -37,7 +37,11 @@ double least_length(const Box& box, const Disc& disc) {
 
 }  // namespace
 
-Domain::Domain(const PosedRobot& machine) : machine_(machine), rule_(machine.rule.begin(), machine.rule.end()) {
+Domain::Domain(const PosedRobot& machine)
+    : machine_(machine),
+      built_{machine.geometry, machine.tolerances.joints},
+      rule_(machine.rule.begin(), machine.rule.end()) {
+  validate(machine.tolerances);
   if (!machine.region.empty()) {
     const Region& region = machine.region.front();
     Box box;

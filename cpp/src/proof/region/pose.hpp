@@ -30,6 +30,8 @@ class Domain {
  public:
   explicit Domain(const PosedRobot& machine);
   const PosedRobot& machine() const { return machine_; }
+  /// Every machine within tolerances.
+  const AsBuilt& built() const { return built_; }
   const std::vector<Box>& roots() const { return roots_; }
   template <class T = PoseForm>
   PoseOf<T> pose(const Box& box) const;
@@ -50,6 +52,7 @@ class Domain {
   bool cut(const Box& box) const { return box.piece >= 0 && !discs_.empty(); }
 
   const PosedRobot& machine_;
+  AsBuilt built_;
   std::vector<Box> roots_;
   std::vector<RuleForms> rule_;  // none or one
   std::vector<Disc> discs_;

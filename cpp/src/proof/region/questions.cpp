@@ -16,7 +16,8 @@ constexpr double any_case = 1e-6;  // of a number with two limits
 
 Questions::Questions(const PosedRobot& machine, const ProofSettings& settings, const Control& control)
     : machine_(machine),
-      at_neutral_{machine.geometry, machine.neutral, machine.characteristic_length, {}, {machine.neutral}, {}},
+      at_neutral_{machine.geometry,  machine.neutral, machine.characteristic_length, {}, {machine.neutral}, {}, {},
+                  machine.tolerances},
       settings_(settings),
       control_(control) {
   if (machine_.region.empty() && machine_.poses.empty()) machine_.poses.push_back(machine_.neutral);

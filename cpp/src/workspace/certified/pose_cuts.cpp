@@ -88,7 +88,8 @@ void PoseCuts::add(const PoseRow& row, const FormHome& home, const std::vector<I
 
 void PoseCuts::require_kept(const RowCuts& cuts, const Configuration& home, const std::string& name) const {
   const FormPose at_home = form_pose(home);
-  const FormLook look(geometry_, at_home, cuts.home);
+  const AsBuilt machine{geometry_};
+  const FormLook look(machine, at_home, cuts.home);
   for (int item = 0; item < cuts.row->items; ++item)
     for (const Edge& edge : cuts.items[at_index(item)].edges)
       if (!(lower(kept(edge, u_of(cuts, look, item))) > 0.0))
@@ -138,7 +139,8 @@ void PoseCuts::put(const Cut& cut, Found& found) {
 }
 
 void PoseCuts::look_at(const RowCuts& cuts, const FormPose& pose, Found& found) const {
-  const FormLook look(geometry_, pose, cuts.home);
+  const AsBuilt machine{geometry_};
+  const FormLook look(machine, pose, cuts.home);
   for (int item = 0; item < cuts.row->items && !found.violated; ++item) {
     const auto& [place, low, edges] = cuts.items[at_index(item)];
     if (place < 0 || !(found.open & bit(place))) continue;

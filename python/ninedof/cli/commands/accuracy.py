@@ -75,7 +75,7 @@ def accuracy(options: AccuracyOptions) -> Answer:
     if not any(errors.values()):
         raise ValueError("accuracy: got neither --leg-error nor --joint-error, expected a tolerance")
     bounds = error_bounds(g, at.c, errors["leg_error"], errors["joint_error"], options.distribution)
-    rows = list(_rows(bounds, unit))
+    rows = [(*row[:3], at.first(row[3])) if row else () for row in _rows(bounds, unit)]
     deviation = f"standard deviation\n({options.distribution} errors)"
     columns = [
         Column(),

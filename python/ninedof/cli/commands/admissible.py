@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from ninedof.cli.changes import changes_option
 from ninedof.cli.options import Options, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
-from ninedof.design.study import FAMILIES, Study, variable_kinds
+from ninedof.design.study import Study
 from ninedof.optimize.result import Result
 from ninedof.proof.admissible import AdmissibleSet, design_range
 from ninedof.proof.admissible import admissible as admissible_of
 from ninedof.records.admissible import admissible_file, load_admissible, save_admissible
 from ninedof.records.load import load
-from ninedof.support.angles import plain_name
 from ninedof.support.command import goes_on
 from ninedof.support.units import with_unit
 from ninedof.tables import RIGHT, Column, Table
 
 PLACE = 4
-ANGLES = {name for family in FAMILIES for name, kind in variable_kinds(family).items() if kind == "angle"}
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1
@@ -31,6 +29,8 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof admissible runs/20260101-120000 --vary a2=400:850 --vary b1 --condition 4.2 --time 300
 
   ninedof admissible study.toml --vary a2 --vary b1 --set zp=480 --set zs=320 --out designs
+
+  ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --set zs=-5%
 
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --around    how far each may go"""
 
@@ -43,7 +43,7 @@ class AdmissibleOptions(Options):
     vary: Annotated[
         list[str], typer.Option(help="A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH.")
     ]
-    set: Annotated[list[str] | None, typer.Option(help="The value of another variable, NAME=VALUE.")] = None
+    set: Annotated[list[str] | None, typer.Option(help="Another variable: zs=320, or zs=+10%. Repeatable.")] = None
     condition: Annotated[float | None, typer.Option(help="A bound of the condition number besides the limits.")] = None
     time: Annotated[float, typer.Option(help="Seconds; what is proved by then is kept.")] = 300.0
     resolution: Annotated[float, typer.Option(help="The least size of a box, as a part of each range.")] = 0.01
@@ -61,7 +61,7 @@ def admissible(options: AdmissibleOptions) -> None:
     """
     screen = Screen(options.json)
     of, folder = _of(options)
-    vary, at = dict(map(_vary, options.vary)), dict(map(_value, options.set or ()))
+    vary, at = dict(map(_vary, options.vary)), changes_option(options.set or ())
     try:
         asked = design_range(of, vary, at, options.condition)
     except ValueError as error:
@@ -120,23 +120,7 @@ def _vary(text: str) -> tuple[str, tuple[float, float] | None]:
         low, high = (float(end) for end in ends.split(":")) if equals else (0.0, 0.0)
     except ValueError:
         raise ValueError(f"--vary: got {text}, expected NAME or NAME=LOW:HIGH") from None
-    return (plain_name(name), _in_radians(name, low, high)) if equals else (name, None)
-
-
-def _value(text: str) -> tuple[str, float]:
-    name, _, value = text.partition("=")
-    try:
-        number = float(value)
-    except ValueError:
-        raise ValueError(f"--set: got {text}, expected NAME=VALUE") from None
-    return plain_name(name), _in_radians(name, number, 0.0)[0]
-
-
-def _in_radians(name: str, *values: float) -> tuple[float, float]:
-    low, high = values if plain_name(name) == name else map(math.radians, values)
-    if name in ANGLES and max(abs(low), abs(high)) > 2.0 * math.pi:
-        raise ValueError(f"{name}: got more than a turn of radians, expected {name}_deg for degrees")
-    return low, high
+    return name, (low, high) if equals else None
 
 
 def _around(screen: Screen, found: AdmissibleSet) -> dict[str, list[float]] | None:

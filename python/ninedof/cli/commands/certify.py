@@ -13,6 +13,7 @@ from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.options import Options, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.result import Result
+from ninedof.proof.machine import tolerances_of
 from ninedof.proof.machine_record import MachineCertificate, outward
 from ninedof.records.certificate import certificate_file, load_certificate, save_certificate
 from ninedof.records.load import load
@@ -20,15 +21,18 @@ from ninedof.robot.leg_names import LEGS
 from ninedof.support.arguments import finite
 from ninedof.support.command import ended_by_time, goes_on
 from ninedof.support.margins import margin_words
-from ninedof.support.units import with_unit
+from ninedof.support.units import amount, with_unit
 from ninedof.tables import RIGHT, Column, Table
 
 PLACE = 4
+LARGEST = "max"
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof certify runs/20260101-120000                certify.json in the run folder
 
   ninedof certify runs/20260101-120000 --condition 3.4 --time 600
+
+  ninedof certify runs/20260101-120000 --tolerance 0.05       of every machine built so exactly
 
   ninedof certify runs/20260101-120000                again: goes on where time was over"""
 
@@ -41,7 +45,10 @@ class CertifyOptions(Options):
     condition: Annotated[float | None, typer.Option(help="A bound of the condition number to be proved too.")] = None
     gap: Annotated[float, typer.Option(help="Relative width of the enclosure of the worst condition number.")] = 0.05
     time: Annotated[float, typer.Option(help="Seconds for the condition number; each limit has 5 at least.")] = 300.0
-    tolerance: Annotated[float, typer.Option(help="By which limits may be passed, relative.")] = 1e-6
+    tolerance: Annotated[
+        str | None, typer.Option(help="Of joints and legs as built, a length, or max: the largest that is proved.")
+    ] = None
+    slack: Annotated[float, typer.Option(help="By which limits may be passed, relative.")] = 1e-6
     threads: Threads = None
 
 
@@ -51,7 +58,7 @@ def certify(options: CertifyOptions) -> None:
     finite("--time", options.time, 0.0)
     if options.condition is not None:
         finite("--condition", options.condition, 1.0)
-    run = options.run
+    run, tolerance = options.run, _tolerance(options.tolerance)
     result = load(run)
     if not isinstance(result, Result):
         raise ValueError(
@@ -59,20 +66,29 @@ def certify(options: CertifyOptions) -> None:
         )
     file = certificate_file(run)
     earlier = load_certificate(run) if file.exists() else None
+    goes_on()
+    if tolerance == LARGEST:
+        with screen.bar("boxes", "certify") as bar:
+            tolerance = result.largest_tolerance(
+                condition_number=options.condition, slack=options.slack, threads=options.threads or 0, progress=bar
+            )
+    built = tolerances_of(tolerance, result.study)
+    if earlier is not None and earlier.tolerances != built:  # a proof of other machines is not gone on with
+        earlier = None
     states = []
 
     def keep(so_far: MachineCertificate) -> None:
         with suppress(OSError):  # a full disk: the proof is worth more than its states
             states.append(save_certificate(so_far, file))
 
-    goes_on()
     try:
         with screen.bar("boxes", "certify") as bar:
             certificate = result.certify(
                 condition_number=options.condition,
                 gap=options.gap,
                 time_limit=options.time,
-                tolerance=options.tolerance,
+                slack=options.slack,
+                tolerance=built,
                 threads=options.threads or 0,
                 resume=earlier,
                 progress=bar,
@@ -87,7 +103,10 @@ def certify(options: CertifyOptions) -> None:
             raise
         raise ValueError(f"{file}: {str(error).removeprefix('resume: ')}") from None
     data = certificate.to_dict() | {"left": []}
-    answer = Answer([certificate_table(certificate), *certificate.sentences()], data)
+    sentences = certificate.sentences()
+    if options.tolerance == LARGEST:
+        sentences.append(_largest(certificate))
+    answer = Answer([certificate_table(certificate), *sentences], data)
     write_job(screen, answer, lambda _: save_certificate(certificate, file))
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
     screen.data(data | {"file": str(file)})
@@ -96,6 +115,29 @@ def certify(options: CertifyOptions) -> None:
     if certificate.left_count:
         ended_by_time()
     raise typer.Exit(DONE if certificate.proved and not certificate.left_count else NO_RESULT)
+
+
+def _tolerance(given: str | None) -> float | str | None:
+    """Return the option: a length, "max", or None for that of the study."""
+    if given is None or given == LARGEST:
+        return given
+    try:
+        return finite("--tolerance", float(given), 0.0)
+    except ValueError:
+        raise ValueError(f'--tolerance: got {given!r}, expected a length from 0 on, or "{LARGEST}"') from None
+
+
+def _largest(certificate: MachineCertificate) -> str:
+    """Return what is said of the largest tolerances."""
+    built = certificate.tolerances
+    if built:
+        joints, legs = (amount(f"{x:.4g}", certificate.unit) for x in (built.joints, built.legs))
+        return f"The largest tolerances that were proved, to 3 %: joints {joints}, legs {legs}."
+    tight = min(certificate.limits, key=lambda limit: limit.margin)
+    return (
+        f"No tolerance was proved: {tight.name.replace('_', ' ')} leaves no reserve. `[tolerances]` in a study makes "
+        "`ninedof optimize` leave one."
+    )
 
 
 def certificate_table(certificate: MachineCertificate) -> Table:
@@ -107,10 +149,10 @@ def certificate_table(certificate: MachineCertificate) -> Table:
     for one in certificate.limits:
         word = "≤" if one.side == "max" else "≥"
         limit = "> 0" if one.limit == 0.0 else f"{word} {one.shown(one.limit):.6g}"
-        on_limit = abs(one.margin) <= certificate.tolerance * (one.limit if one.kind == "sign" else 1.0)
+        on_limit = abs(one.margin) <= certificate.slack * (one.limit if one.kind == "sign" else 1.0)
         bounded = math.isfinite(one.value[one.side == "max"])
         proved = f"{word} {one.worded(9 if on_limit else 6)}" if bounded else "nothing"
-        margin = f"within {certificate.tolerance:g}" if on_limit else margin_words(one.margin, one.kind)
+        margin = f"within {certificate.slack:g}" if on_limit else margin_words(one.margin, one.kind)
         rows.append((with_unit(one.name.replace("_", " "), one.unit(unit)), limit, proved, margin, one.answer))
     high = certificate.condition[1]
     if not any(one.name == "condition_number" for one in certificate.limits):

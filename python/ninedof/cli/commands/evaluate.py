@@ -10,6 +10,7 @@ import numpy as np
 import typer
 
 from ninedof.cli.answer import Answer
+from ninedof.cli.changes import changes_option
 from ninedof.cli.chosen_design import Chosen, chosen_design, with_length
 from ninedof.cli.compared import compared, plot_argument
 from ninedof.cli.options import (
@@ -106,22 +107,8 @@ def _changed(options: EvaluateOptions) -> Answer:
     result = None if options.design is None else chosen_design(options.design, {}, None).result
     if result is None:
         raise ValueError(f"--set: got {options.design or 'no design'}, expected a run, whose study has variables")
-    changes: dict[str, Any] = {}
-    for text in options.changes or ():
-        name, equals, value = text.partition("=")
-        if not equals or name.strip() in changes:
-            raise ValueError(f"--set: got {text!r}, expected NAME=VALUE or NAME=+10%, each name once")
-        changes[name.strip()] = value.strip() if value.strip().endswith("%") else _number(text, value)
+    changes = changes_option(options.changes or ())
     return compared(compare(result, result.with_changes(**changes), names=("run", "changed")), options.plot)
-
-
-def _number(text: str, value: str) -> float:
-    try:
-        if value.strip().startswith("+"):
-            raise ValueError
-        return float(value)
-    except ValueError:
-        raise ValueError(f"--set: got {text!r}, expected NAME=VALUE without a plus, or NAME=+10%") from None
 
 
 def _table(values: dict[str, Any], chosen: Chosen) -> Table:

@@ -9,16 +9,13 @@ import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.options import Design, Options
+from ninedof.cli.options import LOAD, Design, Options
 from ninedof.cli.posed import load_option
 from ninedof.sheet.failure.failure import failure as failure_of
 from ninedof.sheet.failure.tables import failure_parts
 from ninedof.support.arguments import finite
 
 PLACE = 3
-OWN_LOAD = typer.Option(
-    help='A load "mx my mz fx fy fz" on the platform that is looked at, without weights. Repeatable.'
-)
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof failure runs/20260101-120000
@@ -37,14 +34,14 @@ class FailureOptions(Options):
         float | None,
         typer.Option(help="The condition number that shares of the region are about; twice the healthy worst."),
     ] = None
-    load: Annotated[list[str] | None, OWN_LOAD] = None
+    load: Annotated[list[str] | None, LOAD] = None
     pairs: Annotated[bool, typer.Option(help="Lock each pair of legs too.")] = True
 
 
 def failure(options: FailureOptions) -> Answer:
     """Print what is left when each leg, and each pair, is locked at its length, and when each leg carries nothing.
 
-    Over the poses of the study, of a region study over its region.
+    Over the poses of the study, of a region study over its region. Loads and masses of a run's study are taken.
     """
     chosen = named_design(options.design)
     bound = None if options.condition is None else finite("--condition", options.condition, 1.0)

@@ -111,9 +111,9 @@ def path(options: PathOptions) -> None:
         "geometry": triples(g),
         "home": arrays_of(home),
         **unit_entry(chosen.unit),
+        **chosen.stated,
         **how,
-        "force": force,
-        "moment": moment,
+        **({"loads": chosen.duty.loads.wrenches} if stated else {"force": force, "moment": moment}),
         **({} if masses is None else {"masses": masses.to_dict(), "gravity": gravity}),
     }
     if options.file:
@@ -174,13 +174,13 @@ def _trajectory(chosen: Chosen, options: PathOptions) -> Trajectory:
     return trajectory
 
 
-def _load(options: PathOptions, duty: Study) -> tuple[Three | None, Three | None, list[str]]:
-    """Return force and moment of the options, or of the first load of a study, and what the study states of them."""
+def _load(options: PathOptions, duty: Study) -> tuple[Any, Any, list[str]]:
+    """Return force and moment of the options, or of each load of a study, and what the study states of them."""
     wrenches = duty.loads.wrenches
     if options.force is not None or options.moment is not None or not wrenches:
         return options.force, options.moment, []
-    mx, my, mz, fx, fy, fz = wrenches[0]
-    return (fx, fy, fz), (mx, my, mz), [f"load 1 of {len(wrenches)} of [loads]"]
+    rows = np.array(wrenches)[:, None] if len(wrenches) > 1 else np.array(wrenches[0])
+    return rows[..., 3:], rows[..., :3], ["[loads]" if len(wrenches) == 1 else f"{len(wrenches)} loads of [loads]"]
 
 
 def _rule(text: str | None, study: Study | None) -> str | float:

@@ -22,6 +22,8 @@ from ninedof.tables import RIGHT, Column, Table, grouped
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
 
+  ninedof payload runs/20260101-120000    by the limit of force of its study
+
   ninedof payload runs/20260101-120000 --force 500
 
   ninedof payload runs/20260101-120000 --force 500 --pull 200 --centre 0 0 40 --json | jq .mass"""
@@ -33,8 +35,11 @@ class PayloadOptions(Options):
 
     design: Design
     force: Annotated[
-        float, typer.Option(help="Greatest force of a leg, pushing, and pulling without --pull; N for kg.")
-    ]
+        float | None,
+        typer.Option(
+            help="Greatest force of a leg, pushing, and pulling without --pull; N for kg. That of the study by default."
+        ),
+    ] = None
     pull: Annotated[float | None, typer.Option(help="Greatest force of a leg that pulls.")] = None
     centre: Annotated[
         Three | None,
@@ -52,7 +57,8 @@ def payload(options: PayloadOptions) -> Answer:
     loads = [load_option(text) for text in options.load] if options.load else None
     centre = options.centre or (0.0, 0.0, 0.0)
     found = largest_payload(chosen.result or chosen.design, options.force, options.pull, centre, loads)
-    return Answer(_parts(found, chosen), found.to_dict(), DONE if found.fits else NO_RESULT)
+    stated = [f"from the study: force at most {found.limits[0][0]:g}"] if options.force is None else []
+    return Answer([*_parts(found, chosen), *stated], found.to_dict(), DONE if found.fits else NO_RESULT)
 
 
 def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:

@@ -45,6 +45,7 @@ def stiffness(options: StiffnessOptions) -> Answer:
     result = stiffness_of(at.chosen.geometry, at.c, options.leg_stiffness)
     least = sheet(at.chosen.geometry, at.c, leg_stiffness=options.leg_stiffness).stiffness
     assert least is not None, "a stiffness was given"
+    least = least._replace(**{name: one._replace(pose=at.first(one.pose)) for name, one in least._asdict().items()})
     values = [f"{one.value:.5g}{f' (pose {one.pose})' if len(at.c) > 1 else ''}" for one in least]
     along, about = per("force", unit) or "force per displacement", times("force", unit) or "moment"
     parts: list[Any] = [_matrix(result[0])] if len(at.c) == 1 else []

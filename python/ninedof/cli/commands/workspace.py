@@ -57,7 +57,7 @@ def workspace(options: WorkspaceOptions) -> None:
     chosen = with_length(named_design(options.design), options.lc)
     question = question_of(options, chosen)
     home, region = chosen.configuration, question.region
-    record = {"geometry": triples(chosen.geometry), "home": arrays_of(home), **question.keywords}
+    record = {"geometry": triples(chosen.geometry), "home": arrays_of(home), **question.keywords, **chosen.stated}
     how: dict[str, Any] = {"home": home, "threads": options.threads}
     whole = {"kind": "workspace", **record, "proof": question.proof}
     with run_folder(options.out) as directory, Store(directory, whole) as store:

@@ -14,17 +14,19 @@ from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_argument, resolve_length
 from ninedof.conditioning.conditioning import condition_number as condition_numbers
 from ninedof.design.region_poses import Placing, configurations_at, places_o
+from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import jacobian
 from ninedof.kinematics.velocity import forward_velocity
 from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
+from ninedof.sheet.duty import masses_of
 from ninedof.sheet.failure.result import Failure, FreeLeg, LegLoad, LockedLegs
 from ninedof.sheet.region_look import PLACED, SAMPLES, RegionSearch, joined, look_over
 from ninedof.sheet.request import load_rows, robot_of
 from ninedof.sheet.sheet import Extreme
 from ninedof.statics.accuracy import MOST_SAMPLES
-from ninedof.statics.statics import leg_forces
+from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.support.arguments import finite, flag, whole
 from ninedof.support.arrays import Floats
 
@@ -66,7 +68,8 @@ def failure(
     condition_number : float, optional
         At least 1: the bound of shares of a region. Twice the worst of the machine with nine legs by default.
     loads : array_like, shape (6,) or (k, 6), optional
-        (moment about p, force) on the platform, base axes.
+        (moment about p, force) on the platform, base axes; those of the study by default. Masses and gravity of the
+        study act besides: its forces are those at rest.
     pairs : bool
         Whether pairs of legs are locked too.
     characteristic_length : float or str, optional
@@ -98,11 +101,17 @@ def failure(
     g, c, own_length = robot_of(design, poses)
     length = length_argument(own_length if characteristic_length is None else characteristic_length)
     length = float(resolve_length(g, c[0], length)[0])
+    study = getattr(design, "solved", None) or Study()
+    masses, own = masses_of(study), study.loads.wrenches
+    if loads is None and (own or masses is not None):
+        loads = own or np.zeros(6)
     rows, count = load_rows(loads), whole("samples", samples, 1, MOST_SAMPLES)
     sets = SETS if flag("pairs", pairs) else SETS[:9]
     bound = None if condition_number is None else finite("condition_number", condition_number, 1.0)
     over = _Poses.of(design, c, length, sets, count) if poses is None else _Poses(c)
     c = over.worst
+    gravity = study.loads.gravity
+    forces = [inverse_dynamics(g, c, masses=masses, gravity=gravity, load=row).forces for row in rows]
     healthy = np.asarray(condition_numbers(g, c, length))
     at = int(np.argmax(healthy))
     bound = 2.0 * float(healthy[at]) if bound is None else bound
@@ -115,9 +124,10 @@ def failure(
         bound=bound,
         locked=locked[:9],
         pairs=locked[9:],
-        free=tuple(_free(g, c, length, rows)),
+        free=tuple(_free(g, c, length, [np.abs(each) for each in forces])),
         relative_manipulability=_core.relative_manipulability(*operands(g, c), 0),
         loads=rows,
+        masses=masses,
         region=over.region,
         leg_ranges=over.ranges,
         unit=getattr(getattr(design, "solved", None) or design, "unit", ""),
@@ -206,11 +216,10 @@ def _at_length(g: Geometry, c: Configuration, leg: int, length: float) -> Config
     return Configuration(c.position, c.rotation, joint + arm * (length / np.maximum(now, 1e-300))[:, None])
 
 
-def _free(g: Geometry, c: Configuration, length: float, loads: Floats) -> list[FreeLeg]:
+def _free(g: Geometry, c: Configuration, length: float, forces: Sequence[Floats]) -> list[FreeLeg]:
     columns = jacobian(g, c, length)
     sizes = np.where(np.isnan(columns).any(axis=1), np.inf, np.linalg.norm(columns, axis=1))
     omega, pdot, sdot = forward_velocity(g, c[0], np.eye(9))
-    forces = [np.abs(leg_forces(g, c, moment=row[:3], force=row[3:]).forces) for row in loads]
     out = []
     for k, leg in enumerate(LEGS):
         least, most = int(np.argmin(sizes[:, k])), int(np.argmax(sizes[:, k]))

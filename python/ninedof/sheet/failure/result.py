@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from ninedof.design.duty import Masses
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.failure.tables import failure_parts, free_table, locked_table
@@ -96,6 +97,8 @@ class Failure:
     The squares of a row add to 3."""
     loads: Floats
     """Rows (moment about p, force), base axes, shape (k, 6)."""
+    masses: Masses | None
+    """Of the study, whose weights act beside each load; None without any."""
     region: RegionSearch | None
     """The search of the region of the study; None without one."""
     leg_ranges: tuple[tuple[float, float], ...] | None = None
@@ -142,6 +145,7 @@ class Failure:
             ],
             "relative_manipulability": self.relative_manipulability,
             "loads": self.loads,
+            **({} if self.masses is None else {"masses": self.masses.to_dict()}),
             "region": None if self.region is None else self.region._asdict(),
             **({"unit": self.unit} if self.unit else {}),
         }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,8 +13,9 @@ from ninedof.sheet.pose_words import pose_words, vector_words
 from ninedof.sheet.tables import load_words, over, region_words
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
-from ninedof.tables import RIGHT, Column, Table, grouped
-from ninedof.tables.table import Part
+from ninedof.tables import RIGHT, SHORT, Column, Table, grouped
+from ninedof.tables.numbers import cell
+from ninedof.tables.table import Cell, Part
 
 PURE = 1e-9  # a part of a motion below this beside the other is rounding
 
@@ -42,12 +44,13 @@ def failure_parts(failure: Any) -> Iterator[Part]:
 def locked_table(failure: Any, locked: Sequence[Any]) -> Table:
     """Return what is left with each of some sets of legs locked."""
     shares = failure.region is not None
-    columns = [Column("locked"), *(Column(name, "", RIGHT) for name in ("freedoms", "worst", "times", "pose"))]
+    names = {"freedoms": RIGHT, "worst": SHORT, "times": SHORT, "pose": RIGHT}
+    columns = [Column("locked"), *(Column(name, "", form) for name, form in names.items())]
     if shares:
         columns += [Column(name, "", RIGHT) for name in ("share", "from home")]
-    rows = []
+    rows: list[Sequence[Cell]] = []
     for one in locked:
-        cells = [", ".join(one.legs), str(one.freedoms), _number(one.remaining), _number(one.ratio, 3)]
+        cells: list[Cell] = [", ".join(one.legs), str(one.freedoms), _number(one.remaining), _number(one.ratio)]
         cells.append(str(one.pose) if one.pose else "neutral")
         if shares:
             cells += [_percent(one.share), _percent(one.share_from_home)]
@@ -67,11 +70,11 @@ def pairs_table(failure: Any) -> Table:
     numbers = {one.legs: one for one in failure.pairs if one.freedoms == 6}
     rows = []
     for k, leg in enumerate(names[:-1]):
-        cells = [_number(numbers[leg, other].condition_number, 5) for other in names[k + 1 :]]
+        cells = [_number(numbers[leg, other].condition_number) for other in names[k + 1 :]]
         rows.append((leg, *[""] * k, *cells))
-    columns = [Column("and"), *(Column(name, "", RIGHT) for name in names[1:])]
+    columns = [Column("and"), *(Column(name, "", SHORT) for name in names[1:])]
     worst = max(numbers.values(), key=lambda one: one.condition_number)
-    notes = [f"worst: {' and '.join(worst.legs)}, {_number(worst.condition_number)}, {_place(failure, worst.pose)}"]
+    notes = [f"worst: {' and '.join(worst.legs)}, {_words(worst.condition_number)}, {_place(failure, worst.pose)}"]
     if worst.share is not None:
         least = min(numbers.values(), key=lambda one: one.share)
         notes.append(f"least share of the region: {' and '.join(least.legs)}, {_percent(least.share)}")
@@ -80,10 +83,10 @@ def pairs_table(failure: Any) -> Table:
 
 def free_table(failure: Any) -> Table:
     """Return the size of the motion that each free leg leaves to itself."""
-    names = ("at home", "of largest", "least", "most")
-    columns = [Column("free"), *(Column(name, "", RIGHT) for name in names)]
+    names = {"at home": SHORT, "of largest": RIGHT, "least": SHORT, "most": SHORT}
+    columns = [Column("free"), *(Column(name, "", form) for name, form in names.items())]
     rows = [
-        (one.leg, _number(one.size, 4), _percent(one.share), _number(one.least.value, 4), _number(one.largest.value, 4))
+        (one.leg, _number(one.size), _percent(one.share), _number(one.least.value), _number(one.largest.value))
         for one in failure.free
     ]
     notes = [
@@ -96,11 +99,14 @@ def free_table(failure: Any) -> Table:
 def loads_table(failure: Any) -> Table:
     """Return which loads the other eight legs bear."""
     columns = [Column("free"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(failure.loads) + 1))]
+    values = [value for one in failure.free for x in one.loads for value in (x.largest, x.carries)]
+    text = partial(cell, form=SHORT, among=[x for x in values if math.isfinite(x)])
     rows = []
     for one in failure.free:
-        cells = [_number(x.largest, 4) if x.borne else f"not borne ({_number(x.carries, 4)})" for x in one.loads]
+        cells = [text(x.largest) if x.borne else f"not borne ({text(x.carries)})" for x in one.loads]
         rows.append((one.leg, *cells))
     notes = [load_words(k, load, failure.unit) for k, load in enumerate(failure.loads, start=1)]
+    notes += [] if failure.masses is None else ["each with the weights of the masses of the study"]
     notes.append("the largest force in the other legs; in brackets what the leg has to carry")
     return Table(f"Loads with one leg free, {over(failure)}", columns, list(grouped(rows)), notes)
 
@@ -134,7 +140,7 @@ def _pairs_beside(failure: Any) -> Iterator[str]:
     for count, words in ((5, "One external leg in a pair: five"), (4, "Two external legs: four")):
         some = [one for one in failure.pairs if one.freedoms == count]
         worst = max(some, key=lambda one: one.remaining)
-        number = _number(worst.remaining)
+        number = _words(worst.remaining)
         yield f"{words} freedoms left, condition number at most {number} ({' and '.join(worst.legs)})."
 
 
@@ -142,14 +148,16 @@ def _direction(v: Floats) -> str:
     return vector_words(np.round(v, 3) + 0.0)
 
 
-def _number(value: float, digits: int = 6) -> str:
-    if math.isnan(value):
-        return "-"
-    return "lost" if math.isinf(value) else f"{value:.{digits}g}"
+def _number(value: float) -> Cell:
+    return "lost" if math.isinf(value) else value
+
+
+def _words(value: float) -> str:
+    return "lost" if math.isinf(value) else f"{value:.6g}"
 
 
 def _percent(share: float | None) -> str:
-    return "-" if share is None or math.isnan(share) else f"{100.0 * share:.3g} %"
+    return "-" if share is None or math.isnan(share) else f"{100.0 * share:.2f} %"
 
 
 def _place(failure: Any, k: int) -> str:

@@ -1,0 +1,175 @@
+/// The error of the platform over all poses. Declared in ninedof/proof/machine.hpp.
+///
+/// Where the legs have lengths that are off by at most eta, the platform is off by x = H^-1 (eta - rest(x)): the lengths
+/// of the drawing's machine are those of its pose, H x, and a rest of second order. An x that this takes into the ball
+/// that it is from has a fixed point there (Brouwer): docs/theory/proof-machine.md.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "limits/box_system.hpp"
+#include "limits/duty_over_box.hpp"
+#include "math/numbers.hpp"
+#include "proof/region/worst.hpp"
+#include "proof/region/worst_machine.hpp"
+
+namespace ninedof {
+namespace over_region {
+namespace {
+
+/// Of rotation, p and O.
+using Errors = std::array<double, 3>;
+
+/// The greatest part that the errors of a pose have in given ones.
+class ErrorShare final : public IndexOverPoses {
+ public:
+  ErrorShare(const Domain& domain, const Errors& of)
+      : IndexOverPoses(domain),
+        of_(of),
+        home_(domain.machine().geometry, domain.machine().neutral,
+              LimitOptions(Vec3::Zero(), std::make_shared<Duty>())) {
+    for (int leg = 0; leg < 9; ++leg) reading_[at_index(leg)] = reading_error(domain.machine().tolerances, leg);
+    for (const Vec3& u : domain.machine().geometry.platform_external()) length_ = std::max(length_, u.norm());
+  }
+
+  /// To first order, of the machine of the drawing, at a good corner of the errors.
+  double at(const Geometry& g, const Box& point) const override {
+    const Mat9 map = error_map(g, configuration(point));
+    if (!map.allFinite()) return infinity;
+    double out = 0.0;
+    for (std::size_t k = 0; k < of_.size(); ++k)
+      if (of_[k] < infinity)
+        out = std::max(out, far_corner(map.middleRows<3>(3 * static_cast<Eigen::Index>(k))) / of_[k]);
+    return out;
+  }
+  Configuration configuration(const Box& point) const {
+    const FormPose pose = domain().pose(point);
+    Mat3 rotation;
+    rotation << centre(pose.q[0]), centre(pose.q[1]), centre(pose.q[2]);
+    return {centre(pose.p), rotation, centre(pose.s)};
+  }
+  bool bounded(const Box& box, double bound, Moves& moves) const override {
+    const FormPose pose = domain().pose(box);
+    const AsBuilt drawn{domain().machine().geometry};
+    const FormLook look(drawn, pose, home_);
+    const KnownForms known(look);
+    Errors most;
+    for (std::size_t k = 0; k < most.size(); ++k) most[k] = bound * of_[k];
+    std::array<NineForms, 9> h;
+    std::array<double, 9> off{};
+    for (int leg = 0; leg < 9; ++leg) {
+      const Wrench<PoseForm> w = unit_force(known, leg);
+      const FormVector m = 1.0 / length_ * w.moment;
+      h[at_index(leg)] = {m.x, m.y, m.z, w.force.x, w.force.y, w.force.z, w.at_o.x, w.at_o.y, w.at_o.z};
+      moves.add(known.direction(leg));
+      const Ends<PoseForm> ends = look.ends(leg);
+      const FormVector v = ends.to - ends.from;
+      off[at_index(leg)] = reading_[at_index(leg)] + rest(leg, most, lower(sqrt(dot(v, v))));
+    }
+    const std::array<NineForms, 9> map = BoxSystem(h).inverse();  // a turn is taken times `length_`
+    most[0] *= length_ * (1.0 - 0x1p-50);
+    for (std::size_t k = 0; k < most.size(); ++k)
+      if (!within(map, off, 3 * k, most[k])) return false;
+    return true;
+  }
+
+ private:
+  /// The length of what the three rows make of a corner of the errors that lies far along its own image.
+  double far_corner(const Eigen::Matrix<double, 3, 9>& rows) const {
+    double out = 0.0;
+    const Vec3 starts[] = {{1.0, 0.0, 0.0},  {0.0, 1.0, 0.0},  {0.0, 0.0, 1.0}, {1.0, 1.0, 1.0},
+                           {1.0, 1.0, -1.0}, {1.0, -1.0, 1.0}, {-1.0, 1.0, 1.0}};
+    for (Vec3 image : starts) {
+      for (int n = 0; n < 3; ++n) {
+        const Vec9 along = rows.transpose() * image;
+        image.setZero();
+        for (Eigen::Index leg = 0; leg < 9; ++leg)
+          image += std::copysign(reading_[at_index(static_cast<int>(leg))], along[leg]) * rows.col(leg);
+      }
+      out = std::max(out, image.norm());
+    }
+    return out;
+  }
+  /// At most what the length of a leg differs by from what is linear in (rotation vector, p, s), for errors up to these.
+  double rest(int leg, const Errors& most, double length) const {
+    const LegEnds ends = leg_ends(leg);
+    const int joint = ends.from >= point_u && ends.from < point_p ? ends.from : ends.to;
+    const double arm = joint == point_s ? 0.0 : joint_of(domain().machine().geometry, joint).norm();
+    double away = (leg < 6 ? most[1] + arm * most[0] : 0.0) + (leg >= 3 ? most[2] : 0.0);
+    away *= 1.0 + 0x1p-40;
+    if (!(length > away)) return infinity;
+    return (0.5 * arm * most[0] * most[0] + 0.5 * away * away / (length - away)) * (1.0 + 0x1p-40);
+  }
+  /// Whether three rows of the map take all errors of the legs to vectors of at most this length, everywhere in the box.
+  bool within(const std::array<NineForms, 9>& map, const std::array<double, 9>& off, std::size_t first,
+              double most) const {
+    std::array<NineForms, 3> rows;
+    Vec3 open = Vec3::Zero();
+    double size = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t leg = 0; leg < 9; ++leg) {
+        const PoseForm& f = rows[i][leg] = off[leg] * map[first + i][leg];
+        open[static_cast<Eigen::Index>(i)] += radius(f);
+        size += std::abs(f.c);
+      }
+    if (!(open.norm() < most)) return false;  // infinite and NaN too
+    const double room = most - (1.0 + 0x1p-40) * open.norm() - 0x1p-40 * size, squared = most * most * (1.0 - 0x1p-50);
+    for (unsigned corner = 0; corner < 256; ++corner) {  // one of two opposite ones
+      const auto sign = [corner](std::size_t leg) { return leg < 8 && corner >> leg & 1U ? -1.0 : 1.0; };
+      Vec3 middle = Vec3::Zero();
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t leg = 0; leg < 9; ++leg) middle[static_cast<Eigen::Index>(i)] += sign(leg) * rows[i][leg].c;
+      if (middle.norm() <= room) continue;
+      FormVector v;
+      for (std::size_t leg = 0; leg < 9; ++leg)
+        v = v + FormVector{sign(leg) * rows[0][leg], sign(leg) * rows[1][leg], sign(leg) * rows[2][leg]};
+      if (!(upper(dot(v, v)) <= squared)) return false;
+    }
+    return true;
+  }
+
+  Errors of_;
+  FormHome home_;
+  std::array<double, 9> reading_;
+  double length_ = 0.0;
+};
+
+}  // namespace
+}  // namespace over_region
+
+ErrorOverPoses error_over_poses(const PosedRobot& machine, const ProofSettings& settings, const Control& control) {
+  using namespace over_region;
+  if (machine.region.empty() && machine.poses.empty()) {
+    PosedRobot at_neutral = machine;
+    at_neutral.poses.push_back(machine.neutral);
+    return error_over_poses(at_neutral, settings, control);
+  }
+  const Domain domain(machine);
+  Errors met;
+  Met at;
+  for (std::size_t k = 0; k < met.size(); ++k) {
+    Errors of{infinity, infinity, infinity};
+    of[k] = 1.0;
+    const ErrorShare index(domain, of);
+    at = searched(index, settings.threads);
+    const ErrorBounds e = error_bounds(machine.geometry, index.configuration(at.at), machine.tolerances);
+    met[k] = std::max({at.value, k == 0 ? e.rotation : k == 1 ? e.position : e.internal_point, forms::tiny});
+  }
+  const double most = std::ranges::max(met);
+  if (!(most > forms::tiny)) return {0.0, 0.0, 0.0};
+  double share = infinity, most_met = 1.0;
+  long boxes = 0;
+  if (std::isfinite(most)) {
+    const WorstOverPoses found = worst(ErrorShare(domain, met), {1.0, at.at}, settings, {}, control);
+    share = found.extreme.high;
+    most_met = std::max(found.extreme.low, 1.0);
+    boxes = found.extreme.boxes;
+  }
+  const auto enclosed = [&](std::size_t k, double by) {
+    return Interval(most_met * met[k], std::isfinite(by) ? detail::above(by * met[k]) : infinity);
+  };
+  return {enclosed(1, share), enclosed(0, share), enclosed(2, share), boxes};
+}
+
+}  // namespace ninedof

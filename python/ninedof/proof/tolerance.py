@@ -1,0 +1,46 @@
+"""The largest tolerances of joints and legs with which a proof of a machine succeeds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ninedof.design.duty import Tolerances
+
+FIRST, LEAST, MOST = 1e-4, 1e-6, 0.05  # of the machine's height
+STEP, HALVINGS = 4.0, 6
+
+
+def largest_tolerance(proved: Callable[[Tolerances], bool], shape: Tolerances, height: float) -> Tolerances:
+    """Return the largest tolerances that are proved, to 3 %; none at all where not even the least ones are.
+
+    Parameters
+    ----------
+    proved : callable
+        Whether all limits are proved of every machine within such tolerances.
+    shape : Tolerances
+        The ratio of joints and legs; where it has none they are alike.
+    height : float
+        Of the machine: tolerances are looked for from a millionth to a twentieth of it.
+
+    """
+    most = max(shape.joints, shape.legs)
+    joints, legs = (shape.joints / most, shape.legs / most) if most > 0.0 else (1.0, 1.0)
+
+    def of(size: float) -> Tolerances:
+        return Tolerances(size * height * joints, size * height * legs)
+
+    low, high = 0.0, FIRST
+    while high <= MOST and proved(of(high)):
+        low, high = high, STEP * high
+    if low == 0.0:
+        while high >= LEAST and low == 0.0:
+            if proved(of(high / STEP)):
+                low = high / STEP
+            else:
+                high /= STEP
+    if low == 0.0:
+        return Tolerances()
+    for _ in range(HALVINGS):
+        middle = (low * high) ** 0.5
+        low, high = (middle, high) if proved(of(middle)) else (low, middle)
+    return of(low)

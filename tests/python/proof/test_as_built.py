@@ -1,0 +1,182 @@
+"""What is proved of every machine within tolerances.
+
+Oracle: random machines, a good part of them at the ends of their tolerances, by the numpy model; the poses that they
+reach with the lengths of the drawing, by `error_samples`, which tracks poses and knows nothing of proofs.
+"""
+
+import numpy as np
+import numpy_model as model
+import pytest
+from proved_machine import LIMITS, REGIONS, VARIABLES, angles, apart, at_pose, proved, sampled
+from region_poses import disc
+from singular_robots import unit_rows
+from sizes import size
+
+import ninedof as nd
+
+TOLERANCES = nd.Tolerances(joints=0.1, legs=0.05)
+JOINTS = ("r", "rh", "u", "ut")
+
+
+def built(m, rng, radius):
+    """Another machine at each pose: joints in balls about those of the drawing, half of them on the spheres."""
+    count = len(m.p)
+    moved = {name: getattr(m, name) + radius * disc(rng, 3 * count, 3, 0.5).reshape(count, 3, 3) for name in JOINTS}
+    return m._replace(**moved)
+
+
+def drawing_of(certificate):
+    return {(one.name, one.side): one for one in certificate.limits}
+
+
+@pytest.mark.parametrize("shape", REGIONS)
+def test_no_machine_within_tolerances_passes_what_is_proved(shape):
+    region = REGIONS[shape]
+    geometry, neutral, certificate = proved(region, gap=0.25, tolerance=TOLERANCES)
+    by_name = drawing_of(certificate)
+    start = model.robot(geometry, neutral)
+    side = np.sign(np.linalg.det(np.stack(unit_rows(start))))
+    rng = np.random.default_rng(11)
+    reached = np.zeros(9)
+    for _ in range(size(2, 100)):
+        m = built(sampled(region, geometry, neutral, rng, 10_000), rng, TOLERANCES.joints)
+        read = model.lengths(m) + TOLERANCES.legs * rng.choice([-1.0, 0.0, 1.0], (len(m.p), 9))
+        low, high = np.transpose(certificate.lengths)
+        assert (read >= low).all()
+        assert (read <= high).all()
+        reached = np.maximum(reached, read.max(axis=0))
+        assert np.ptp(read, axis=0).max() <= by_name["stroke", "max"].value[1]
+        assert read.max() / read.min() <= by_name["leg_ratio", "max"].value[1]
+        determinants = np.linalg.det(np.stack(unit_rows(m))) * side[:, None].reshape(3, 1)
+        assert determinants.min() >= by_name["no singularity", "min"].value[0]
+        assert angles(m, start, None, False, None).max() <= by_name["base_cone", "max"].value[1]
+        axis = np.array(LIMITS["platform_cone"]["axis"])
+        assert angles(m, start, None, True, axis).max() <= by_name["platform_cone", "max"].value[1]
+        first = m.at(slice(0, 3_000))
+        assert model.condition_number(first, 150.0).max() <= certificate.condition[1]
+        assert apart(first, rng).min() >= by_name["leg_clearance", "min"].value[0]
+        base = np.concatenate([m.r, m.rh], axis=1)
+        widest = np.linalg.norm(base[..., :2], axis=-1).max(axis=-1)
+        assert widest.max() <= by_name["footprint", "max"].value[1]
+        platform = np.linalg.norm(np.concatenate([m.u, m.ut], axis=1)[..., :2], axis=-1).max(axis=-1)
+        assert (widest / platform).max() <= by_name["radius_ratio", "max"].value[1]
+        for triples in (base, np.concatenate([m.u, m.ut], axis=1)):
+            spacing = np.linalg.norm(triples[:, :, None] - triples[:, None], axis=-1) + 1e9 * np.eye(6)
+            assert spacing.min() >= by_name["joint_spacing", "min"].value[0]
+    assert (reached > 0.97 * high).all()
+
+
+@pytest.mark.parametrize("shape", ["box", "path"])
+def test_no_machine_is_off_by_more_than_is_proved(shape):
+    region = REGIONS[shape]
+    geometry, neutral, certificate = proved(region, tolerance=TOLERANCES, time_limit=5.0)
+    position, turn, point = certificate.errors
+    rng = np.random.default_rng(3)
+    m = sampled(region, geometry, neutral, rng, size(2_000, 100_000))
+    poses = nd.Configuration(m.p, m.Q, np.broadcast_to(m.s, m.p.shape))
+    first = nd.error_bounds(geometry, poses, leg_errors=TOLERANCES.legs, joint_errors=TOLERANCES.joints)
+    worst = int(np.argmax(first.position))
+    for k in [worst, int(np.argmax(first.rotation)), int(np.argmax(first.internal_point)), 0, 1]:
+        off = nd.error_samples(geometry, poses[k], TOLERANCES.legs, TOLERANCES.joints, size(4_000, 40_000))
+        assert np.isfinite(off).all()
+        turned, moved, o = (np.linalg.norm(off[:, j : j + 3], axis=1).max() for j in (0, 3, 6))
+        assert turned <= turn[1]
+        assert moved <= position[1]
+        assert o <= point[1]
+    # The first numbers are those of the worst pose, to first order; the second are not far above them.
+    for (low, high), of_poses in ((position, first.position), (turn, first.rotation), (point, first.internal_point)):
+        assert of_poses.max() <= low * (1.0 + 1e-3)
+        assert of_poses.max() >= 0.9 * low
+        assert high <= 1.12 * low
+
+
+def worst_joints(m, radius, value):
+    """The machine whose joints lie where the slopes of a number lead, by differences."""
+    moved = {}
+    for name in JOINTS:
+        joints = np.array(getattr(m, name), float).reshape(3, 3)
+        slopes = np.zeros((3, 3))
+        for index in np.ndindex(3, 3):
+            step = np.zeros((3, 3))
+            step[index] = 1e-4
+            slopes[index] = value(m._replace(**{name: joints + step})) - value(m._replace(**{name: joints - step}))
+        length = np.linalg.norm(slopes, axis=1, keepdims=True)
+        moved[name] = joints + radius * np.divide(slopes, length, out=np.zeros_like(slopes), where=length > 0.0)
+    return m._replace(**moved)
+
+
+def test_what_is_violated_a_machine_within_tolerances_passes():
+    region = REGIONS["box"]
+    _, _, drawn = proved(region, time_limit=0.01)
+    geometry, neutral, whole = proved(region, time_limit=0.01, tolerance=TOLERANCES)
+    start = model.robot(geometry, neutral)
+    before, after = (drawing_of(c)["base_cone", "max"].value for c in (drawn, whole))
+    assert before[1] < after[0] <= after[1]
+
+    def largest(m):
+        return angles(m, start, None, False, None).max()
+
+    tight = 0.5 * (before[1] + after[0])  # that of the drawing keeps it
+    *_, certificate = proved(
+        region, {"base_cone": {"max_deg": np.degrees(tight)}}, time_limit=0.01, tolerance=TOLERANCES
+    )
+    one = drawing_of(certificate)["base_cone", "max"]
+    assert one.answer == "violated"
+    m = at_pose(one.at[0], geometry, neutral)
+    assert largest(m) < tight < largest(worst_joints(m, TOLERANCES.joints, largest))
+
+
+def test_a_stroke_of_the_drawing_alone_is_no_violation():
+    region = REGIONS["box"]
+    _, _, drawn = proved(region, time_limit=0.01)
+    stroke = drawing_of(drawn)["stroke", "max"].value[1] + 0.01
+    *_, certificate = proved(region, {"stroke": (None, stroke)}, time_limit=0.01, tolerance=TOLERANCES)
+    assert drawing_of(certificate)["stroke", "max"].answer == "undecided"
+
+
+def test_tolerances_of_nothing_are_the_drawing():
+    region = REGIONS["ball"]
+    *_, drawn = proved(region, time_limit=0.01)
+    *_, none = proved(region, time_limit=0.01, tolerance=0.0)
+    assert none.errors is None
+    assert [one.value for one in none.limits] == [one.value for one in drawn.limits]
+    assert none.machine == drawn.machine
+
+
+def test_the_certificate_says_of_which_machines_it_is():
+    region = REGIONS["ball"]
+    *_, certificate = proved(region, time_limit=0.01, tolerance=0.1)
+    first, *_ = certificate.sentences()
+    assert first.startswith("As built: every joint centre within 0.1 and every leg length within 0.1 of the drawing.")
+    assert certificate.tolerances == nd.Tolerances(0.1, 0.1)
+    again = type(certificate).from_dict(certificate.to_dict())
+    assert again == certificate
+    *_, drawn = proved(region, time_limit=0.01)
+    with pytest.raises(ValueError, match="another machine"):
+        proved(region, time_limit=0.01, tolerance=0.1, resume=drawn)
+
+
+def test_tolerances_as_large_as_the_machine_prove_nothing_and_do_not_fail():
+    *_, certificate = proved(REGIONS["box"], time_limit=0.01, tolerance=200.0)
+    assert not certificate.proved
+    assert "No bound of the error" in certificate.sentences()[0]
+
+
+@pytest.mark.parametrize("bad", [-1.0, float("nan"), float("inf"), "much"])
+def test_bad_tolerances_are_named(bad):
+    with pytest.raises(ValueError, match="tolerance"):
+        proved(REGIONS["ball"], tolerance=bad)
+
+
+def test_tolerances_of_the_study_are_those_of_its_proofs():
+    asked = nd.Study(
+        family="symmetric",
+        variables=VARIABLES,
+        constraints={"leg_length": (100.0, 700.0)},
+        characteristic_length=150.0,
+        objective=nd.Objective(region=REGIONS["ball"]),
+        tolerances=TOLERANCES,
+    )
+    result = nd.optimize(asked)
+    assert result.certify(time_limit=0.01).tolerances == TOLERANCES
+    assert result.certify(time_limit=0.01, tolerance=0.0).tolerances == nd.Tolerances()
