@@ -20,8 +20,10 @@ DOCS = ROOT / "docs"
 MADE = ("values.md", "comparison.md")  # printed by bench/python
 
 REQUIREMENT = (ROOT / "examples/18_requirement.toml").read_text(encoding="utf-8")
+ACTUATORS = (ROOT / "examples/22_actuators.toml").read_text(encoding="utf-8")
 PLACED = REQUIREMENT.replace("tilt_deg = 10.0", 'tilt_deg = 10.0\ninternal_point = "best"')
 FILES = {
+    "actuators.md": {"examples/22_actuators.toml": ACTUATORS},
     "admissible.md": {"examples/18_requirement.toml": REQUIREMENT},
     "certificate.md": {},
     "certify.md": {"examples/18_requirement.toml": REQUIREMENT, "placed.toml": PLACED},

@@ -18,8 +18,10 @@ TREE = {
         ("Guides", _listed("characteristic-length regions reading-a-map assembly-modes confidence", "guides/")),
         (
             "Subjects",
-            _listed("conventions kinematics workspace failure optimization certificate certify admissible sweeps")
-            + _listed("study-file figures viewer report exports"),
+            _listed(
+                "conventions kinematics workspace failure optimization certificate certify admissible actuators sweeps"
+            )
+            + _listed("sweeps study-file figures viewer report exports"),
         ),
         ("The paper", _listed("paper values equations")),
         ("Theory and code", _listed("theory/index reference/index architecture extend testing wheels comparison")),

@@ -7,6 +7,7 @@ and tests/python/project/test_docs.py compares them.
 from __future__ import annotations
 
 import inspect
+import math
 import re
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,7 @@ SOURCES = {
     "poses.ball": nd.poses.ball,
     "poses.path": nd.poses.path,
     **{kind.__name__: kind for kind in DUTIES.values()},
+    "Actuator": nd.Actuator,
 }
 SPELLED = {  # of docstrings, as a file has them
     "sequence of (3,) floats": "[[x, y, z], …]",
@@ -80,13 +82,13 @@ def spelled(kind: str) -> str:
 
 def quoted(text: str) -> str:
     """Return text with words in quotes as code, without the defaults that have a column."""
-    text = re.sub(r" (None|Zero) by default\.|[;,] [\w.]+ by default", "", text)
+    text = re.sub(r" (None|Zero|Without limit|Unknown) by default\.|[;,] [\w.]+ by default", "", text)
     return re.sub(r'(?<!`)("\w+")', r"`\1`", text)
 
 
 def shown(default: Any) -> str:
     """Return a default as a file has it."""
-    if default is None or default is inspect.Parameter.empty or default == ():
+    if default is None or default is inspect.Parameter.empty or default in ((), math.inf):
         return "" if default is inspect.Parameter.empty else "none"
     if isinstance(default, tuple):
         return f"[{', '.join(f'{x:g}' for x in default)}]"

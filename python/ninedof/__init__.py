@@ -32,6 +32,7 @@ from ninedof.conditioning.conditioning import (
 )
 from ninedof.conditioning.hexagonal import hexagonal_condition_number
 from ninedof.design import poses as poses
+from ninedof.design.actuators import Actuator
 from ninedof.design.design_point import DesignPoint
 from ninedof.design.duty import About, Loads, Masses, Speeds, Tolerances, Tool
 from ninedof.design.objective import Objective
@@ -132,6 +133,7 @@ __version__: str = _core.version
 
 __all__ = [
     "About",
+    "Actuator",
     "AdmissibleSet",
     "AssemblyModes",
     "Bounds",

@@ -360,6 +360,7 @@ class Settings:
         max_evaluations: int = ...,
         warm: Sequence[Sequence[float]] | _Floats | None = ...,
         time_limit: float = ...,
+        explain: bool = ...,
     ) -> None: ...
 
 class PointRule:

@@ -182,14 +182,15 @@ void bind_optimize(py::module_& m) {
   const Settings defaults;
   py::class_<Settings>(m, "Settings")
       .def(py::init([](int starts, std::uint64_t seed, int threads, int max_evaluations,
-                       const std::optional<Vectors>& warm, double time_limit) {
-             Settings settings{starts, seed, threads, max_evaluations, {}, time_limit};
+                       const std::optional<Vectors>& warm, double time_limit, bool explain) {
+             Settings settings{starts, seed, threads, max_evaluations, {}, time_limit, explain};
              for (const std::vector<double>& x : warm ? *warm : Vectors()) settings.warm.push_back(vector_from(x));
              return settings;
            }),
            py::kw_only(), py::arg("starts") = defaults.starts, py::arg("seed") = defaults.seed,
            py::arg("threads") = defaults.threads, py::arg("max_evaluations") = defaults.max_evaluations,
-           py::arg("warm") = py::none(), py::arg("time_limit") = defaults.time_limit);
+           py::arg("warm") = py::none(), py::arg("time_limit") = defaults.time_limit,
+           py::arg("explain") = defaults.explain);
   bind_results(m);
   m.def("region_poses", &region_poses);
   m.def("search_region", &worst_of_region);

@@ -1,6 +1,7 @@
 /// force, rate, power: of every leg, the greatest modulus of its force under the loads and weights of a machine at rest,
 /// its greatest rate over all directions of both speeds of the platform, and their product. Slopes are those of the
-/// power in a motion that is held: see docs/theory/statics.md. Declared in limits/pose_row.hpp.
+/// power in a motion that is held: see docs/theory/statics.md. external_force, upper_rate and so on are of the legs of
+/// one kind, whose actuators are others to buy. Declared in limits/pose_row.hpp.
 
 #include <cmath>
 
@@ -11,21 +12,23 @@
 namespace ninedof {
 namespace {
 
-/// The force, the rate, or with both their product.
-template <bool of_force, bool of_rate>
+/// The force, the rate, or with both their product, of `count` legs from `first` on.
+template <bool of_force, bool of_rate, int first = 0, int count = 9>
 struct LegDuty {
-  static constexpr int items = 9;
+  static constexpr int items = count;
   static constexpr bool falls = false;
   static constexpr double width = 5e-3;
 
-  static std::string part(int item) { return leg_name(item); }
+  static std::string part(int item) { return leg_name(first + item); }
   static double number(const PointLook& look, int item) {
     DutyAtPose here(look);
-    return (of_force ? here.force(item) : 1.0) * (of_rate ? here.rate(item) : 1.0);
+    const int leg = first + item;
+    return (of_force ? here.force(leg) : 1.0) * (of_rate ? here.rate(leg) : 1.0);
   }
   static double slopes(const PointLook& look, int item, PointSlopes& out) {
     DutyAtPose here(look);
-    const double force = of_force ? here.force(item) : 1.0, rate = of_rate ? here.rate(item) : 1.0;
+    const int leg = first + item;
+    const double force = of_force ? here.force(leg) : 1.0, rate = of_rate ? here.rate(leg) : 1.0;
     out.points = out.home_points = 0;
     out.turns = false;
     out.length = 0.0;
@@ -36,8 +39,8 @@ struct LegDuty {
       all.points = all.points + by * one.points;
       all.turn += by * one.turn;
     };
-    if (of_force) add(rate, here.force_slope(item));
-    if (of_rate) add(force, here.rate_slope(item));
+    if (of_force) add(rate, here.force_slope(leg));
+    if (of_rate) add(force, here.rate_slope(leg));
     for (int point = 0; point < point_count; ++point) {
       const auto k = at_index(3 * point);
       const auto& g = all.points.gradient;
@@ -50,9 +53,10 @@ struct LegDuty {
   }
   static PoseForm u(const FormLook& look, int item) {
     const DutyOverBox box(look);
-    if constexpr (!of_rate) return box.force(item);
-    else if constexpr (!of_force) return box.rate(item);
-    else return box.force(item) * box.rate(item);
+    const int leg = first + item;
+    if constexpr (!of_rate) return box.force(leg);
+    else if constexpr (!of_force) return box.rate(leg);
+    else return box.force(leg) * box.rate(leg);
   }
   static Interval read(const Interval& number) { return number; }
   static Interval smooth(const Interval& number) { return number; }
@@ -70,5 +74,11 @@ struct LegDuty {
 constinit const PoseRow force_row = pose_row_of<LegDuty<true, false>>();
 constinit const PoseRow rate_row = pose_row_of<LegDuty<false, true>>();
 constinit const PoseRow power_row = pose_row_of<LegDuty<true, true>>();
+constinit const PoseRow external_force_row = pose_row_of<LegDuty<true, false, 0, 3>>();
+constinit const PoseRow upper_force_row = pose_row_of<LegDuty<true, false, 3, 3>>();
+constinit const PoseRow lower_force_row = pose_row_of<LegDuty<true, false, 6, 3>>();
+constinit const PoseRow external_rate_row = pose_row_of<LegDuty<false, true, 0, 3>>();
+constinit const PoseRow upper_rate_row = pose_row_of<LegDuty<false, true, 3, 3>>();
+constinit const PoseRow lower_rate_row = pose_row_of<LegDuty<false, true, 6, 3>>();
 
 }  // namespace ninedof

@@ -168,6 +168,7 @@ Conflict find_conflict(const Problem& problem, const std::vector<Eigen::VectorXd
   search.nearest_to_all = nearest;
   const std::vector<double> violations = search.study.violations(nearest);
   if (search.study.violation(nearest, search.study.all()) <= satisfied) out.allowed = search.study.variables(nearest);
+  else if (!settings.explain) out.reason = "no design found has all limits";
   else {
     // Limits are named before bounds, and what is at its limit at the least violation before the rest.
     const double worst = search.study.violation(nearest, search.study.all());

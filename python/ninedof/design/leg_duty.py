@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -36,14 +36,18 @@ class LegDuty(Table):
         )
 
 
-def require_stated(limits: Sequence[Limit], loads: Loads, masses: Masses, speeds: Speeds) -> None:
-    """Raise ValueError if a limit is about loads or speeds that a study does not state."""
+def stated(loads: Loads, masses: Masses, speeds: Speeds) -> dict[str, bool]:
+    """Return whether a study states "loads" and "speeds" of its legs."""
     weighs = any((masses.platform, masses.cylinder, masses.rod, masses.internal_point))
-    stated = {"loads": bool(loads.wrenches) or weighs, "speeds": bool(speeds.linear or speeds.angular)}
+    return {"loads": bool(loads.wrenches) or weighs, "speeds": bool(speeds.linear or speeds.angular)}
+
+
+def require_stated(limits: Sequence[Limit], states: Mapping[str, bool]) -> None:
+    """Raise ValueError if a limit is about loads or speeds that a study does not state."""
     expected = {"loads": "wrenches in [loads], or [masses]", "speeds": "linear or angular in [speeds]"}
     for limit in limits:
         for table in limit.row.needs:
-            if not stated[table]:
+            if not states[table]:
                 raise ValueError(f"constraints.{limit.name}: got a study without {table}, expected {expected[table]}")
 
 

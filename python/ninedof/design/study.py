@@ -13,9 +13,11 @@ from typing import Any
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
+from ninedof.design import actuators as bought
+from ninedof.design.actuators import FOR, LEG_KINDS, Actuator
 from ninedof.design.design_point import DesignPoint, design_point
 from ninedof.design.duty import DUTIES, About, Loads, Masses, Speeds, Tolerances, Tool, duty
-from ninedof.design.leg_duty import LegDuty, leg_duty, require_stated
+from ninedof.design.leg_duty import LegDuty, leg_duty, require_stated, stated
 from ninedof.design.limits import ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
 from ninedof.robot.configuration import Configuration
@@ -27,6 +29,7 @@ from ninedof.support.arguments import (
     flag,
     instance,
     is_number,
+    items,
     known_keys,
     number,
     pair,
@@ -47,7 +50,7 @@ Bound = float | tuple[float, float]
 LENGTH = "characteristic_length"
 UNGIVEN = float("1.0")  # an object of its own: told from a 1.0 that was given
 TABLES = {
-    "design": ("family", LENGTH),
+    "design": ("family", LENGTH, "actuators_for", "greatest_price"),
     "variables": (),
     "constraints": (),
     "objective": (),
@@ -152,6 +155,13 @@ class Study:
     loads, masses, speeds, tolerances : Loads, Masses, Speeds, Tolerances or mappings
         What the machine carries, how fast it moves and how well it is made: defaults of `sheet`, of the commands about
         one design, and of reports.
+    actuators : sequence of Actuator or mappings, or path
+        Legs that can be bought, or a CSV file with the columns name, shortest, longest, force, rate and price:
+        `optimize` chooses rows with the design. None by default.
+    actuators_for : {"kinds", "all"}
+        Whether the external, the upper and the lower legs each take a row, or all nine the same.
+    greatest_price : float, optional
+        Of the nine actuators together.
 
     Raises
     ------
@@ -182,6 +192,9 @@ class Study:
     masses: Masses = entry(duty(Masses), Masses())
     speeds: Speeds = entry(duty(Speeds), Speeds())
     tolerances: Tolerances = entry(duty(Tolerances), Tolerances())
+    actuators: tuple[Actuator, ...] = entry(bought.actuator_rows, ())
+    actuators_for: str = entry(partial(choice, known=FOR), FOR[0])
+    greatest_price: float | None = entry(partial(finite, least=0.0), None)
     defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
     """Free variables that were not given and took the family's default bounds."""
     length_assumed: bool = field(default=False, init=False, compare=False, repr=False)
@@ -194,7 +207,10 @@ class Study:
         assumed = self.characteristic_length is UNGIVEN
         if assumed:
             object.__setattr__(self, LENGTH, 1.0)  # not UNGIVEN: copies have it given
+        if isinstance(self.actuators, str | os.PathLike):
+            object.__setattr__(self, "actuators", bought.catalogue(self.actuators, _unit("unit", self.unit)))
         check_entries(self)
+        bought.require_together(self.actuators, self.greatest_price, self.constraints)
         named = _in_radians("variables", self.variables, variable_kinds(self.family), bound)
         variables: dict[str, Bound] = {}
         for name, kind, *ends in _core.family_variables(self.family):
@@ -232,6 +248,8 @@ class Study:
         """
         data = read_toml(path)
         try:
+            if isinstance(name := data.get("actuators"), str):
+                data["actuators"] = bought.beside_study(path, name, _unit("unit", data.get("unit", "")))
             return cls.from_dict(data)
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)}: {error}") from None
@@ -243,10 +261,13 @@ class Study:
             raise ValueError(
                 "study: got a design (it has a table [geometry]), expected a study; see `ninedof evaluate`"
             )
-        known_keys("study", data, ["unit", *TABLES])
+        known_keys("study", data, ["unit", "actuators", *TABLES])
         tables = {name: table(name, data.get(name, {})) for name in TABLES}
         require_unit_at_top({name: entries for name, entries in tables.items() if name != "objective"})
-        arguments = {"unit": data.get("unit", "")}
+        rows = items("actuators", data.get("actuators", ()), "rows with name, shortest and longest")
+        if "actuators" in data and not rows:
+            raise ValueError("actuators: got no rows, expected at least one actuator")
+        arguments: dict[str, Any] = {"unit": data.get("unit", ""), "actuators": rows}
         for name, names in TABLES.items():
             if name in DUTIES and name not in data:
                 continue
@@ -259,12 +280,17 @@ class Study:
         design = {"family": self.family, "characteristic_length": plain(self.characteristic_length)}
         if self.length_assumed and self.unit:
             del design["characteristic_length"]  # so that a study read back says so again
+        if self.actuators_for != FOR[0]:
+            design["actuators_for"] = self.actuators_for
+        if self.greatest_price is not None:
+            design["greatest_price"] = self.greatest_price
         constraints: dict[str, list[dict[str, Any]]] = {}
         for limit in self.limits:
             constraints.setdefault(limit.name, []).append(limit.to_dict())
         variables = (angle_entry(n, b) if n in self.angles else (n, b) for n, b in self.variables.items())
         return {
             **unit_entry(self.unit),
+            **({"actuators": [row.to_dict() for row in self.actuators]} if self.actuators else {}),
             "design": design,
             "variables": {name: plain(value) for name, value in variables},
             "constraints": {name: one if len(one) > 1 else one[0] for name, one in constraints.items()},
@@ -279,10 +305,31 @@ class Study:
 
     def with_solver(self, starts: int | None = None, seed: int | None = None) -> Study:
         """Return the same study with another number of starts or another seed."""
-        new = replace(self, starts=self.starts if starts is None else starts, seed=self.seed if seed is None else seed)
+        changes = {"starts": self.starts if starts is None else starts, "seed": self.seed if seed is None else seed}
+        return self._with(**changes)
+
+    def with_actuators(self, rows: Mapping[str, Actuator]) -> Study:
+        """Return the study of legs that have these rows, by "external", "upper" and "lower": with their limits."""
+        limits = dict(self.constraints)
+        for kind, row in table("rows", rows).items():
+            limits |= bought.row_limits(choice("rows", kind, LEG_KINDS), instance("rows", row, Actuator), self.stated)
+        return self._with(constraints=limits, actuators=(), actuators_for=FOR[0], greatest_price=None)
+
+    def require_no_choice(self) -> None:
+        """Raise ValueError for a study with actuators, to one who does not choose rows."""
+        if self.actuators:
+            raise ValueError("study: got one with actuators, expected the run of `optimize`, which has chosen them")
+
+    def _with(self, **changes: Any) -> Study:
+        new = replace(self, **changes)
         for name in ("defaulted", "length_assumed"):
             object.__setattr__(new, name, getattr(self, name))
         return new
+
+    @cached_property
+    def stated(self) -> dict[str, bool]:
+        """Whether it states "loads" and "speeds", without which forces and rates of legs are not looked at."""
+        return stated(self.loads, self.masses, self.speeds)
 
     @property
     def length_note(self) -> str:
@@ -323,7 +370,7 @@ class Study:
         """Return the study as the core's problem, validated there; of a region, without it, or to be solved over it."""
         if flag("over_region", over_region) not in self._problems:
             bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
-            require_stated(self.limits, self.loads, self.masses, self.speeds)
+            require_stated(self.limits, self.stated)
             limits = [self.limit_for_core(limit) for limit in self.limits]
             objective, tool = self.objective.for_core(over_region), self.tool
             problem = _core.Problem(

@@ -15,7 +15,7 @@ from ninedof.robot.configuration import Configuration, require_single
 from ninedof.support.angles import DEG
 from ninedof.support.arguments import cleaned, finite, path_argument, shown, vector, whole
 from ninedof.support.arrays import Floats, as_floats, frozen
-from ninedof.support.files import csv_rows, finite_or_nan, read_text
+from ninedof.support.files import csv_table, finite_or_nan, read_text, require_entries
 from ninedof.support.units import unit_argument
 
 PLACE = ("x", "y", "z")
@@ -30,7 +30,6 @@ ROTATIONS: dict[tuple[str, ...], Callable[[Floats], Floats]] = {
 }
 """The columns that a file may have for the rotation, and their matrices (n, 3, 3)."""
 RADIANS = {"rx", "ry", "rz", "yaw", "pitch", "roll"}
-SEPARATORS = {";": "semicolons", "\t": "tabs"}
 ONE_OF = "one of " + ", ".join(map(" ".join, ROTATIONS))
 FEWEST = 3  # poses: accelerations need three
 UNIT = 1e-3  # a quaternion may differ from unit length by rounding, not by more; a full turn too, relative
@@ -207,26 +206,15 @@ def _poses(text: str, origin: Floats, unit: str) -> tuple[Floats, Floats, Floats
     `origin` is that of relative positions. ValueError names line and column, also where the file names another unit of
     lengths.
     """
-    rows = csv_rows(text)
-    if not rows:
-        raise ValueError("got an empty file, expected a line with the names of the columns")
-    (line, header), *body = rows
-    for mark, word in SEPARATORS.items():
-        if mark in "".join(header):
-            expected = "expected commas between columns and points in numbers, such as 0.5,1.25"
-            raise ValueError(f"line {line}: got columns separated by {word}, {expected}")
-    heads = [cleaned(name).partition(" (") for name in header]  # "x (mm)", as `ninedof path` writes it
-    names = [name for name, _, _ in heads]
-    for name, _, end in heads:
-        if name in PLACE + RELATIVE and end and unit and (own := end.rstrip(")")) != unit:
+    line, heads, body = csv_table(text)
+    names = [name for name, _ in heads]
+    for name, own in heads:
+        if name in PLACE + RELATIVE and own and unit and own != unit:
             raise ValueError(f"line {line}, column {name}: got {own}, expected {unit} as in the design")
     place, turns = _pose_columns(f"line {line}", names)
     if len(body) < FEWEST:
         raise ValueError(f"got {len(body)} poses, expected at least {FEWEST}")
-    for line, row in body:
-        if len(row) != len(names):
-            expected = f"expected {len(names)} ({cleaned(', '.join(names))})"
-            raise ValueError(f"line {line}: got {len(row)} entries, {expected}")
+    require_entries(body, names)
     table = np.array([[finite_or_nan(entry) for entry in row] for _, row in body])
     for k, column in np.argwhere(np.isnan(table))[:1]:
         got = shown(body[k][1][column])
@@ -254,11 +242,6 @@ def _poses(text: str, origin: Floats, unit: str) -> tuple[Floats, Floats, Floats
 
 def _pose_columns(where: str, names: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the columns of position and rotation, none if it has none, or raise for missing and unknown columns."""
-    for name in names:
-        if not math.isnan(finite_or_nan(name)):
-            raise ValueError(f"{where}: got the number {name}, expected the names of the columns, such as t,x,y,z")
-        if names.count(name) > 1:
-            raise ValueError(f"{where}, column {name}: got it twice, expected each column once")
     place = RELATIVE if set(RELATIVE) & set(names) and not set(PLACE) & set(names) else PLACE
     needed = ("t", *place)
     if missing := [name for name in needed if name not in names]:

@@ -14,6 +14,7 @@ from typing import Any
 
 from ninedof import _core
 from ninedof.design.study import Study
+from ninedof.optimize.actuators import ActuatorSearch, SearchEnded
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.result import Candidate, Result, Status, candidate_of
@@ -22,7 +23,7 @@ from ninedof.optimize.words import axis_hint
 from ninedof.proof.optimum import GAPS, OptimumProof, left_out_of, prove_optimum
 from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
 from ninedof.support.arrays import thread_argument
-from ninedof.support.progress import Progress, phase, progress_argument
+from ninedof.support.progress import Progress, part_of, phase, progress_argument
 from ninedof.support.short import short_repr
 from ninedof.support.store import Store
 from ninedof.support.structs import from_core
@@ -120,7 +121,8 @@ def optimize(
     }
     with nullcontext() if out is None else Store(out, question, 1) as store:
         pieces = Pieces(store)
-        result = _optimized(study, count, progress, additional, pieces, seconds)
+        solve = _with_actuators if study.actuators else _optimized
+        result = solve(study, count, progress, additional, pieces, seconds)
         if not certify or result.best is None or result.interrupted:
             return result
         return _proved(result, count, progress, pieces)
@@ -133,15 +135,37 @@ def _optimized(
     warm: Sequence[Mapping[str, float]],
     pieces: Pieces,
     time_limit: float = math.inf,
+    explain: bool = True,
 ) -> Result:
-    return pieces.result(study, lambda: _anew(study, threads, progress, warm, time_limit), time_limit)
+    how: dict[str, Any] = {"threads": threads, "time_limit": time_limit, "explain": explain}
+    return pieces.result(study, lambda: _anew(study, progress, warm, how), time_limit)
+
+
+def _with_actuators(
+    study: Study,
+    threads: int,
+    progress: Progress | None,
+    warm: Sequence[Mapping[str, float]],
+    pieces: Pieces,
+    time_limit: float,
+) -> Result:
+    begin = perf_counter()
+
+    def solve(one: Study, others: Sequence[Candidate], words: str, explain: bool) -> Result:
+        left = max(begin + time_limit - perf_counter(), 1e-3)
+        known = [*warm, *(other.variables for other in others)]
+        result = _optimized(one, threads, part_of(progress, words), known, pieces, left, explain)
+        if result.interrupted or perf_counter() - begin >= time_limit:
+            raise SearchEnded(result)
+        return result
+
+    return ActuatorSearch(study, solve).result()
 
 
 def _anew(
-    study: Study, threads: int, progress: Progress | None, warm: Sequence[Mapping[str, float]], time_limit: float
+    study: Study, progress: Progress | None, warm: Sequence[Mapping[str, float]], how: Mapping[str, Any]
 ) -> Result:
-    how: dict[str, Any] = {"seed": study.seed, "threads": threads, "time_limit": time_limit}
-    settings = _core.Settings(starts=study.starts, warm=warm_starts(study, warm), **how)
+    settings = _core.Settings(starts=study.starts, seed=study.seed, warm=warm_starts(study, warm), **how)
     begin, region = perf_counter(), study.objective.region
     report, study_at_poses = None, study
     if region is None:
@@ -164,6 +188,7 @@ def _anew(
         study=study,
         region=report,
         proof=None,
+        actuators=None,
     )
 
 

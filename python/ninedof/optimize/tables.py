@@ -60,6 +60,8 @@ def agreement_words(result: Any) -> Iterator[str]:
         yield result.region.words
     if result.internal_points:
         yield result.internal_points
+    if result.actuators is not None:
+        yield from result.actuators.words
     yield result.agreement
 
 

@@ -88,7 +88,7 @@ def pareto(
     [3.9412, 3.7627, 3.5486]
 
     """
-    instance("study", study, Study)
+    instance("study", study, Study).require_no_choice()
     progress_argument(progress)
     thread_argument(threads)
     whole("points", points, 2, MOST_POINTS)

@@ -33,7 +33,7 @@ USUAL, MORE = 95, 0.5  # the colours end at this percentile, or at the greatest 
 BOUNDARY = 2.2  # points
 DASHED = (0, (3, 1.5))
 
-KINDS: dict[str, tuple[str, str, Any]] = {  # limits: beginning of the name, words, colour, dashes
+KINDS: dict[str, tuple[str, str, Any]] = {  # limits: part of the name, words, colour, dashes
     "l": (style.LEG_WORDS["l"], style.EXTERNAL, "-"),
     "q": (style.LEG_WORDS["q"], style.UPPER, (0, (2.4, 0.8))),
     "r": (style.LEG_WORDS["r"], style.LOWER, (0, (0.9, 0.7))),
@@ -176,7 +176,7 @@ def certified_workspace(
 def kind_of(name: str) -> str:
     """Return the key of `KINDS` of a limit."""
     first = name.split(" ")[0]
-    return next((kind for kind in KINDS if len(kind) > 1 and first.startswith(kind)), first[:1])
+    return next((kind for kind in KINDS if len(kind) > 1 and kind in first), first[:1])
 
 
 def _layout() -> ConstrainedLayoutEngine:

@@ -455,6 +455,7 @@ def _asked(of: Study | HasDesign, at: Mapping[str, float | str] | None) -> tuple
     study = of if isinstance(of, Study) else getattr(of, "study", None)
     if not isinstance(study, Study):
         raise ValueError(f"of: got {shown(of)}, expected a Study or a Result")
+    study.require_no_choice()
     values = {name: ends for name, ends in study.variables.items() if not isinstance(ends, tuple)}
     if of is not study:
         values |= {name: x for name, x in _values(of).items() if name in study.variables}  # type: ignore[arg-type]

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.limit_numbers import CONES
+from ninedof.design.limit_numbers import CONES, PARTS
 from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
 from ninedof.design.limits import kind_of
 from ninedof.design.study import Study
@@ -107,16 +107,24 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     every = pose_limits(study, g, followed.configurations, home, followed.characteristic_length)
     forces, rates = followed.leg_forces, followed.leg_rates
     moving = {"rate": rates} if forces is None else {"rate": rates, "force": forces, "power": forces * rates}
-    rows = [one for one in every if one.name not in OF_LENGTHS and one.name not in moving]
+    rows = [one for one in every if one.name not in OF_LENGTHS and _duty_of(one.name) not in moving]
     return PathLimits(followed.time, (*rows, *_of_motion(study, moving)))
+
+
+def _duty_of(name: str) -> str:
+    """Return what a limit of legs is about: "force" for "force" and for "upper_force"."""
+    return name.rpartition("_")[2]
 
 
 def _of_motion(study: Study, values: Mapping[str, Floats]) -> Iterator[PoseLimit]:
     """Yield the limits of forces, rates and powers of a motion, shape (n, 9) or (k, n, 9): the largest of k loads."""
     for limit in study.limits:
-        if limit.name not in values or limit.at != "poses":
+        duty = _duty_of(limit.name)
+        if duty not in values or limit.at != "poses":
             continue
-        moduli = np.abs(values[limit.name])
-        for leg, value in zip(LEGS, moduli.reshape(-1, *moduli.shape[-2:]).max(axis=0).T, strict=True):
+        moduli = np.abs(values[duty])
+        most = moduli.reshape(-1, *moduli.shape[-2:]).max(axis=0)
+        for leg in PARTS[limit.name]:
+            value = most[:, LEGS.index(leg)]
             margin = margin_of(limit.kind, "max", limit.high, value)
             yield PoseLimit(limit.name, leg, "max", limit.high, value, np.asarray(margin))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -14,7 +14,7 @@ from typing import IO, TYPE_CHECKING, Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ninedof.support.arguments import path_argument
+from ninedof.support.arguments import cleaned, path_argument
 from ninedof.support.arrays import blocks
 from ninedof.support.json import decode, encode
 
@@ -26,6 +26,7 @@ Arrays = dict[str, NDArray[Any]]
 PART = ".part-"  # begins the name of a file that is being written
 MOST_NAME = 120  # bytes of a name that is put into a folder
 SHORT = 40  # characters of a name that the name of its part repeats: a part of the longest name fits too
+SEPARATORS = {";": "semicolons", "\t": "tabs"}  # of files that are no CSV to us
 DIGITS = 64  # of a digest
 PIECE = 2**18  # bytes read at a time
 DIGEST = b',\n  "digest": "'  # before the digest of a JSON file
@@ -98,6 +99,37 @@ def csv_rows(text: str) -> list[tuple[int, list[str]]]:
     except csv.Error as error:
         raise ValueError(f"not a CSV file ({error})") from None
     return [(line, row) for line, row in rows if any(row) and not row[0].startswith("#")]
+
+
+def csv_table(text: str) -> tuple[int, list[tuple[str, str]], list[tuple[int, list[str]]]]:
+    """Return the line of the head of a CSV text, its columns, and the other rows with their lines.
+
+    A column is its name and its unit, "" where it names none: "x (mm)", as `ninedof path` writes it.
+    """
+    rows = csv_rows(text)
+    if not rows:
+        raise ValueError("got an empty file, expected a line with the names of the columns")
+    (line, head), *body = rows
+    for mark, word in SEPARATORS.items():
+        if mark in "".join(head):
+            expected = "expected commas between columns and points in numbers, such as 0.5,1.25"
+            raise ValueError(f"line {line}: got columns separated by {word}, {expected}")
+    heads = [(name, end.rstrip(")")) for name, _, end in (cleaned(one).partition(" (") for one in head)]
+    names = [name for name, _ in heads]
+    for name in names:
+        if not math.isnan(finite_or_nan(name)):
+            raise ValueError(f"line {line}: got the number {name}, expected the names of the columns")
+        if names.count(name) > 1:
+            raise ValueError(f"line {line}, column {name}: got it twice, expected each column once")
+    return line, heads, body
+
+
+def require_entries(body: Sequence[tuple[int, Sequence[str]]], names: Sequence[str]) -> None:
+    """Raise ValueError unless each row of a CSV text has an entry for each column."""
+    for line, row in body:
+        if len(row) != len(names):
+            expected = f"expected {len(names)} ({cleaned(', '.join(names))})"
+            raise ValueError(f"line {line}: got {len(row)} entries, {expected}")
 
 
 def finite_or_nan(text: str) -> float:

@@ -19,6 +19,23 @@ def phase(progress: Progress | None, words: str) -> None:
         say(words)
 
 
+def part_of(progress: Progress | None, part: str) -> Progress | None:
+    """Return a progress whose phases begin with the name of a part of the work."""
+    phase(progress, part)
+    return None if progress is None else _Part(progress, part)
+
+
+class _Part:
+    def __init__(self, whole: Progress, name: str) -> None:
+        self._whole, self._name = whole, name
+
+    def __call__(self, done: int, total: int, value: float | None) -> object:
+        return self._whole(done, total, value)
+
+    def phase(self, words: str) -> None:
+        phase(self._whole, f"{self._name}, {words}")
+
+
 def progress_argument(progress: object) -> Progress | None:
     """Return `progress`; raise unless it is callable or None."""
     if progress is not None and not callable(progress):

@@ -62,7 +62,11 @@ def read(kind: type[T], data: Any, where: str = "", **defaults: Any) -> T:
         Values of entries that it does not have.
 
     """
-    known_keys(where or kind.__name__.lower(), data, keys(kind))
+    name = where or kind.__name__.lower()
+    known_keys(name, data, keys(kind))
+    needed = [one.name for one in entries(kind) if one.default is MISSING and one.default_factory is MISSING]
+    for missing in (one for one in needed if one not in data and one not in defaults):
+        raise ValueError(f"{name}: got no {missing}, expected {', '.join(needed)}")
     with within(where):
         angles = {one.name: one.metadata["check"] for one in entries(kind) if one.metadata["angle"]}
         return kind(**(defaults | in_radians(data, angles)))

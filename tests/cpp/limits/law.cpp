@@ -222,7 +222,7 @@ PoseRow planted(const PoseRow& sound) {
   if constexpr (error == 0)
     out.slopes = [](const PointLook& look, int item, PointSlopes& slopes) {
       const double value = row.slopes(look, item, slopes);
-      slopes.at[0].slope *= 1.0 + 1e-5;
+      for (int k = 0; k < slopes.points; ++k) slopes.at[at_index(k)].slope *= 1.0 + 1e-5;
       return value;
     };
   if constexpr (error == 1)

@@ -91,6 +91,11 @@ TEST_SUITE("verdict") {
     Problem p = paper_study();
     p.limits = {{"radius_ratio", 0.0, 2.0}, {"radius_ratio", 3.0, 10.0}};
     check_infeasible(p, {"radius_ratio"});
+    Settings brief;
+    brief.explain = false;
+    const Result unexplained = optimize(p, brief);
+    CHECK(unexplained.status == Status::infeasible);
+    CHECK(unexplained.causes.empty());
 
     p = paper_study();  // base at least 10, platform at most 1
     p.variables[1].low = 10.0;

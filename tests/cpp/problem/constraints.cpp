@@ -71,7 +71,13 @@ const std::vector<Limit> listed{{"radius_ratio", 0.5, 2.0},
                                 {.name = "singularity_free", .low = 0.05, .steps = 3},
                                 {.name = "force", .high = 30.0, .duty = hand::duty()},
                                 {.name = "rate", .high = 1.0, .duty = hand::duty()},
-                                {.name = "power", .high = 20.0, .duty = hand::duty()}};
+                                {.name = "power", .high = 20.0, .duty = hand::duty()},
+                                {.name = "external_force", .high = 30.0, .duty = hand::duty()},
+                                {.name = "upper_force", .high = 30.0, .duty = hand::duty()},
+                                {.name = "lower_force", .high = 30.0, .duty = hand::duty()},
+                                {.name = "external_rate", .high = 1.0, .duty = hand::duty()},
+                                {.name = "upper_rate", .high = 1.0, .duty = hand::duty()},
+                                {.name = "lower_rate", .high = 1.0, .duty = hand::duty()}};
 
 bool is_cone(const Limit& limit) {
   return limit.name.find("_cone") != std::string::npos;

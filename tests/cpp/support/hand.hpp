@@ -202,8 +202,10 @@ inline Range measured(const Limit& limit, const Design& d) {
       ninedof::Vec9 force = ninedof::Vec9::Zero(), one = ninedof::Vec9::Ones();
       for (const ninedof::Load& load : duty.loads)
         force = force.cwiseMax(ninedof::inverse_dynamics(g, {c}, duty.masses, duty.gravity, load).forces.cwiseAbs());
-      const ninedof::Vec9 rate = name == "force" ? one : ninedof::largest_leg_rates(g, c, duty.motion);
-      out.add((name == "rate" ? one : force).cwiseProduct(rate).maxCoeff());
+      const ninedof::Vec9 rate = name.ends_with("force") ? one : ninedof::largest_leg_rates(g, c, duty.motion);
+      const ninedof::Vec9 value = (name.ends_with("rate") ? one : force).cwiseProduct(rate);
+      const int first = name.starts_with("upper") ? 3 : name.starts_with("lower") ? 6 : 0;
+      out.add(value.segment(first, name.find('_') == std::string::npos ? 9 : 3).maxCoeff());
     }
   if (name == "leg_clearance")
     for (const Configuration& c : d.looked(limit)) {

@@ -50,6 +50,8 @@ LIMITS = (
         "force": {"max": 100.0},
         "rate": {"max": 1.5},
         "power": {"max": 150.0},
+        **{f"{kind}_force": {"max": 90.0} for kind in ("external", "upper", "lower")},
+        **{f"{kind}_rate": {"max": 1.4} for kind in ("external", "upper", "lower")},
     },
     {
         "leg_length": {"min": 0.2, "max": 2.0, "of": "zp"},

@@ -129,6 +129,11 @@ def test_a_path_is_held_against_its_own_rates_and_forces(result):
     ):
         values = np.stack([one.value for one in limits if one.name == name], axis=-1)
         np.testing.assert_array_equal(values, np.abs(numbers))
+    of_kinds = replace(STUDY, constraints={"upper_force": (None, 400.0), "lower_rate": (None, 200.0)})
+    parts = {(one.name, one.part): one.value for one in nd.path_limits(of_kinds, motion, result.configuration).limits}
+    assert set(parts) == {("upper_force", f"q{k}") for k in (1, 2, 3)} | {("lower_rate", f"r{k}") for k in (1, 2, 3)}
+    np.testing.assert_array_equal(parts["upper_force", "q2"], np.abs(motion.leg_forces[:, 4]))
+    np.testing.assert_array_equal(parts["lower_rate", "r1"], np.abs(motion.leg_rates[:, 6]))
     worst = {row["name"]: row["margin"] for row in nd.path_limits(STUDY, motion, result.configuration).worst()}
     assert worst["rate"] < 0.0 < worst["force"]
 

@@ -12,7 +12,7 @@ from matplotlib.colors import to_hex
 import ninedof as nd
 from ninedof import plot
 from ninedof.plot import style
-from ninedof.plot.workspace import KINDS
+from ninedof.plot.workspace import KINDS, kind_of
 
 
 @pytest.mark.parametrize(
@@ -47,6 +47,11 @@ def test_bounds_are_drawn_in_the_style_of_their_limits():
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == ["upper internal legs"]
     assert len({str(KINDS[kind][2]) for kind in "lqr"}) == 3  # kinds differ without colours
+
+
+def test_limits_of_one_kind_of_legs_have_the_colour_of_all():
+    names = ("upper_force q1", "lower_rate r2", "base_cone_external l1", "det N", "q3 high")
+    assert [kind_of(name) for name in names] == ["force", "rate", "base_cone", "det", "q"]
 
 
 def test_a_workspace_of_orientations_is_drawn_in_degrees():

@@ -52,6 +52,8 @@ LIMITS = {
     "force": (None, 200.0),
     "rate": (None, 2.0),
     "power": (None, 300.0),
+    **{f"{kind}_force": (None, 180.0) for kind in ("external", "upper", "lower")},
+    **{f"{kind}_rate": (None, 1.9) for kind in ("external", "upper", "lower")},
 }
 
 
@@ -124,7 +126,8 @@ def test_every_place_has_the_same_margin(seed):
         if key[0] != "singularity_free":
             widest = (one.value[1] - one.value[0]) / one.limit
             assert expected[key] - widest - 1e-9 <= one.margin <= expected[key] + 1e-9
-            assert one.answer == "violated" or one.value[1] - one.value[0] <= 0.05 * one.value[1]
+            width = one.value[1] - one.value[0]  # upper legs do not move while O is shifted: a rate of 0
+            assert one.answer == "violated" or width <= 0.05 * one.value[1] + 1e-9 * one.limit
     regular = proved.limits[0]
     assert regular.margin == regular.value[0]
 

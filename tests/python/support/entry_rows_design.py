@@ -46,6 +46,7 @@ DUTY = {
     "speeds": {"linear": 2.0, "angular": 0.5, "acceleration": 1.0, "angular_acceleration": 0.25},
     "tolerances": {"joints": 0.02, "legs": 0.01},
 }
+ACTUATOR = {"name": "A", "shortest": 2.0, "longest": 5.0, "force": 80.0, "rate": 1.5, "price": 100.0}
 
 row("Study")(
     lambda: {
@@ -57,6 +58,9 @@ row("Study")(
         "seed": 0,
         "objective": {"index": "condition_number", "poses": [{"position": [0.1, 0.0, 0.0], "unit": "zp"}]},
         "unit": "mm",
+        "actuators": [dict(ACTUATOR)],
+        "actuators_for": "all",
+        "greatest_price": 900.0,
         **{name: kind(**DUTY[name]).to_dict() for name, kind in DUTIES.items()},
     },
     words={"variables": OF_ROBOT, "characteristic_length": OF_ROBOT},
@@ -67,6 +71,14 @@ for name, kind in DUTIES.items():
         lambda kind=kind, name=name: {"data": kind(**DUTY[name]).to_dict()}
     )
     row(f"{kind.__name__}.to_dict", kind(**DUTY[name]).to_dict)(dict)
+row("Actuator")(ACTUATOR.copy)
+row("Actuator.from_dict", nd.Actuator.from_dict, words={"data": ("actuator",)})(lambda: {"data": dict(ACTUATOR)})
+row("Actuator.to_dict", nd.Actuator(**ACTUATOR).to_dict)(dict)
+row("Actuator.is_as_good_as", nd.Actuator(**ACTUATOR).is_as_good_as)(lambda: {"other": nd.Actuator(**ACTUATOR)})
+row("Study.with_actuators", lambda **a: it.study().with_actuators(**a))(
+    lambda: {"rows": {"external": nd.Actuator(**ACTUATOR)}}
+)
+row("Study.require_no_choice", lambda: it.study().require_no_choice())(dict)
 row("Tool.seen", nd.Tool(**DUTY["tool"]).seen)(lambda: {"point": (1.0, 2.0, 3.0)})
 ROBOT = {"geometry": it.g(), "configuration": it.c()}
 row("Tool.turned", nd.Tool(**DUTY["tool"]).turned)(lambda: {"direction": (1.0, 2.0, 3.0)})

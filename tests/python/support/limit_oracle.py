@@ -193,13 +193,13 @@ def _fault_tolerant(robot, limit):
     return np.concatenate([(s[..., 0] / s[..., 5]).reshape(-1) for s in sigma])
 
 
-def _of_duty(*numbers):
-    """Products of forces and rates of the legs at every pose."""
+def _of_duty(*numbers, legs=slice(0, 9)):
+    """Products of forces and rates of some legs at every pose."""
 
     def at_poses(robot, limit):
         poses = [robot.poses[k] for k in range(len(robot.poses))]
         of_poses = [[one(limit.study, robot.geometry, c) for one in numbers] for c in poses]
-        return np.prod(of_poses, axis=1).reshape(-1)
+        return np.prod(of_poses, axis=1)[:, legs].reshape(-1)
 
     return at_poses, None
 
@@ -242,6 +242,11 @@ RULES = {  # the values that must be at most the high limit, and those that must
     "force": _of_duty(duty_oracle.forces),
     "rate": _of_duty(_rates),
     "power": _of_duty(duty_oracle.forces, _rates),
+    **{
+        f"{kind}_{name}": _of_duty(one, legs=slice(first, first + 3))
+        for name, one in (("force", duty_oracle.forces), ("rate", _rates))
+        for kind, first in (("external", 0), ("upper", 3), ("lower", 6))
+    },
     "singularity_free": (None, lambda r, limit: determinants(r, limit.steps if limit.at == "poses" else 0)),
 }
 

@@ -29,6 +29,7 @@ struct Settings {
   int max_evaluations = 500;               ///< of one SLSQP call; a start makes several where it does not converge
   std::vector<Eigen::VectorXd> warm = {};  ///< additional starts, full sets of variables
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; the best so far is returned after it
+  bool explain = true;  ///< whether an infeasible result says which limits exclude each other
 
   /// Throws InvalidArgument naming what is wrong.
   void validate() const;

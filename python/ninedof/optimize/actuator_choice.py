@@ -1,0 +1,96 @@
+"""Which actuators a design takes, and what the next best would be."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from ninedof.design.actuators import LEG_KINDS, Actuator
+from ninedof.design.duty import duty
+from ninedof.design.study import Study
+from ninedof.support.arguments import items, number, text, whole
+from ninedof.support.schema import Table, entry
+from ninedof.support.short import short_repr
+
+EACH = 3  # legs of a kind
+
+
+def _texts(name: str, value: Any) -> tuple[str, ...]:
+    return tuple(text(name, one) for one in items(name, value, "a list of texts"))
+
+
+@short_repr
+@dataclass(frozen=True)
+class Combination(Table):
+    """A row for each kind of legs, and the objective of the best design found with them."""
+
+    external: Actuator = entry(duty(Actuator))
+    upper: Actuator = entry(duty(Actuator))
+    lower: Actuator = entry(duty(Actuator))
+    objective: float = entry(number)
+
+    @property
+    def rows(self) -> dict[str, Actuator]:
+        """The rows by kind of legs."""
+        return {kind: getattr(self, kind) for kind in LEG_KINDS}
+
+    @property
+    def price(self) -> float | None:
+        """Of nine actuators; None where that of a row is unknown."""
+        prices = [row.price for row in self.rows.values()]
+        return None if None in prices else float(EACH * sum(price or 0.0 for price in prices))
+
+    @property
+    def words(self) -> str:
+        """The names of the rows."""
+        if self.external == self.upper == self.lower:
+            return f"{self.external.name} for all legs"
+        return ", ".join(f"{kind} {row.name}" for kind, row in self.rows.items())
+
+
+@short_repr
+@dataclass(frozen=True)
+class ActuatorChoice(Table):
+    """The combination of rows that a result has, and the search that chose it."""
+
+    chosen: Combination = entry(duty(Combination))
+    next_best: Combination | None = entry(duty(Combination), None)
+    """The best of the others; None where none was found, or the search ended before."""
+    combinations: int = entry(partial(whole, least=0), 0)
+    """All combinations of the rows that were tried."""
+    solved: int = entry(partial(whole, least=0), 0)
+    """Continuous studies that were solved for the choice."""
+    left_out: tuple[str, ...] = entry(_texts, ())
+    """Rows that were not tried: another can do as much and costs no more, or their stroke is too short."""
+    notes: tuple[str, ...] = entry(_texts, ())
+    """What was not looked at."""
+
+    @property
+    def words(self) -> list[str]:
+        """The choice in sentences."""
+        out = [f"actuators: {self.chosen.words}{_priced(self.chosen)}"]
+        if (other := self.next_best) is not None:
+            more = other.objective / self.chosen.objective - 1.0
+            value = f"{other.objective:.6f}, {100.0 * more:.2g} % more" if more >= 5e-7 else "the same objective"
+            out.append(f"the next best: {other.words} has {value}{_priced(other)}")
+        out.append(f"{self.solved} studies solved for {self.combinations} combinations of actuators")
+        if self.left_out:
+            why = "another can do as much for no more, or the region needs a longer stroke"
+            out.append(f"not tried: {', '.join(self.left_out)}; {why}")
+        return [*out, *self.notes]
+
+
+def _priced(one: Combination) -> str:
+    return "" if one.price is None else f"; price {one.price:g}"
+
+
+def notes_of(study: Study) -> tuple[str, ...]:
+    """Return which columns of the actuators have no effect in a study."""
+    columns = (("force", "loads"), ("rate", "speeds"))
+    return tuple(
+        f"the {column}s of the actuators are not looked at: the study states no {needs}"
+        for column, needs in columns
+        if not study.stated[needs] and any(getattr(row, column) < math.inf for row in study.actuators)
+    )

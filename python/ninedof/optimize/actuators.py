@@ -1,0 +1,240 @@
+"""Rows of a catalogue chosen with the design: branch and bound over combinations of rows.
+
+A node fixes the rows of the first kinds of legs; the others may have all that any of their rows can do. Its study is
+continuous, and no better design can come from rows that are fixed later: its objective is a bound, as far as a local
+search finds its optimum. Best first, so that the first combination that is complete is the best one, and the second the
+next best.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from heapq import heappop, heappush
+from typing import Any
+
+from ninedof.design.actuators import LEG_KINDS, Actuator, hull, row_limits
+from ninedof.design.region import Region
+from ninedof.design.study import Study
+from ninedof.optimize.actuator_choice import EACH, ActuatorChoice, Combination, notes_of
+from ninedof.optimize.result import Candidate, Result, Status
+
+FEW = 4  # starts of a study of the search, besides those from the studies before it
+Rows = tuple[Actuator | None, ...]
+"""A row for each group of legs; None where it may be any."""
+Solve = Callable[[Study, Sequence[Candidate], str, bool], Result]
+"""Solves a study, from other designs too; the words name it, and the flag asks why an infeasible one is."""
+
+
+class SearchEnded(Exception):  # no error
+    """Ctrl-C or the time limit ended a study, the argument."""
+
+
+class ActuatorSearch:
+    """The search for the rows of a study."""
+
+    def __init__(self, study: Study, solve: Solve) -> None:
+        """Take the rows that may be best."""
+        self.study, self._solve = study, solve
+        self.groups = [LEG_KINDS] if study.actuators_for == "all" else [(kind,) for kind in LEG_KINDS]
+        own, region = study.actuators, study.objective.region
+        best = [row for k, row in enumerate(own) if not any(_replaces(other, j, row, k) for j, other in enumerate(own))]
+        travel = {kind: 0.0 if region is None else least_travel(region, kind) for kind in LEG_KINDS}
+        needed = [max(travel[kind] for kind in kinds) for kinds in self.groups]
+        self.rows = [[row for row in best if row.longest - row.shortest >= least] for least in needed]
+        self.left_out = tuple(row.name for row in own if not any(row in rows for rows in self.rows))
+        self.results: dict[Rows, Result] = {}
+        self.seconds = 0.0
+
+    def result(self) -> Result:
+        """Return the best design with its rows, that of an interrupted search, or why there is none."""
+        try:
+            found = self._best_first() if all(self.rows) else []
+            result = self._chosen(found) if found else self._nothing_fits()
+        except SearchEnded as end:
+            result = self._so_far(end.args[0])
+        except KeyboardInterrupt:  # between two studies
+            if not self.results:
+                raise
+            result = self._so_far(replace([*self.results.values()][-1], interrupted=True))
+        return replace(result, seconds=self.seconds)
+
+    def _best_first(self) -> list[Rows]:
+        """Return the best combination and the next best; fewer where no others have a design."""
+        found: list[Rows] = []
+        heap: list[tuple[float, float, tuple[int, ...]]] = []
+
+        def push(value: float, node: tuple[int, ...]) -> None:
+            if value < math.inf and self._is_within_price(node):
+                heappush(heap, (float(f"{value:.6g}"), self._least_price(node), node))  # equal ones by their price
+
+        root = self._ask((None,) * len(self.groups))
+        push(self._value(root), ())
+        if root.best is not None and self._is_within_price(guess := self._guess(root)):
+            self._ask(self._rows_of(guess))  # a design to begin with, should the search be interrupted
+        while heap and len(found) < 2:
+            bound, _, node = heappop(heap)
+            rows = self._rows_of(node)
+            question = next((one for one in (self._last_alone(node), rows) if one not in self.results), None)
+            if question is not None:
+                push(max(bound, self._value(self._ask(question), None not in question)), node)
+            elif len(node) == len(self.groups):
+                found.append(rows)
+            else:
+                for k in range(len(self.rows[len(node)])):
+                    known = self.results.get(self._last_alone((*node, k)))
+                    push(bound if known is None else max(bound, self._value(known)), (*node, k))
+        return found
+
+    def _guess(self, root: Result) -> tuple[int, ...]:
+        """Return the rows that are nearest to the best design of all."""
+        margins = (
+            [self._least_margin(root, kinds, row) for row in rows]
+            for kinds, rows in zip(self.groups, self.rows, strict=True)
+        )
+        return tuple(some.index(max(some)) for some in margins)
+
+    def _is_within_price(self, node: tuple[int, ...]) -> bool:
+        most = self.study.greatest_price
+        return most is None or self._least_price(node) <= most
+
+    def _rows_of(self, node: tuple[int, ...]) -> Rows:
+        fixed = tuple(rows[k] for rows, k in zip(self.rows, node, strict=False))
+        return fixed + (None,) * (len(self.groups) - len(node))
+
+    def _last_alone(self, node: tuple[int, ...]) -> Rows:
+        """Return the question about the last row of a node alone, which many nodes have in common."""
+        last = len(node) - 1
+        return tuple(row if g == last else None for g, row in enumerate(self._rows_of(node)))
+
+    def _least_price(self, node: tuple[int, ...]) -> float:
+        fixed = [rows[k : k + 1] for rows, k in zip(self.rows, node, strict=False)]
+        every = fixed + self.rows[len(node) :]
+        return sum(
+            EACH * len(kinds) * min(row.price or 0.0 for row in rows)
+            for kinds, rows in zip(self.groups, every, strict=True)
+        )
+
+    def _ask(self, rows: Rows) -> Result:
+        if rows not in self.results:
+            hulls = [hull(rows) for rows in self.rows]
+            parts = [row or any_row for row, any_row in zip(rows, hulls, strict=True)]
+            study = self.study.with_actuators(self._by_kind(parts))
+            before = [part for part in self._parts(rows) if part in self.results]
+            warm = [best for part in before if (best := self.results[part].best) is not None]
+            names = ", ".join("any" if row is None else row.name for row in rows)
+            self.results[rows] = self._solved(study, warm, names)
+        return self.results[rows]
+
+    def _parts(self, rows: Rows) -> list[Rows]:
+        """Return the questions that are solved before one, whatever the order of the search, and less strict."""
+        fixed = [g for g, row in enumerate(rows) if row is not None]
+        parts = (
+            tuple(row if g in some else None for g, row in enumerate(rows))
+            for some in (fixed[:0], fixed[:-1], fixed[-1:])
+        )
+        return [part for part in dict.fromkeys(parts) if part != rows]
+
+    def _solved(
+        self, study: Study, warm: Sequence[Candidate], names: str, most_starts: int = FEW, explain: bool = False
+    ) -> Result:
+        study = study.with_solver(min(most_starts, self.study.starts))
+        result = self._solve(study, warm, f"actuators {names} ({len(self.results)} solved)", explain)
+        self.seconds += result.seconds
+        return result
+
+    def _value(self, result: Result, complete: bool = False) -> float:
+        """Return the bound that a study is, infinite without a design; one without an optimum is no bound."""
+        if result.best is None or (result.region is not None and not result.region.keeps_limits):
+            return math.inf if result.best is None or complete else 0.0
+        return result.best.objective if complete or result.status == Status.OPTIMAL else 0.0
+
+    def _by_kind(self, rows: Sequence[Actuator]) -> dict[str, Actuator]:
+        return {kind: row for kinds, row in zip(self.groups, rows, strict=True) for kind in kinds}
+
+    def _combination(self, rows: Rows, result: Result) -> Combination:
+        by_kind = self._by_kind([row for row in rows if row is not None])
+        return Combination(**by_kind, objective=result.best.objective)  # type: ignore[union-attr]
+
+    def _with_choice(self, result: Result, rows: Rows, next_best: Rows | None) -> Result:
+        other = None if next_best is None else self._combination(next_best, self.results[next_best])
+        count = math.prod(map(len, self.rows))
+        chosen = self._combination(rows, result)
+        choice = ActuatorChoice(chosen, other, count, len(self.results), self.left_out, notes_of(self.study))
+        return replace(result, actuators=choice, study=result.study.with_solver(self.study.starts))
+
+    def _chosen(self, found: Sequence[Rows]) -> Result:
+        rows, result = found[0], self.results[found[0]]
+        names = ", ".join(row.name for row in rows if row)
+        again = self._solved(result.study, result.candidates[:1], names, most_starts=self.study.starts)
+        if self._value(again, complete=True) <= self._value(result, complete=True) * (1.0 + 1e-9):
+            result = again
+        return self._with_choice(result, rows, found[1] if len(found) > 1 else None)
+
+    def _so_far(self, ended: Result) -> Result:
+        """Return the best complete combination that was solved before the end; none before the first."""
+        complete = {rows: self._value(result, True) for rows, result in self.results.items() if None not in rows}
+        ranked = sorted((value, k, rows) for k, (rows, value) in enumerate(complete.items()) if value < math.inf)
+        words = f"the search of actuators ended after {len(self.results)} studies"
+        how: dict[str, Any] = {"status": Status.STOPPED, "interrupted": ended.interrupted}
+        if not ranked:
+            reason = f"{words}, before a combination was solved"
+            return replace(ended, candidates=(), region=None, study=self.study, reason=reason, **how)
+        rows = ranked[0][2]
+        reason = f"{words}: other combinations may be better"
+        return self._with_choice(replace(self.results[rows], reason=reason, **how), rows, None)
+
+    def _nothing_fits(self) -> Result:
+        """Return why no rows fit: of each kind of legs the nearest row, and the limit that fails."""
+        free = self._solved(self.study.with_actuators({}), (), "none", explain=True)
+        if free.best is None:
+            return replace(free, study=self.study, reason=f"without limits of actuators too: {free.reason}")
+        reasons: list[str] = []
+        causes: dict[str, None] = {}
+        for kinds in self.groups:
+            rows = sorted(self.study.actuators, key=lambda row: -self._least_margin(free, kinds, row))
+            studies = [self.study.with_actuators(dict.fromkeys(kinds, row)) for row in rows]
+            alone = (self._solved(one, free.candidates[:1], row.name) for one, row in zip(studies, rows, strict=True))
+            if all(result.best is None for result in alone):
+                nearest = self._solved(studies[0], free.candidates[:1], rows[0].name, explain=True)
+                which = f"no row fits the {' and '.join(kinds)} legs; the nearest, {rows[0].name}"
+                reasons.append(f"{which}: {nearest.reason}")
+                causes |= dict.fromkeys(nearest.causes)
+        if not reasons:
+            most, least = self.study.greatest_price, self._least_price(())
+            price = "" if most is None else f" of at most {most:g} does; the cheapest costs {least:g}"
+            reasons = [f"rows fit each kind of legs, but no combination{price or ' does'}"]
+        return replace(
+            free,
+            status=Status.INFEASIBLE,
+            reason="; ".join(reasons),
+            causes=tuple(causes) or ("actuators",),
+            candidates=(),
+            region=None,
+            study=self.study,
+        )
+
+    def _least_margin(self, free: Result, kinds: Sequence[str], row: Actuator) -> float:
+        """Return the least margin of the limits of a row at the poses and the design of a study without them."""
+        limits = {name: limit for kind in kinds for name, limit in row_limits(kind, row, free.study.stated).items()}
+        point = replace(free.solved, constraints=limits).evaluate(free.best.variables)  # type: ignore[union-attr]
+        return min(point.margins.values())
+
+
+def _replaces(other: Actuator, j: int, row: Actuator, k: int) -> bool:
+    """Whether another row makes one superfluous: of two that are equal the second is."""
+    return j != k and other.is_as_good_as(row) and (j < k or not row.is_as_good_as(other))
+
+
+def least_travel(region: Region, kind: str) -> float:
+    """Return a length by which a leg of a kind changes over a region, whatever the design: 0 where none is known.
+
+    Its end moves through a ball about the neutral position: from a point outside of it the nearest and the farthest
+    points of the ball are a diameter apart, and a leg whose other end is inside would have no length.
+    """
+    rule = region.internal_point
+    moves = {"external": True, "upper": rule == "held", "lower": rule == "shifted"}[kind]
+    if not moves or region.unit != "length":
+        return 0.0
+    return 2.0 * min(region.box or region.cylinder or ((region.ball or 0.0),))

@@ -1,0 +1,201 @@
+"""Rows of a catalogue chosen with the design: held against all combinations, each solved alone."""
+
+import itertools
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import ninedof as nd
+from ninedof.design.actuators import LEG_KINDS
+from ninedof.optimize.actuators import ActuatorSearch
+
+REQUIREMENT = nd.Study.load(Path(__file__).parents[3] / "examples" / "18_requirement.toml")
+LIMITS = {name: limit for name, limit in REQUIREMENT.constraints.items() if name != "stroke_ratio"}
+REGION = replace(REQUIREMENT, constraints=LIMITS, starts=4)
+POSES = replace(REGION, objective={"poses": nd.poses.box(half=(60.0, 60.0, 40.0))})
+SMALL = nd.Actuator("small", 160.0, 260.0, price=100.0)
+LARGE = nd.Actuator("large", 400.0, 650.0, price=300.0)
+LONG = nd.Actuator("long", 480.0, 740.0, price=400.0)
+BOTH = (SMALL, LARGE)
+
+
+def every_combination(study, rows):
+    """The objective, the price and the names of each, best first; those that are equal to 6 digits by their price."""
+    out = []
+    for some in itertools.product(rows, repeat=3):
+        found = nd.optimize(study.with_actuators(dict(zip(LEG_KINDS, some, strict=True))))
+        if found.status == nd.Status.OPTIMAL:
+            out.append((float(f"{found.objective:.6g}"), 3 * sum(row.price for row in some), [r.name for r in some]))
+    return sorted(out)
+
+
+def names(combination):
+    return [row.name for row in combination.rows.values()]
+
+
+def assert_choice(result, ranked):
+    chosen, other = result.actuators.chosen, result.actuators.next_best
+    assert result.status == nd.Status.OPTIMAL
+    for one, (objective, price, rows) in zip((chosen, other), ranked, strict=False):
+        assert float(f"{one.objective:.6g}") == pytest.approx(objective, rel=1e-5)
+        assert (one.price, names(one)) == (price, rows)
+    assert (other is None) == (len(ranked) < 2)
+    assert result.objective == chosen.objective
+    for kind, row in chosen.rows.items():
+        assert result.study.constraints[f"{kind}_length"] == (row.shortest, row.longest)
+
+
+def test_the_choice_is_the_best_of_all_combinations():
+    result = nd.optimize(replace(POSES, actuators=BOTH))
+    ranked = every_combination(POSES, BOTH)
+    assert_choice(result, ranked)
+    assert result.actuators.combinations == 8
+    low, high = result.permitted_lengths
+    lengths = nd.leg_lengths(result.geometry, result.configurations)
+    assert (lengths >= low * (1 - 1e-9)).all()
+    assert (lengths <= high * (1 + 1e-9)).all()
+    assert (
+        f"actuators: external large, upper small, lower large; price {result.actuators.chosen.price:g}"
+        in result.summary()
+    )
+
+
+@pytest.mark.slow
+def test_the_choice_over_a_region_is_the_best_of_all_combinations():
+    rows = [*BOTH, LONG]
+    result = nd.optimize(replace(REGION, actuators=rows))
+    assert_choice(result, every_combination(REGION, rows))
+    assert {one.answer for one in result.certify().limits} == {"proved"}
+
+
+@pytest.mark.slow
+def test_forces_and_rates_choose_too():
+    duty = {"loads": {"wrenches": [[0, 0, 0, 0, 0, -500]]}, "speeds": {"linear": 200.0}}
+    study = replace(REGION, objective={"region": {"box": (30.0, 30.0, 20.0)}}, starts=2, **duty)
+    weak, strong = (replace(LARGE, name=name, force=force, rate=250.0, price=price)
+                    for name, force, price in (("weak", 330.0, 300.0), ("strong", 420.0, 500.0)))  # fmt: skip
+    rows = [replace(SMALL, force=300.0, rate=250.0), weak, strong]
+    result = nd.optimize(replace(study, actuators=rows))
+    assert_choice(result, every_combination(study, rows))
+    assert names(result.actuators.chosen) == ["weak", "small", "strong"]  # external legs carry nothing
+    assert "lower_force" in result.active
+    proved = {one.name: one.answer for one in result.certify().limits}
+    assert {proved[name] for name in ("upper_force", "lower_force", "external_rate", "lower_length")} == {"proved"}
+    cheap = nd.optimize(replace(study, actuators=rows, greatest_price=2100.0))
+    assert names(cheap.actuators.chosen) == ["weak", "small", "weak"]
+    assert cheap.objective > 1.01 * result.objective
+
+
+def test_equally_good_rows_go_by_their_price():
+    """The lower legs of the optimum use little of their rows."""
+    wide = [replace(LARGE, name=name, shortest=LARGE.shortest - k, price=price)
+            for k, (name, price) in enumerate({"dear": 310.0, "cheap": 300.0, "dearer": 320.0}.items())]  # fmt: skip
+    result = nd.optimize(replace(POSES, actuators=[SMALL, *wide]))
+    assert names(result.actuators.chosen)[2] == "cheap"
+    assert result.actuators.next_best.price > result.actuators.chosen.price
+
+
+def test_a_row_that_another_replaces_is_left_out():
+    worse = nd.Actuator("worse", 420.0, 640.0, price=300.0)
+    short = nd.Actuator("short", 500.0, 550.0, price=10.0)  # of a stroke below 80, the least of external and lower legs
+    search = ActuatorSearch(replace(REGION, actuators=[worse, *BOTH, short]), lambda *_: None)
+    assert search.rows == [[*BOTH], [*BOTH, short], [*BOTH]]
+    assert ActuatorSearch(replace(REGION, actuators=[LARGE, replace(LARGE, name="same")]), None).rows[0] == [LARGE]
+    result = nd.optimize(replace(POSES, actuators=[worse, *BOTH]))
+    assert result.actuators.left_out == ("worse",)
+    assert names(result.actuators.chosen) == ["large", "small", "large"]
+
+
+def test_all_legs_may_take_one_row():
+    tall = nd.Actuator("tall", 150.0, 800.0, price=500.0)
+    result = nd.optimize(replace(POSES, actuators=[*BOTH, tall], actuators_for="all"))
+    assert (names(result.actuators.chosen), result.actuators.chosen.price) == (["tall"] * 3, 4500.0)
+    assert "actuators: tall for all legs; price 4500" in result.actuators.words
+    assert result.actuators.combinations == 3
+
+
+def test_a_price_may_be_too_low():
+    thrifty = nd.Actuator("thrifty", 420.0, 650.0, price=280.0)
+    study = replace(POSES, actuators=[*BOTH, thrifty])
+    cheap = nd.optimize(replace(study, greatest_price=2000.0))
+    assert names(cheap.actuators.chosen) == ["thrifty", "small", "thrifty"]
+    assert cheap.actuators.next_best is None or cheap.actuators.next_best.price <= 2000.0
+    none = nd.optimize(replace(study, greatest_price=1000.0))
+    assert none.status == nd.Status.INFEASIBLE
+    assert none.reason == "rows fit each kind of legs, but no combination of at most 1000 does; the cheapest costs 900"
+    assert none.study.actuators == study.actuators
+
+
+def test_what_fails_where_no_row_fits():
+    rows = [nd.Actuator("tiny", 20.0, 60.0), nd.Actuator("less tiny", 40.0, 120.0)]
+    result = nd.optimize(replace(POSES, actuators=rows))
+    assert (result.status, result.best) == (nd.Status.INFEASIBLE, None)
+    assert (
+        "no row fits the external legs; the nearest, less tiny: no design found has external_length <= 120"
+        in result.reason
+    )
+    assert "no row fits the lower legs; the nearest, less tiny: " in result.reason
+    assert {"external_length", "lower_length"} <= set(result.causes)
+    impossible = replace(POSES, actuators=BOTH, constraints=LIMITS | {"height": (None, 100.0)})
+    assert "without limits of actuators too" in nd.optimize(impossible).reason
+
+
+def test_columns_without_effect_are_named():
+    strong = nd.Actuator("strong", 150.0, 800.0, force=800.0, rate=300.0)
+    result = nd.optimize(replace(POSES, actuators=[strong], loads={"wrenches": [[0, 0, 0, 0, 0, -100]]}, starts=1))
+    assert result.actuators.notes == ("the rates of the actuators are not looked at: the study states no speeds",)
+    assert result.study.constraints["lower_force"] == (None, 800.0)
+    assert "lower_rate" not in result.study.constraints
+
+
+def test_interrupted_the_best_so_far_is_returned(tmp_path):
+    study, begun = replace(POSES, actuators=[*BOTH, LONG]), []
+
+    class Ends:
+        def __init__(self, at):
+            self.at = at
+
+        def __call__(self, *_):
+            if self.at in begun[-1]:
+                raise KeyboardInterrupt
+
+        def phase(self, words):
+            begun.append(words)
+
+    early = nd.optimize(study, progress=Ends("any, any, any"), out=tmp_path / "run")
+    assert (early.interrupted, early.best, early.actuators) == (True, None, None)
+    assert "before a combination was solved" in early.reason
+    whole = nd.optimize(study, progress=Ends("never"))
+    last = [words for words in begun if "any" not in words][-1].split(" (")[0]
+    late = nd.optimize(study, progress=Ends(last), out=tmp_path / "run")
+    assert late.interrupted
+    assert late.actuators is None or late.objective >= whole.objective * (1 - 1e-9)
+    on = nd.optimize(study, out=tmp_path / "run")
+    assert on.actuators == whole.actuators
+    assert on.candidates == whole.candidates
+    assert nd.optimize(study, out=tmp_path / "run").candidates == whole.candidates
+
+
+def test_the_time_limit_ends_the_search():
+    result = nd.optimize(replace(POSES, actuators=[*BOTH, LONG]), time_limit=1e-3)
+    assert (result.status, result.interrupted) == (nd.Status.STOPPED, False)
+    assert result.reason.startswith("the search of actuators ended after 0 studies")
+
+
+def test_a_run_keeps_the_choice(tmp_path):
+    result = nd.optimize(replace(POSES, actuators=BOTH))
+    nd.save(result, tmp_path / "run")
+    loaded = nd.load(tmp_path / "run")
+    assert loaded.actuators == result.actuators
+    assert loaded.study == result.study
+    assert loaded.summary() == result.summary()
+    assert math.isclose(loaded.objective, result.objective)
+
+
+def test_who_does_not_choose_rows_refuses_them():
+    study = replace(POSES, actuators=BOTH)
+    for call in (lambda: nd.pareto(study, "base_cone"), lambda: nd.admissible(study, ("a2", "b1"))):
+        with pytest.raises(ValueError, match="study: got one with actuators, expected the run of `optimize`"):
+            call()
