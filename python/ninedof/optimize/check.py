@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -129,6 +129,8 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0, *, certify: 
         got = getattr(result, "status", None)
         what = f"one without a design (status {str(got)!r})" if got is not None else type(result).__name__
         raise ValueError(f"result: got {what}, expected a Result with a design")
+    if result.reserve is not None:  # an optimum of the study that was solved
+        result = replace(result, study=result.reserve.study(result.study), reserve=None)
     steps = whole("perturbations", perturbations, 0, MOST_PERTURBATIONS)
     findings = [*_of_design(result), *_of_claims(result, steps, whole("seed", seed, 0))]
     if flag("certify", certify):

@@ -17,6 +17,7 @@ from ninedof.design.study import Study
 from ninedof.optimize.actuators import ActuatorSearch, SearchEnded
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import RegionReport
+from ninedof.optimize.reserve import with_reserve
 from ninedof.optimize.result import Candidate, Result, Status, candidate_of
 from ninedof.optimize.warm import Warm, warm_starts, warm_variables
 from ninedof.optimize.words import axis_hint
@@ -52,6 +53,8 @@ def optimize(
     Parameters
     ----------
     study : Study
+        With tolerances: its limits are kept, and proved, of every machine within them, with a reserve that the proof
+        asks for (`Result.reserve`).
     starts, seed : int, optional
         In place of the study's own. If fewer than 16, and at most half, of the starts run to their end reach the best
         objective, as many starts again follow, up to four times `starts` in all: 256 by default. `starts = 1` is one.
@@ -122,7 +125,16 @@ def optimize(
     with nullcontext() if out is None else Store(out, question, 1) as store:
         pieces = Pieces(store)
         solve = _with_actuators if study.actuators else _optimized
+        begin = perf_counter()
         result = solve(study, count, progress, additional, pieces, seconds)
+        if study.tolerances:
+
+            def again(one: Study, known: Result) -> Result:
+                left = max(begin + seconds - perf_counter(), 1e-3)
+                found = warm_variables(known)
+                return _optimized(one, count, part_of(progress, "a reserve for tolerances"), found, pieces, left)
+
+            result = with_reserve(result, again, count)
         if not certify or result.best is None or result.interrupted:
             return result
         return _proved(result, count, progress, pieces)
@@ -189,6 +201,7 @@ def _anew(
         region=report,
         proof=None,
         actuators=None,
+        reserve=None,
     )
 
 

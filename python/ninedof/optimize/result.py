@@ -21,6 +21,7 @@ from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.actuator_choice import ActuatorChoice
 from ninedof.optimize.region_report import RegionReport
+from ninedof.optimize.reserve import Reserve
 from ninedof.optimize.tables import candidates_table
 from ninedof.optimize.words import agreement_sentence, price_words, reached_words
 from ninedof.proof.machine import certify, machine_digest
@@ -155,6 +156,8 @@ class Result:
     """The proof about every design of the study, with `certify`."""
     actuators: ActuatorChoice | None = field(default=None, kw_only=True)
     """Of a study with actuators: the rows of its legs. `study` then has their limits in the place of the catalogue."""
+    reserve: Reserve | None = field(default=None, kw_only=True)
+    """Of a study with tolerances: what the search kept of its limits, so that every machine within them keeps them."""
     runs_completed: int | None = field(default=None, kw_only=True)
     """Starts followed to their end in the round that found the best design, where that is known; warm starts, which are
     no evidence, are not counted."""
@@ -445,6 +448,7 @@ class Result:
         if self.internal_points:
             lines.append(self.internal_points)
         lines.extend(self.actuators.words if self.actuators else ())
+        lines.extend(self.reserve.words if self.reserve else ())
         lines.extend(price_words(self.study, best.variables, best.prices))
         if len(self.candidates) > 1:
             lines.append(f"the next best optimum has {self.candidates[1].objective:.6f}")
@@ -491,7 +495,8 @@ def with_fixed_design(result: Result) -> Result:
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:
     """Return the result of a mapping as `Result.to_dict` makes it."""
-    entries = entries_of(Result, data, skipped=["status", "candidates", "study", "region", "proof", "actuators"])
+    parts = ["status", "candidates", "study", "region", "proof", "actuators", "reserve"]
+    entries = entries_of(Result, data, skipped=parts)
     region = None if data.get("region") is None else RegionReport.from_dict(data["region"])
     problem = (study if region is None else region.posed(study)).problem()
     rows = items("candidates", data.get("candidates"), "a list of candidates")
@@ -500,6 +505,7 @@ def result_from(study: Study, data: Mapping[str, Any]) -> Result:
         region=region,
         proof=None if data.get("proof") is None else OptimumProof.from_dict(data["proof"]),
         actuators=None if data.get("actuators") is None else ActuatorChoice.from_dict(data["actuators"]),
+        reserve=None if data.get("reserve") is None else Reserve.from_dict(data["reserve"]),
         status=Status(choice("status", data.get("status"), list(Status))),
         candidates=tuple(candidate_from(problem, entry, f"candidates[{k}]") for k, entry in enumerate(rows)),
         study=study,
@@ -513,7 +519,7 @@ def _to_dict(record: Candidate | Result) -> dict[str, Any]:
 def _plain(value: Any) -> Any:
     if isinstance(value, Status):
         return str(value)
-    if isinstance(value, RegionReport | OptimumProof | ActuatorChoice):
+    if isinstance(value, RegionReport | OptimumProof | ActuatorChoice | Reserve):
         return value.to_dict()
     if isinstance(value, Fixed):
         return dict(value)

@@ -62,6 +62,8 @@ def agreement_words(result: Any) -> Iterator[str]:
         yield result.internal_points
     if result.actuators is not None:
         yield from result.actuators.words
+    if result.reserve is not None:
+        yield from result.reserve.words
     yield result.agreement
 
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from time import perf_counter
-from typing import Any, TypedDict, Unpack
+from typing import TypedDict, Unpack
 
 import numpy as np
 
 from ninedof import _core
 from ninedof.design.duty import Tolerances
 from ninedof.design.limits import label
+from ninedof.design.objective import Objective
 from ninedof.design.region import Region
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
@@ -123,20 +125,12 @@ def certify(
     begin = perf_counter()
     rule = _rule(region, configurations[0], values["rule"], resume)
     end = perf_counter() + seconds  # finding a rule does not count for the time limit
-    over = None if region is None else region.for_core()
-    by_rule = None if rule is None else rule.for_core()
-    errors_of_all = _core.Tolerances(legs=np.full(9, built.legs), joints=np.full(12, built.joints))
-
-    def robot(at: Configuration, *where: Any) -> _core.PosedRobot:
-        return _core.PosedRobot(geometry, at, float(characteristic_length), *where, errors_of_all)
-
     def settings(bounds: list[float]) -> _core.ConditionSettings:
         remaining = end - perf_counter()
         return _core.ConditionSettings(threads=threads, seconds=remaining, gap=gap, wanted=bounds, tolerance=slack)
 
     phase(progress, "proving the limits")
-    alone = configurations[[0, 0]]
-    machine = robot(alone if only_neutral else configurations, over, by_rule)
+    machine = posed_robot(study, geometry, configurations, characteristic_length, rule, built)
     over_poses = _core.limits_over_poses(machine, study.problem(), slack, threads, max(seconds, FOR_LIMITS))
     limits = [_limit_proof(limit, only_neutral) for limit in over_poses.limits]
 
@@ -151,9 +145,9 @@ def certify(
     limits_of_index = {name: bound for name, bound in bounds.items() if bound is not None}
     at_neutral = []
     if (bound := objective.neutral_condition_limit) is not None:
-        of_neutral = _core.search_condition(
-            robot(alone, None, None), settings([bound]), _core.ConditionState(), None, None
-        )
+        alone = replace(study, objective=Objective())
+        at_home = posed_robot(alone, geometry, configurations[[0]], characteristic_length, None, built)
+        of_neutral = _core.search_condition(at_home, settings([bound]), _core.ConditionState(), None, None)
         if of_neutral.interrupted:
             raise KeyboardInterrupt
         at_neutral.append(_condition_proof(label("condition_limit", "neutral"), bound, of_neutral, True, slack))
@@ -186,6 +180,29 @@ def certify(
         machine, settings(list(limits_of_index.values())), _state_of(resume), keep_state, progress
     )
     return certificate(state, state.interrupted)
+
+
+def posed_robot(
+    study: Study,
+    geometry: Geometry,
+    configurations: Configuration,
+    characteristic_length: float,
+    rule: PointRule | None,
+    built: Tolerances,
+) -> _core.PosedRobot:
+    """Return a design with all poses of a study, as it is drawn or as it is built: for proofs.
+
+    The configurations are the neutral one, then the poses listed in the study.
+    """
+    region = study.objective.region
+    return _core.PosedRobot(
+        geometry,
+        configurations[[0, 0]] if region is None and len(configurations) == 1 else configurations,
+        float(characteristic_length),
+        None if region is None else region.for_core(),
+        None if rule is None else rule.for_core(),
+        _core.Tolerances(legs=np.full(9, built.legs), joints=np.full(12, built.joints)),
+    )
 
 
 def machine_digest(

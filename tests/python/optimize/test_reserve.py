@@ -1,0 +1,129 @@
+"""Studies with tolerances: their limits hold of every machine within them. Oracle: random machines, by numpy."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import numpy_model as model
+import pytest
+from proved_machine import study as study_of
+from region_poses import disc, drawn
+from scipy.spatial.transform import Rotation
+from sizes import size
+
+import ninedof as nd
+from ninedof.optimize.result import result_from
+
+REQUIREMENT = nd.Study.load(Path(__file__).parents[3] / "examples" / "18_requirement.toml")
+TOLERANCES = nd.Tolerances(joints=0.3, legs=0.1)
+
+
+@pytest.fixture(scope="module")
+def result():
+    return nd.optimize(replace(REQUIREMENT, tolerances=TOLERANCES), starts=4)
+
+
+def strokes(result, rng, machines, poses):
+    """Stroke ratios of random machines whose joints lie on the spheres of their tolerances, by leg."""
+    best, region = result.best, result.study.objective.region
+    shift, tilt, _ = drawn(region, best.variables["zp"], rng, poses, share=0.9)
+    q = (Rotation.from_rotvec(tilt) * Rotation.from_matrix(best.configuration.rotation)).as_matrix()
+    home = best.configuration
+    m = model.robot(best.geometry, nd.Configuration(home.position + shift, q, home.internal_point + shift))
+    for _ in range(machines):
+        moved = {}
+        for name in ("r", "rh", "u", "ut"):
+            v = disc(rng, 3, 3, 1.0)
+            moved[name] = getattr(m, name) + TOLERANCES.joints * v
+        lengths = model.lengths(m._replace(**moved))
+        yield (lengths.max(axis=0) + TOLERANCES.legs) / (lengths.min(axis=0) - TOLERANCES.legs)
+
+
+def test_every_machine_within_tolerances_keeps_the_limits(result):
+    most = REQUIREMENT.constraints["stroke_ratio"][1]
+    rng = np.random.default_rng(5)
+    seen = np.max([*strokes(result, rng, size(100, 1000), size(3_000, 20_000))])
+    assert seen <= most
+    assert seen > 1.397  # near its limit: the reserve is no larger than it need be
+    drawn_one = nd.optimize(REQUIREMENT, starts=4)
+    assert max(one.max() for one in strokes(drawn_one, rng, 20, 3_000)) > most
+    assert 0.0 < result.objective / drawn_one.objective - 1.0 < 5e-3
+
+
+def test_the_proof_succeeds_and_needs_the_reserve(result):
+    assert result.reserve.proved
+    assert set(result.reserve.shares) == {"stroke_ratio max"}
+    assert result.certify(time_limit=1.0, slack=0.0).proved
+    assert result.certify(time_limit=1.0).tolerances == TOLERANCES
+    assert any("reserve for the tolerances: stroke ratio max" in line for line in result.summary().splitlines())
+    assert result.study.tolerances == TOLERANCES
+    assert result.study.constraints == REQUIREMENT.constraints
+    largest = result.largest_tolerance()
+    assert TOLERANCES.joints <= largest.joints < 1.3 * TOLERANCES.joints
+    assert largest.legs == pytest.approx(largest.joints / 3.0)
+
+
+def test_a_result_with_a_reserve_is_an_optimum_of_the_study_that_was_solved(result):
+    assert nd.check(result, perturbations=200).passed
+    again = result_from(result.study, result.to_dict())
+    assert again.reserve == result.reserve
+    assert again.best == result.best
+
+
+def test_a_folder_gives_the_same_result(tmp_path):
+    asked = replace(REQUIREMENT, tolerances=TOLERANCES)
+    first = nd.optimize(asked, starts=2, out=tmp_path / "run")
+    second = nd.optimize(asked, starts=2, out=tmp_path / "run")
+    assert second.best == first.best
+    assert second.reserve == first.reserve
+
+
+def test_without_tolerances_there_is_no_reserve():
+    assert nd.optimize(nd.Study.paper()).reserve is None
+
+
+def test_limits_that_need_no_reserve_leave_the_optimum_as_it_is():
+    region = nd.Region(box=(30.0, 40.0, 20.0))
+    asked = study_of(region)  # all variables fixed
+    wide = {"leg_length": (50.0, 900.0)}
+    plain = nd.optimize(replace(asked, constraints=wide))
+    kept = nd.optimize(replace(asked, constraints=wide, tolerances=TOLERANCES))
+    assert kept.reserve == nd.optimize(replace(asked, constraints=wide, tolerances=TOLERANCES)).reserve
+    assert kept.reserve.proved
+    assert not kept.reserve.shares
+    assert kept.best == plain.best
+
+
+def test_tolerances_beyond_a_fixed_design_are_said():
+    asked = study_of(nd.Region(box=(30.0, 40.0, 20.0)))
+    result = nd.optimize(replace(asked, tolerances=nd.Tolerances(joints=5.0)))
+    assert not result.reserve.proved
+    assert result.best is None
+    assert result.reason.startswith("with a reserve for the tolerances: ")
+
+
+def test_tolerances_as_large_as_the_machine_are_no_crash():
+    result = nd.optimize(replace(REQUIREMENT, tolerances=nd.Tolerances(joints=300.0)), starts=2)
+    assert not result.reserve.proved
+    assert "not proved" in " ".join(result.reserve.words)
+
+
+def test_a_listed_pose_and_the_neutral_one_are_proved_too():
+    asked = nd.Study(
+        family="hexagonal",
+        variables={
+            "a1": (0.0, 6.0),
+            "a2": (3.0, 6.0),
+            "b1": (1.0, 4.0),
+            "b2": (0.0, 4.0),
+            "zp": (2.0, 8.0),
+            "zs": (1.0, 6.0),
+        },
+        constraints={"radius_ratio": (None, 2.0), "leg_length": (2.0, 6.0)},
+        objective=nd.Objective(poses=[nd.Pose((0.3, 0.0, 0.0))]),
+        tolerances=nd.Tolerances(joints=0.01, legs=0.01),
+    )
+    result = nd.optimize(asked, starts=8)
+    assert result.reserve.proved
+    assert "radius_ratio max" in result.reserve.shares
+    assert result.certify(slack=0.0, time_limit=1.0).proved
