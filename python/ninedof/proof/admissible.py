@@ -32,7 +32,7 @@ MOST_VARIED = 4
 ENOUGH = 1e-5  # of the volume: what is undecided below it is not looked at
 AROUND_SECONDS = 20.0
 LONGEST = 1e9  # seconds
-METHOD = 2  # of the proofs: sets that another one proved are not gone on with
+METHOD = 3  # of the proofs: sets that another one proved are not gone on with
 POSES, SIDE = 400, 25  # of the sample: poses of the region, designs along a side
 
 
@@ -167,7 +167,8 @@ class AdmissibleSet:
     demands: tuple[tuple[str, str], ...]
     """All limits with their parts."""
     poses: Floats
-    """Where it is broken: the number of a listed pose or -1, then shift, tilt about x and y, and yaw, shape (n, 7)."""
+    """Where it is broken: the number of a listed pose or -1, then shift, tilt about x and y, and yaw; the same again, of
+    a spread of lengths where the leg is shortest; shape (n, 14)."""
     shares: Mapping[str, float]
     """The shares of the volume: "inside", "outside", "undecided"."""
     designs: int
@@ -310,9 +311,13 @@ class AdmissibleSet:
             "high": self.high,
             "state": self.state.tolist(),
             "demand": self.demand.tolist(),
-            "pose": self.poses[:, 0].astype(int).tolist(),
-            "at": np.ascontiguousarray(self.poses[:, 1:]),
+            "poses": self.poses,
         }
+
+    def certificate(self) -> bytes:
+        """Return a file that `ninedof check` and the program ninedof_check replay: the question, boxes, reasons."""
+        shares = [self.shares[name] for name in STATES]
+        return _core.design_certificate(self.of.for_core(), self.for_core(), self.demands, shares)
 
     def _boxes(self, state: int) -> Floats:
         chosen = self.state == state
@@ -399,7 +404,7 @@ def admissible(
         state=found["state"],
         demand=found["demand"],
         demands=found["demands"],
-        poses=np.column_stack([found["pose"], found["at"]]),
+        poses=found["poses"],
         shares=Fixed({name: found[name] for name in STATES}),
         designs=found["looked_at"] + (0 if resume is None else resume.designs),
         boxes=found["boxes"] + (0 if resume is None else resume.boxes),
@@ -480,7 +485,7 @@ def _range(study: Study, name: str, ends: object) -> tuple[float, float]:
 
 
 def _pose(row: list[float]) -> ProofPose:
-    listed, x, y, z, tilt_x, tilt_y, yaw = row
+    listed, x, y, z, tilt_x, tilt_y, yaw = row[:7]
     if listed >= 0:
         return ProofPose(listed=int(listed))
     return ProofPose((x, y, z), (tilt_x, tilt_y, 0.0), yaw)

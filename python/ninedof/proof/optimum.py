@@ -187,6 +187,8 @@ class CertificateCheck:
     boxes: int
     recut: int
     """Boxes that were cut further than by the search."""
+    incomplete: bool = False
+    """Of a set of designs: nothing in it is wrong, and not all of it could be confirmed."""
     study: tuple[str, ...] = ()
     """Of a proof: the designs that it is about, one line each, as the checker read them; angles in radians."""
 
