@@ -5,6 +5,9 @@
 namespace ninedof::checker::sets {
 namespace {
 
+/// The lines of a file, in this order.
+constexpr std::array keys{"family", "variable", "tool",  "characteristic_length", "region", "corner",
+                          "pose",   "limit",    "exempt", "shares",                "box"};
 constexpr std::array states{"inside", "outside", "undecided"};
 
 std::vector<std::string> names_of(const std::string& family) {
@@ -41,12 +44,18 @@ class LineWords {
     at_ = end + 1;
     return out;
   }
-  double real() { return number(word()); }
+  /// Each number has one spelling.
+  double real() {
+    const std::string text = word();
+    const double out = number(text);
+    if (hexadecimal(out) != text) refuse(quoted(text) + " is not spelled as " + quoted(hexadecimal(out)));
+    return out;
+  }
   int whole() {
     const std::string text = word();
     int out = 0;
-    if (std::from_chars(text.data(), text.data() + text.size(), out).ptr != text.data() + text.size() || text.empty())
-      refuse(quoted(text) + " is not a whole number");
+    std::from_chars(text.data(), text.data() + text.size(), out);
+    if (digits(out) != text) refuse(quoted(text) + " is not a whole number");
     return out;
   }
   template <std::size_t N>
@@ -78,44 +87,6 @@ class LineWords {
   std::size_t at_ = 0;
 };
 
-template <class Numbers>
-std::string spelled(const Numbers& all) {
-  std::string out;
-  for (const double x : all) out.append(1, ' ').append(hexadecimal(x));
-  return out;
-}
-std::string spelled(const Range& x) {
-  return spelled(std::array{x.a, x.b});
-}
-std::string spelled(const Patch& x) {
-  return std::string(1, ' ').append(digits(x.piece)).append(spelled(x.low));
-}
-
-std::string spelled(const DesignsFile& f) {
-  std::string out = "family " + f.family + "\n";
-  for (const Bound& one : f.variables) out += "variable " + one.name + spelled(one.range) + "\n";
-  out += "tool" + spelled(f.tool) + "\ncharacteristic_length " + hexadecimal(f.length) + "\nregion " + f.region.shape +
-         spelled(f.region.size) + spelled(std::array{f.region.tilt, f.region.yaw}) +
-         (f.region.shifted ? " shifted" : " held") + (f.region.in_zp ? " zp\n" : " length\n");
-  for (const Triple& corner : f.region.corners) out += "corner" + spelled(corner) + "\n";
-  for (const PoseLine& one : f.poses)
-    out += "pose" + spelled(one.position) + spelled(one.rotation) + spelled(one.internal) +
-           (one.in_zp ? " zp\n" : " length\n");
-  for (const LimitLine& one : f.limits)
-    out += "limit " + one.name + spelled(one.range) + " " + one.of + (one.at_neutral ? " neutral" : " poses") +
-           spelled(one.axis) + "\n";
-  for (const int pair : f.exempt) out += "exempt " + digits(pair) + "\n";
-  out += "shares" + spelled(f.shares) + "\n";
-  for (const BoxLine& one : f.boxes) {
-    out += "box";
-    for (std::size_t k = 0; k < f.varied.size(); ++k) out += spelled(one.ends[k]);
-    if (one.state == 'o') out += " outside " + digits(one.limit) + spelled(one.at) + spelled(one.other);
-    else out += one.state == 'i' ? " inside" : " undecided";
-    out += '\n';
-  }
-  return out;
-}
-
 LimitLine limit_of(LineWords& line) {
   LimitLine out;
   out.name = line.word();
@@ -142,12 +113,11 @@ BoxLine box_of(LineWords& line, const DesignsFile& file) {
   return out;
 }
 
-void add(const std::string& text, DesignsFile& out) {
-  LineWords line(text);
-  const std::string key = line.word();
+void add(const std::string& key, LineWords& line, DesignsFile& out) {
   if (key == "family") out.family = line.word();
   else if (key == "variable") {
-    out.variables.push_back({line.word(), line.range()});
+    const std::string name = line.word();
+    out.variables.push_back({name, line.range()});
     const Range& x = out.variables.back().range;
     if (!std::isfinite(x.a) || !std::isfinite(x.b)) refuse("a variable has no bounds");
     if (x.a < x.b) out.varied.push_back(out.variables.size() - 1);
@@ -169,9 +139,7 @@ void add(const std::string& text, DesignsFile& out) {
   } else if (key == "limit") out.limits.push_back(limit_of(line));
   else if (key == "exempt") out.exempt.push_back(line.whole());
   else if (key == "shares") out.shares = line.reals<3>();
-  else if (key == "box") out.boxes.push_back(box_of(line, out));
-  else refuse(quoted(key) + " means nothing");
-  if (!line.done()) refuse(quoted(text) + " goes on after its end");
+  else out.boxes.push_back(box_of(line, out));
 }
 
 void validate(const DesignsFile& file) {
@@ -188,6 +156,8 @@ void validate(const DesignsFile& file) {
   bool shape = false;
   for (const char* one : {"none", "box", "ball", "cylinder", "path"}) shape |= region.shape == one;
   if (!shape) refuse(quoted(region.shape) + " is no shape of a region");
+  for (const LimitLine& one : file.limits)
+    if (!(one.range.a < inf && one.range.b > 0.0)) refuse("the bounds of " + one.name + " allow nothing");
   for (const int pair : file.exempt)
     if (pair < 0 || pair > 20) refuse("a pair of legs is not from 0 to 20");
   if (file.boxes.empty()) refuse("the file has no boxes");
@@ -202,13 +172,24 @@ std::string plain(const Triple& x) {
 DesignsFile read_designs(const std::string& bytes) {
   const std::string body = unsealed(kind_of_designs, bytes, bytes.size());
   DesignsFile out;
+  std::size_t rank = 0;
   for (std::size_t at = 0; at < body.size();) {
-    const std::size_t end = std::min(body.find('\n', at), body.size());
-    add(body.substr(at, end - at), out);
+    const std::size_t end = body.find('\n', at);
+    if (end == std::string::npos) refuse("the last line has no end");
+    const std::string text = body.substr(at, end - at);
     at = end + 1;
+    LineWords line(text);
+    const std::string key = line.word();
+    const auto found = static_cast<std::size_t>(std::ranges::find(keys, key) - keys.begin());
+    if (found == keys.size()) refuse(quoted(key) + " means nothing");
+    const bool again = found + 1 == rank;
+    const bool many = key == "variable" || key == "corner" || key == "pose" || key == "limit" || key == "exempt" ||
+                      key == "box";
+    if (found + 1 < rank || (again && !many)) refuse("line " + quoted(text) + " is not in its place");
+    rank = found + 1;
+    add(key, line, out);
+    if (!line.done()) refuse(quoted(text) + " goes on after its end");
   }
-  if (body != spelled(out))
-    refuse("its lines are not written as the search writes them: in order, numbers in one spelling");
   validate(out);
   return out;
 }

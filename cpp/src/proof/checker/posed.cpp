@@ -186,8 +186,8 @@ bool beside(const DesignsFile& file, const Patch& patch) {
   return false;
 }
 
-Patch drawn_in(const DesignsFile& file, Patch pose) {
-  for (const Patch& all : all_poses(file)) {
+Patch drawn_in(const DesignsFile& file, const std::vector<Patch>& among, Patch pose) {
+  for (const Patch& all : among) {
     if (pose.piece != all.piece) continue;
     for (std::size_t k = 0; k < pose_symbols; ++k)
       pose.low[k] = pose.high[k] = std::min(std::max(pose.low[k], all.low[k]), all.high[k]);
@@ -200,8 +200,7 @@ Patch drawn_in(const DesignsFile& file, Patch pose) {
     }
     return pose;
   }
-  if (pose.piece == -1) return {};
-  refuse("pose " + digits(pose.piece) + " is none of this question");
+  refuse("pose " + digits(pose.piece) + " is none at which the limit holds");
 }
 
 /// In a disc of radius R the sum of b_k x_k is at least -R |b|; in the box each term has its own least value. The better

@@ -37,8 +37,8 @@ Arrow carried(const Stand& at, const Arrow& v);
 std::vector<Patch> all_poses(const DesignsFile& file);
 /// Whether a patch lies beside a round region.
 bool beside(const DesignsFile& file, const Patch& patch);
-/// The nearest pose of the file, a single one. Throws where there is no such piece.
-Patch drawn_in(const DesignsFile& file, Patch pose);
+/// The nearest pose of the file in these patches, a single one. Throws where its piece is none of theirs.
+Patch drawn_in(const DesignsFile& file, const std::vector<Patch>& among, Patch pose);
 /// At most the number at all poses of a patch that the file has, for all designs.
 double least_over(const DesignsFile& file, const Linear& x, const Patch& patch);
 

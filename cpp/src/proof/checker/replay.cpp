@@ -70,19 +70,22 @@ class DesignsReplay {
     }
   }
 
+  /// The poses at which a want holds: of the design alone the neutral one stands for all.
+  std::vector<Patch> poses_of(const Want& want) const {
+    using About = Want::About;
+    const bool of_design = want.about == About::height || want.about == About::design;
+    if (of_design || (want.limit > 1 && file_.limits[static_cast<std::size_t>(want.limit - 2)].at_neutral)) return {{}};
+    std::vector<Patch> out = all_poses(file_);
+    if (want.limit == 0 && out.front().piece != -1) out.emplace_back();
+    return out;
+  }
   std::vector<Pending> everything() const {
-    const Patch home;
     std::vector<Pending> out;
     for (const Want& want : wants_) {
-      using About = Want::About;
-      const bool of_design = want.about == About::height || want.about == About::design;
-      const bool neutral =
-          of_design || (want.limit > 1 && file_.limits[static_cast<std::size_t>(want.limit - 2)].at_neutral);
-      std::vector<Patch> patches = neutral ? std::vector<Patch>{home} : all_poses(file_);
-      if (want.limit == 0 && patches.front().piece != -1) patches.push_back(home);
       Pending one{&want, {}};
-      for (const Patch& at : patches)
-        for (const Patch& other : want.about == About::spread ? patches : std::vector<Patch>{home})
+      const std::vector<Patch> poses = poses_of(want);
+      for (const Patch& at : poses)
+        for (const Patch& other : want.about == Want::About::spread ? poses : std::vector<Patch>{{}})
           one.spots.push_back({at, other});
       out.push_back(std::move(one));
     }
@@ -215,7 +218,7 @@ class DesignsReplay {
     const Weigher weigher(file_, middle_of_cube(cube));
     for (const Pending& one : pending)
       for (const Spot& spot : one.spots) {
-        const Spot point{drawn_in(file_, middle_of_patch(spot.at)), drawn_in(file_, middle_of_patch(spot.other))};
+        const Spot point{drawn_in(file_, {spot.at}, middle_of_patch(spot.at)), drawn_in(file_, {spot.other}, middle_of_patch(spot.other))};
         if (weigher.weigh(*one.want, point).high < 0.0)
           refuse(name + " is called inside, and its design in the middle breaks " + limit_name(one.want->limit));
       }
@@ -226,17 +229,18 @@ class DesignsReplay {
   }
 
   bool outside(const Cube& cube, const BoxLine& box, int halvings, const std::string& name) {
-    const Spot spot{drawn_in(file_, box.at), drawn_in(file_, box.other)};
     if (box.limit < 0 || box.limit > 1 + static_cast<int>(file_.limits.size())) refuse(name + " names no limit");
     const Weigher all(file_, cube), middle(file_, middle_of_cube(cube));
-    bool kept = true;
+    bool kept = std::ranges::find(unknown_, limit_name(box.limit)) == unknown_.end();
     for (const Want& want : wants_) {
       if (want.limit != box.limit) continue;
+      const std::vector<Patch> poses = poses_of(want);
+      Spot spot;
+      if (poses.size() > 1 || poses[0].piece != -1) spot = {drawn_in(file_, poses, box.at), drawn_in(file_, poses, box.other)};
       if (all.weigh(want, spot).high < 0.0) return true;
       kept = kept && middle.weigh(want, spot).low > 0.0;
     }
-    const bool known = std::ranges::find(unknown_, limit_name(box.limit)) == unknown_.end();
-    if (kept && known) refuse(name + " is called outside, and its design in the middle keeps the limit at that pose");
+    if (kept) refuse(name + " is called outside, and its design in the middle keeps the limit at that pose");
     if (halvings == 0) return false;
     std::size_t k = 0;
     const auto width = [&](std::size_t n) { return (cube[n].b - cube[n].a) / (whole_[n].b - whole_[n].a); };

@@ -44,14 +44,18 @@ std::vector<Want> wants_of(const DesignsFile& file, std::vector<std::string>& un
   for (int k = 0; k < 2; ++k) out.push_back({About::height, 1, k});
   for (int n = 0; n < static_cast<int>(file.limits.size()); ++n) {
     const LimitLine& one = file.limits[static_cast<std::size_t>(n)];
-    bool known = true;
+    const auto legs = legs_of(one.name);
+    const bool of_zp = one.name == "leg_clearance" || one.name == "stroke" || (legs && legs->about == About::length);
+    bool known = (one.of == "length" || (one.of == "zp" && of_zp) ||
+                  (one.of == "radius" && one.name.starts_with("joint_"))) &&
+                 (one.axis == Triple{} || (legs && legs->about == About::cone));
     for (const bool high : {false, true}) {
       const double bound = high ? one.range.b : one.range.a;
       if (!(bound > 0.0) || !(bound < inf)) continue;
       const auto add = [&](About about, int count, bool platform = false, int first = 0) {
         for (int k = first; k < first + count; ++k) out.push_back({about, n + 2, k, k, high, platform});
       };
-      if (const auto legs = legs_of(one.name)) {
+      if (legs) {
         add(legs->about, legs->count, legs->platform, legs->first);
         known = known && (legs->about == About::length || high);
       } else if (one.name == "leg_clearance" && !high) {
@@ -254,7 +258,7 @@ void Weigher::design(const Want& want, Weighed& out) const {
       }
       for (std::size_t j = body; j < i; ++j) {
         const Arrow apart = mount_.plate[i] - mount_.plate[j];
-        each(some(body, [&](std::size_t k) { return square_root(dot(apart, apart)) - limit(k); }));
+        each(some(body, [&](std::size_t k) { return dot(apart, apart) - squared(limit(k)); }));
       }
     }
   }
