@@ -65,8 +65,8 @@ std::vector<DesignPiece> pieces_from(const py::dict& from, std::size_t count) {
   const auto state = from["state"].cast<std::vector<int>>(), demand = from["demand"].cast<std::vector<int>>();
   const auto n = static_cast<py::ssize_t>(state.size());
   if (low.ndim() != 2 || low.shape(0) != n || low.shape(1) != static_cast<py::ssize_t>(count) || high.ndim() != 2 ||
-      high.shape(0) != n || high.shape(1) != low.shape(1) || poses.ndim() != 2 || poses.shape(0) != n || poses.shape(1) != 14 ||
-      demand.size() != state.size())
+      high.shape(0) != n || high.shape(1) != low.shape(1) || poses.ndim() != 2 || poses.shape(0) != n ||
+      poses.shape(1) != 14 || demand.size() != state.size())
     throw InvalidArgument("earlier", "arrays of other shapes", "those of an earlier run");
   std::vector<DesignPiece> out(state.size());
   for (py::ssize_t k = 0; k < n; ++k) {
@@ -118,8 +118,8 @@ void bind_admissible(py::module_& m) {
       py::arg("undecided"), py::arg("earlier") = py::none(), py::arg("progress") = py::none());
   m.def(
       "design_certificate",
-      [](const DesignQuestion& question, const py::dict& pieces, const std::vector<std::pair<std::string, std::string>>&
-         demands, const std::array<double, 3>& shares) {
+      [](const DesignQuestion& question, const py::dict& pieces,
+         const std::vector<std::pair<std::string, std::string>>& demands, const std::array<double, 3>& shares) {
         question.validate();
         DesignSet set;
         for (const auto& [limit, part] : demands) set.demands.push_back({limit, part});

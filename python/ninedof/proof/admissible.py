@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Collection, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple, Protocol, TypedDict, Unpack
 
@@ -19,9 +21,9 @@ from ninedof.design.region_poses import configurations_at, places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine_record import ProofPose
 from ninedof.robot.configuration import Configuration
-from ninedof.support.arguments import finite, instance, items, pair, shown, table, text, whole
+from ninedof.support.arguments import finite, instance, items, pair, path_argument, shown, table, text, whole
 from ninedof.support.arrays import MOST_THREADS, Floats, as_floats
-from ninedof.support.files import sha256
+from ninedof.support.files import sha256, write_whole
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.structs import Fixed, options_of
 from ninedof.support.units import amount
@@ -314,10 +316,11 @@ class AdmissibleSet:
             "poses": self.poses,
         }
 
-    def certificate(self) -> bytes:
-        """Return a file that `ninedof check` and the program ninedof_check replay: the question, boxes, reasons."""
+    def save_certificate(self, path: str | os.PathLike[str]) -> Path:
+        """Write a file that `check_certificate` and the program ninedof_check replay: the question, boxes, reasons."""
         shares = [self.shares[name] for name in STATES]
-        return _core.design_certificate(self.of.for_core(), self.for_core(), self.demands, shares)
+        data = _core.design_certificate(self.of.for_core(), self.for_core(), self.demands, shares)
+        return write_whole(path_argument("path", path), data)
 
     def _boxes(self, state: int) -> Floats:
         chosen = self.state == state

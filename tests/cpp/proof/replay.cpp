@@ -23,7 +23,8 @@ using sets::Want;
 
 namespace {
 
-Limit limited(const std::string& name, double low, double high, Unit of = Unit::length, const Vec3& axis = Vec3::Zero()) {
+Limit limited(const std::string& name, double low, double high, Unit of = Unit::length,
+              const Vec3& axis = Vec3::Zero()) {
   Limit out;
   out.name = name;
   if (low > 0.0) out.low = low;
@@ -64,7 +65,8 @@ DesignQuestion question(const Kind& kind, Region::Shape shape, bool in_zp, doubl
   region.shape = shape;
   const double unit = in_zp ? 0.2 : 1.0;
   region.size = unit * Vec3(0.5, 0.4, 0.3);
-  if (shape == Region::Shape::path) region.corners = {unit * Vec3(-0.5, 0, 0), unit * Vec3(0, 0.4, 0), unit * Vec3(0.1, 0.4, 0.6)};
+  if (shape == Region::Shape::path)
+    region.corners = {unit * Vec3(-0.5, 0, 0), unit * Vec3(0, 0.4, 0), unit * Vec3(0.1, 0.4, 0.6)};
   region.tilt = 0.2;
   region.yaw = 0.3;
   region.in_zp = in_zp;
@@ -125,7 +127,8 @@ double margin_of(const DesignQuestion& q, const Want& want, const DrawnDesign& d
   if (want.about == Want::About::design) {
     const Geometry own = design_family(q.problem.family).geometry({design.x.data(), q.at.size()});
     std::vector<Vec3> joints;
-    for (const Triple* t : {&own.base_external(), &own.base_internal(), &own.platform_external(), &own.platform_internal()})
+    for (const Triple* t :
+         {&own.base_external(), &own.base_internal(), &own.platform_external(), &own.platform_internal()})
       joints.insert(joints.end(), t->begin(), t->end());
     const auto radius = [&](std::size_t first, std::size_t count) {
       double most = 0.0;
@@ -164,7 +167,10 @@ Configuration drawn_pose(const DesignQuestion& q, const DrawnDesign& design, con
   at = patch;
   for (std::size_t k = 0; k < 6; ++k) {
     const double t = unit(random);
-    at.low[k] = at.high[k] = patch.low[k] + (t < 0.25 ? 0.0 : t > 0.75 ? 1.0 : 2.0 * t - 0.5) * (patch.high[k] - patch.low[k]);
+    at.low[k] = at.high[k] = patch.low[k] + (t < 0.25   ? 0.0
+                                             : t > 0.75 ? 1.0
+                                                        : 2.0 * t - 0.5) *
+                                                (patch.high[k] - patch.low[k]);
   }
   const std::vector<Configuration> listed = configurations(q.problem, design.x);
   if (patch.piece < 0) return listed[static_cast<std::size_t>(-1 - patch.piece)];
@@ -176,11 +182,16 @@ Configuration drawn_pose(const DesignQuestion& q, const DrawnDesign& design, con
     region.corners = {region.corners[k], region.corners[k + 1]};
     x[0] = 2.0 * x[0] - 1.0;
   }
-  region.tool_height = (listed.front().position - configurations([&] {
-                          Problem own = q.problem;
-                          own.tool = {};
-                          return own;
-                        }(), design.x).front().position).z();
+  region.tool_height = (listed.front().position - configurations(
+                                                      [&] {
+                                                        Problem own = q.problem;
+                                                        own.tool = {};
+                                                        return own;
+                                                      }(),
+                                                      design.x)
+                                                      .front()
+                                                      .position)
+                           .z();
   return region.configuration(x, listed.front());
 }
 
@@ -228,11 +239,14 @@ TEST_SUITE("replay") {
               }
               return patch;
             };
-            const auto any = [&] { return roots[static_cast<std::size_t>(unit(random) * static_cast<double>(roots.size()))]; };
+            const auto any = [&] {
+              return roots[static_cast<std::size_t>(unit(random) * static_cast<double>(roots.size()))];
+            };
             const sets::Spot spot{smaller(any()), smaller(any())};
             DrawnDesign design;
             design.x = Eigen::Map<const Eigen::VectorXd>(q.at.data(), static_cast<Eigen::Index>(q.at.size()));
-            for (std::size_t k = 0; k < 4; ++k) design.x[q.varied[k]] = q.low[k] + unit(random) * (q.high[k] - q.low[k]);
+            for (std::size_t k = 0; k < 4; ++k)
+              design.x[q.varied[k]] = q.low[k] + unit(random) * (q.high[k] - q.low[k]);
             sets::Spot at;
             const Configuration here = drawn_pose(q, design, spot.at, random, at.at),
                                 there = drawn_pose(q, design, spot.other, random, at.other);
@@ -242,7 +256,8 @@ TEST_SUITE("replay") {
               const double margin = margin_of(q, want, design, here, there);
               INFO(kind.family << " limit " << want.limit << " item " << want.item << " " << want.second << " half "
                                << half << " piece " << spot.at.piece << " margin " << margin << " low " << found.low);
-              const bool sign = want.about == Want::About::condition || want.limit == 0 || want.limit == 18;  // of another size
+              const bool sign =
+                  want.about == Want::About::condition || want.limit == 0 || want.limit == 18;  // of another size
               const auto about = static_cast<std::size_t>(want.about);
               const double slack = 1e-12;
               if (!sign || found.low > 0.0) CHECK(margin > (sign ? -1e-9 : found.low - slack));
@@ -258,5 +273,45 @@ TEST_SUITE("replay") {
     for (const int count : known) CHECK(count > 10);
     for (std::size_t k = 1; k < broken.size(); ++k)
       if (k != static_cast<std::size_t>(Want::About::determinant)) CHECK(broken[k] > 2);
+  }
+
+  TEST_CASE("a genuine certificate is proved, and refused once it says more") {
+    DesignQuestion q;
+    q.problem.variables = {{0.0, 0.0}, {2.0, 10.0}, {1.0, 5.0}, {0.0, 0.0}, {5.0, 5.0}, {3.0, 3.0}, {0.0, 0.0}};
+    q.problem.limits = {limited("leg_length", 0.0, 6.6)};
+    q.at = {0.0, 6.0, 3.0, 0.0, 5.0, 3.0, 0.0};
+    q.varied = {2, 1};  // not in the order of the family
+    q.low = {1.0, 2.0};
+    q.high = {5.0, 10.0};
+    q.condition = 4.5;
+    DesignSettings settings;
+    settings.resolution = 0.1;
+    const DesignSet set = admissible_designs(q, settings);
+    const std::string file = design_certificate(q, set);
+    const checker::Verdict good = checker::check(file);
+    CHECK_MESSAGE(good.proved, good.words);
+    CHECK(good.leaves == static_cast<long>(set.pieces.size()));
+
+    for (const auto& [from, to] : {std::pair<std::string, std::string>{" outside 3", " outside 2"},
+                                   {" undecided", " inside"},
+                                   {" inside", " undecided"},
+                                   {"variable a2 0x1p+1", "variable a2 0x1.8p+0"},
+                                   {"variable zp 0x1.4p+2 0x1.4p+2", "variable zp 0x1.8p+2 0x1.8p+2"},
+                                   {"limit condition_number 0x0p+0 0x1.2p+2", "limit condition_number 0x0p+0 0x1p+2"},
+                                   {"limit condition_number 0x0p+0 0x1.2p+2 length poses",
+                                    "limit fault_tolerant 0x0p+0 0x1.2p+2 length poses"}}) {
+      INFO(from << " -> " << to);
+      const checker::Verdict bad = checker::check(resealed(file, from, to));
+      CHECK_FALSE(bad.proved);
+      CHECK_FALSE(bad.words.empty());
+    }
+    std::string damaged = file;
+    damaged[file.size() / 2] = static_cast<char>(damaged[file.size() / 2] ^ 1);
+    CHECK_FALSE(checker::check(damaged).proved);
+    CHECK_FALSE(checker::check(file.substr(0, file.size() / 2)).proved);
+
+    DesignSet without = set;
+    without.demands.clear();
+    CHECK_THROWS_AS(design_certificate(q, without), InvalidArgument);
   }
 }

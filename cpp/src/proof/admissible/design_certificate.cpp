@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ninedof/math/error.hpp"
 #include "proof/admissible/demands.hpp"
 #include "proof/optimum/certificate.hpp"
 
@@ -101,7 +102,9 @@ class DesignLines {
     line("limit " + name, {low, high}, std::string(" ") + of + (neutral ? " neutral" : " poses") + spelled({axis}));
   }
   int limit_of(const DesignPiece& piece) const {
-    const std::string& label = set_.demands.at(static_cast<std::size_t>(piece.demand)).limit;
+    const auto n = static_cast<std::size_t>(piece.demand);
+    if (n >= set_.demands.size()) throw InvalidArgument("pieces", std::to_string(piece.demand), "indices of demands");
+    const std::string& label = set_.demands[n].limit;
     return static_cast<int>(std::ranges::find(labels_, label) - labels_.begin());
   }
 

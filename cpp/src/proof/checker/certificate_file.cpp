@@ -1,6 +1,5 @@
 #include "proof/checker/certificate_file.hpp"
 
-
 namespace ninedof::checker {
 
 namespace {
@@ -13,7 +12,8 @@ std::string written(const Bound& b) {
 
 /// What follows the checksum, as docs/certificate.md has it.
 std::string written(const Certificate& c) {
-  std::string out = "family " + c.family + "\ntarget " + hexadecimal(c.target) + "\ncharacteristic_length " + hexadecimal(c.length) + "\n";
+  std::string out = "family " + c.family + "\ntarget " + hexadecimal(c.target) + "\ncharacteristic_length " +
+                    hexadecimal(c.length) + "\n";
   for (const Bound& b : c.variables) out += "variable " + written(b);
   for (const Bound& b : c.limits) out += "limit " + written(b);
   for (const std::string& limit : c.left_out) out += "left_out " + limit + "\n";

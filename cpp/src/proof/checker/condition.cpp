@@ -28,8 +28,7 @@ Square<Linear, 3> parallel_sum(const Square<Linear, 3>& h, const Square<Linear, 
       const std::size_t a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
       cofactor[i][j] = sum[a][c] * sum[b][d] - sum[a][d] * sum[b][c];
     }
-  const Linear over =
-      inverse(sum[0][0] * cofactor[0][0] + sum[0][1] * cofactor[0][1] + sum[0][2] * cofactor[0][2]);
+  const Linear over = inverse(sum[0][0] * cofactor[0][0] + sum[0][1] * cofactor[0][1] + sum[0][2] * cofactor[0][2]);
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       first[i][j] = h[i][0] * cofactor[0][j] + h[i][1] * cofactor[1][j] + h[i][2] * cofactor[2][j];

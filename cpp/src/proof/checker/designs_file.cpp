@@ -6,8 +6,8 @@ namespace ninedof::checker::sets {
 namespace {
 
 /// The lines of a file, in this order.
-constexpr std::array keys{"family", "variable", "tool",  "characteristic_length", "region", "corner",
-                          "pose",   "limit",    "exempt", "shares",                "box"};
+constexpr std::array keys{"family", "variable", "tool", "characteristic_length", "region", "corner", "pose", "limit",
+                          "exempt", "shares",   "box"};
 constexpr std::array states{"inside", "outside", "undecided"};
 
 std::vector<std::string> names_of(const std::string& family) {
@@ -183,8 +183,8 @@ DesignsFile read_designs(const std::string& bytes) {
     const auto found = static_cast<std::size_t>(std::ranges::find(keys, key) - keys.begin());
     if (found == keys.size()) refuse(quoted(key) + " means nothing");
     const bool again = found + 1 == rank;
-    const bool many = key == "variable" || key == "corner" || key == "pose" || key == "limit" || key == "exempt" ||
-                      key == "box";
+    const bool many =
+        key == "variable" || key == "corner" || key == "pose" || key == "limit" || key == "exempt" || key == "box";
     if (found + 1 < rank || (again && !many)) refuse("line " + quoted(text) + " is not in its place");
     rank = found + 1;
     add(key, line, out);

@@ -159,8 +159,12 @@ std::vector<Patch> all_poses(const DesignsFile& file) {
     const bool path = region.shape == "path", ball = region.shape == "ball", cylinder = region.shape == "cylinder";
     const double first = region.size[0];
     one.high = {path ? 1.0 : first,
-                path ? 0.0 : ball || cylinder ? first : region.size[1],
-                path ? 0.0 : ball ? first : region.size[2],
+                path               ? 0.0
+                : ball || cylinder ? first
+                                   : region.size[1],
+                path   ? 0.0
+                : ball ? first
+                       : region.size[2],
                 region.tilt,
                 region.tilt,
                 region.yaw};

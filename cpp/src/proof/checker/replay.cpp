@@ -25,7 +25,8 @@ Cube middle_of_cube(const Cube& cube) {
   return out;
 }
 Patch middle_of_patch(Patch patch) {
-  for (std::size_t k = 0; k < pose_symbols; ++k) patch.low[k] = patch.high[k] = 0.5 * patch.low[k] + 0.5 * patch.high[k];
+  for (std::size_t k = 0; k < pose_symbols; ++k)
+    patch.low[k] = patch.high[k] = 0.5 * patch.low[k] + 0.5 * patch.high[k];
   return patch;
 }
 
@@ -62,10 +63,10 @@ class DesignsReplay {
     };
     for (const int pair : file_.exempt) {
       const auto [a, b] = legs_of_pair(pair);
-      const bool shared = b < 3   ? together(joint_of(a, false), joint_of(b, false)) ||
-                                      together(joint_of(a, true), joint_of(b, true))
-                          : b < 6 ? together(joint_of(a, true), joint_of(b, true))
-                                  : together(joint_of(a, false), joint_of(b, false));
+      const bool shared =
+          b < 3   ? together(joint_of(a, false), joint_of(b, false)) || together(joint_of(a, true), joint_of(b, true))
+          : b < 6 ? together(joint_of(a, true), joint_of(b, true))
+                  : together(joint_of(a, false), joint_of(b, false));
       if (!shared) refuse("a pair of legs that is exempt shares no joint");
     }
   }
@@ -218,14 +219,16 @@ class DesignsReplay {
     const Weigher weigher(file_, middle_of_cube(cube));
     for (const Pending& one : pending)
       for (const Spot& spot : one.spots) {
-        const Spot point{drawn_in(file_, {spot.at}, middle_of_patch(spot.at)), drawn_in(file_, {spot.other}, middle_of_patch(spot.other))};
+        const Spot point{drawn_in(file_, {spot.at}, middle_of_patch(spot.at)),
+                         drawn_in(file_, {spot.other}, middle_of_patch(spot.other))};
         if (weigher.weigh(*one.want, point).high < 0.0)
           refuse(name + " is called inside, and its design in the middle breaks " + limit_name(one.want->limit));
       }
   }
   std::string limit_name(int limit) const {
-    return limit == 0 ? "no singularity"
-                      : limit == 1 ? "0 < zs < zp" : file_.limits[static_cast<std::size_t>(limit - 2)].name;
+    return limit == 0   ? "no singularity"
+           : limit == 1 ? "0 < zs < zp"
+                        : file_.limits[static_cast<std::size_t>(limit - 2)].name;
   }
 
   bool outside(const Cube& cube, const BoxLine& box, int halvings, const std::string& name) {
@@ -236,7 +239,8 @@ class DesignsReplay {
       if (want.limit != box.limit) continue;
       const std::vector<Patch> poses = poses_of(want);
       Spot spot;
-      if (poses.size() > 1 || poses[0].piece != -1) spot = {drawn_in(file_, poses, box.at), drawn_in(file_, poses, box.other)};
+      if (poses.size() > 1 || poses[0].piece != -1)
+        spot = {drawn_in(file_, poses, box.at), drawn_in(file_, poses, box.other)};
       if (all.weigh(want, spot).high < 0.0) return true;
       kept = kept && middle.weigh(want, spot).low > 0.0;
     }

@@ -46,9 +46,9 @@ std::vector<Want> wants_of(const DesignsFile& file, std::vector<std::string>& un
     const LimitLine& one = file.limits[static_cast<std::size_t>(n)];
     const auto legs = legs_of(one.name);
     const bool of_zp = one.name == "leg_clearance" || one.name == "stroke" || (legs && legs->about == About::length);
-    bool known = (one.of == "length" || (one.of == "zp" && of_zp) ||
-                  (one.of == "radius" && one.name.starts_with("joint_"))) &&
-                 (one.axis == Triple{} || (legs && legs->about == About::cone));
+    bool known =
+        (one.of == "length" || (one.of == "zp" && of_zp) || (one.of == "radius" && one.name.starts_with("joint_"))) &&
+        (one.axis == Triple{} || (legs && legs->about == About::cone));
     for (const bool high : {false, true}) {
       const double bound = high ? one.range.b : one.range.a;
       if (!(bound > 0.0) || !(bound < inf)) continue;
