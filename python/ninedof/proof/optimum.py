@@ -196,7 +196,7 @@ class CertificateCheck:
 def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None = None) -> CertificateCheck:
     """Check a certificate of an optimum or of a set of designs, without trusting the search that wrote it.
 
-    By the code of the program ninedof_check, which shares none with the search: its numbers, formulas and bounds are its
+    By the code of the program ninedof_check, which shares none with the search: numbers, formulas and bounds are its
     own. The certificate of the paper's study takes some eight seconds.
 
     Parameters

@@ -283,7 +283,7 @@ TEST_SUITE("replay") {
     q.varied = {2, 1};  // not in the order of the family
     q.low = {1.0, 2.0};
     q.high = {5.0, 10.0};
-    q.condition = 4.5;
+    q.condition = 6.0;
     DesignSettings settings;
     settings.resolution = 0.1;
     const DesignSet set = admissible_designs(q, settings);
@@ -297,8 +297,8 @@ TEST_SUITE("replay") {
                                    {" inside", " undecided"},
                                    {"variable a2 0x1p+1", "variable a2 0x1.8p+0"},
                                    {"variable zp 0x1.4p+2 0x1.4p+2", "variable zp 0x1.8p+2 0x1.8p+2"},
-                                   {"limit condition_number 0x0p+0 0x1.2p+2", "limit condition_number 0x0p+0 0x1p+2"},
-                                   {"limit condition_number 0x0p+0 0x1.2p+2 length poses",
+                                   {"limit condition_number 0x0p+0 0x1.8p+2", "limit condition_number 0x0p+0 0x1p+2"},
+                                   {"limit condition_number 0x0p+0 0x1.8p+2 length poses",
                                     "limit fault_tolerant 0x0p+0 0x1.2p+2 length poses"}}) {
       INFO(from << " -> " << to);
       const checker::Verdict bad = checker::check(resealed(file, from, to));

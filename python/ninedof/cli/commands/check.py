@@ -1,4 +1,4 @@
-"""`ninedof check`: a certificate of an optimum or of a set of designs, read by a program that does not trust who wrote it."""
+"""`ninedof check`: a certificate, read by a program that does not trust who wrote it."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class CheckOptions(Options):
 
 
 def check(options: CheckOptions) -> Answer:
-    """Check a certificate: that no design of a study has a condition number below a bound, or which designs keep limits."""
+    """Check a certificate: that no design has a condition number below its bound, or that designs keep the limits."""
     path = options.certificate / FILE if options.certificate.is_dir() else options.certificate
     if not path.exists() and path != options.certificate:
         raise ValueError(f"{options.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
@@ -44,5 +44,11 @@ def check(options: CheckOptions) -> Answer:
     parts.append(bold(verdict, f": {result.words}"))
     if result.study:
         parts.append(f"{result.boxes} boxes of designs read, {result.recut} cut further by the checker")
-    data = {"proved": result.proved, "incomplete": result.incomplete, "words": result.words, "boxes": result.boxes, "study": result.study}
+    data = {
+        "proved": result.proved,
+        "incomplete": result.incomplete,
+        "words": result.words,
+        "boxes": result.boxes,
+        "study": result.study,
+    }
     return Answer(parts, data, DONE if result.proved else NO_RESULT if result.incomplete else REFUSED)
