@@ -169,8 +169,8 @@ class AdmissibleSet:
     demands: tuple[tuple[str, str], ...]
     """All limits with their parts."""
     poses: Floats
-    """Where it is broken: the number of a listed pose or -1, then shift, tilt about x and y, and yaw; and the same again:
-    of a spread of lengths where the leg is shortest. Shape (n, 14)."""
+    """Where it is broken: the number of a listed pose or -1, then shift, tilt about x and y, and yaw. The same again
+    where the leg is shortest, of a spread of lengths. Shape (n, 14)."""
     shares: Mapping[str, float]
     """The shares of the volume: "inside", "outside", "undecided"."""
     designs: int
