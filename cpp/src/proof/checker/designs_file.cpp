@@ -5,9 +5,22 @@
 namespace ninedof::checker::sets {
 namespace {
 
-/// The lines of a file, in this order.
-constexpr std::array keys{"family", "variable", "tool", "characteristic_length", "region", "corner", "pose", "limit",
-                          "exempt", "shares",   "box"};
+/// The lines of a file, in this order: whether there may be many, or none.
+struct LineKind {
+  const char* key;
+  bool many, optional;
+};
+constexpr std::array<LineKind, 11> kinds{{{"family", false, false},
+                                          {"variable", true, false},
+                                          {"tool", false, false},
+                                          {"characteristic_length", false, false},
+                                          {"region", false, false},
+                                          {"corner", true, true},
+                                          {"pose", true, true},
+                                          {"limit", true, true},
+                                          {"exempt", true, true},
+                                          {"shares", false, false},
+                                          {"box", true, false}}};
 constexpr std::array states{"inside", "outside", "undecided"};
 
 std::vector<std::string> names_of(const std::string& family) {
@@ -45,9 +58,10 @@ class LineWords {
     return out;
   }
   /// Each number has one spelling.
-  double real() {
+  double real(bool finite = true) {
     const std::string text = word();
     const double out = number(text);
+    if (finite && std::isinf(out)) refuse(quoted(line_) + " has a number that is infinite");
     if (hexadecimal(out) != text) refuse(quoted(text) + " is not spelled as " + quoted(hexadecimal(out)));
     return out;
   }
@@ -65,7 +79,7 @@ class LineWords {
     return out;
   }
   Range range() {
-    const Range out{real(), real()};
+    const Range out{real(false), real(false)};
     if (!out.sound()) refuse("the bounds of " + quoted(line_) + " are inverted");
     return out;
   }
@@ -172,7 +186,7 @@ std::string plain(const Triple& x) {
 DesignsFile read_designs(const std::string& bytes) {
   const std::string body = unsealed(kind_of_designs, bytes, bytes.size());
   DesignsFile out;
-  std::size_t rank = 0;
+  std::size_t place = 0, last = kinds.size();  // the kind that comes next, and the one that was last
   for (std::size_t at = 0; at < body.size();) {
     const std::size_t end = body.find('\n', at);
     if (end == std::string::npos) refuse("the last line has no end");
@@ -180,13 +194,13 @@ DesignsFile read_designs(const std::string& bytes) {
     at = end + 1;
     LineWords line(text);
     const std::string key = line.word();
-    const auto found = static_cast<std::size_t>(std::ranges::find(keys, key) - keys.begin());
-    if (found == keys.size()) refuse(quoted(key) + " means nothing");
-    const bool again = found + 1 == rank;
-    const bool many =
-        key == "variable" || key == "corner" || key == "pose" || key == "limit" || key == "exempt" || key == "box";
-    if (found + 1 < rank || (again && !many)) refuse("line " + quoted(text) + " is not in its place");
-    rank = found + 1;
+    const std::size_t before = place;
+    while (place < kinds.size() && key != kinds[place].key) ++place;
+    if (place == kinds.size()) refuse("line " + quoted(text) + " is not in its place");
+    for (std::size_t k = before; k < place; ++k)
+      if (!kinds[k].optional && k != last) refuse("line " + quoted(kinds[k].key) + " is missing");
+    last = place;
+    if (!kinds[place].many) ++place;
     add(key, line, out);
     if (!line.done()) refuse(quoted(text) + " goes on after its end");
   }
