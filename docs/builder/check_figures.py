@@ -23,7 +23,7 @@ REQUIREMENT = (ROOT / "examples/18_requirement.toml").read_text(encoding="utf-8"
 PLACED = REQUIREMENT.replace("tilt_deg = 10.0", 'tilt_deg = 10.0\ninternal_point = "best"')
 FILES = {
     "admissible.md": {"examples/18_requirement.toml": REQUIREMENT},
-    "certificate.md": {},
+    "certificate.md": {"examples/18_requirement.toml": REQUIREMENT},
     "certify.md": {"examples/18_requirement.toml": REQUIREMENT, "placed.toml": PLACED},
     "first-design.md": {},
     "guides/assembly-modes.md": {},
