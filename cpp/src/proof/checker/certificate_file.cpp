@@ -42,6 +42,7 @@ std::string limit(const std::string& text) {
 }  // namespace
 
 Certificate read(const std::string& bytes) {
+  if (!bytes.starts_with(kind)) refuse("this is not a certificate of version 1");
   const std::size_t lines = bytes.find("\ntree ");
   if (lines == std::string::npos) refuse("the file has no tree");
   const std::string body = unsealed(kind, bytes, lines);
