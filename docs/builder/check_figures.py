@@ -25,7 +25,7 @@ PLACED = REQUIREMENT.replace("tilt_deg = 10.0", 'tilt_deg = 10.0\ninternal_point
 FILES = {
     "actuators.md": {"examples/22_actuators.toml": ACTUATORS},
     "admissible.md": {"examples/18_requirement.toml": REQUIREMENT},
-    "certificate.md": {},
+    "certificate.md": {"examples/18_requirement.toml": REQUIREMENT},
     "certify.md": {"examples/18_requirement.toml": REQUIREMENT, "placed.toml": PLACED},
     "first-design.md": {},
     "guides/assembly-modes.md": {},

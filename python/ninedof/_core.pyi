@@ -466,6 +466,12 @@ def admissible_designs(
     earlier: Mapping[str, Any] | None = ...,
     progress: _Progress | None = ...,
 ) -> dict[str, Any]: ...
+def design_certificate(
+    question: DesignQuestion,
+    pieces: Mapping[str, Any],
+    demands: Sequence[tuple[str, str]],
+    shares: Sequence[float],
+) -> bytes: ...
 def room_around(
     question: DesignQuestion, design: Sequence[float], proportions: Sequence[float], *, seconds: float
 ) -> tuple[bool, list[float], list[float], int]: ...
@@ -605,6 +611,7 @@ class OptimumProof:
 
 class Verdict:
     proved: bool
+    incomplete: bool
     words: str
     boxes: int
     recut: int

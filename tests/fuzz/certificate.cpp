@@ -94,6 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string certificate = bytes.compare(0, 8, "ninedof ") == 0 ? bytes : completed(bytes);
   const checker::Verdict verdict = checker::check(certificate);
   EXPECT(!verdict.words.empty());
-  if (verdict.proved) look_for_better(checker::read(certificate));
+  if (verdict.proved && !certificate.starts_with("ninedof certificate of designs"))
+    look_for_better(checker::read(certificate));
   return 0;
 }

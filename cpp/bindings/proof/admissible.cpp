@@ -27,17 +27,18 @@ py::tuple ends_of_pieces(const DesignSet& found, py::ssize_t count) {
 py::dict found_designs(const DesignQuestion& question, const DesignSet& found) {
   const auto n = static_cast<py::ssize_t>(found.pieces.size());
   py::array_t<std::int8_t> state(n);
-  py::array_t<std::int32_t> demand(n), pose(n);
-  Array at(std::vector<py::ssize_t>{n, 6});
+  py::array_t<std::int32_t> demand(n);
+  Array poses(std::vector<py::ssize_t>{n, 14});
   for (py::ssize_t k = 0; k < n; ++k) {
     const DesignPiece& piece = found.pieces[static_cast<std::size_t>(k)];
     state.mutable_at(k) = static_cast<std::int8_t>(piece.state);
     demand.mutable_at(k) = piece.demand;
-    pose.mutable_at(k) = piece.at.pose;
-    for (py::ssize_t i = 0; i < 3; ++i) at.mutable_at(k, i) = piece.at.shift[i];
-    at.mutable_at(k, 3) = piece.at.tilt[0];
-    at.mutable_at(k, 4) = piece.at.tilt[1];
-    at.mutable_at(k, 5) = piece.at.yaw;
+    py::ssize_t i = 0;
+    for (const MetAt* met : {&piece.at, &piece.other}) {
+      poses.mutable_at(k, i++) = met->pose;
+      for (const double x : {met->shift[0], met->shift[1], met->shift[2], met->tilt[0], met->tilt[1], met->yaw})
+        poses.mutable_at(k, i++) = x;
+    }
   }
   const py::tuple ends = ends_of_pieces(found, static_cast<py::ssize_t>(question.varied.size()));
   py::list demands;
@@ -47,8 +48,7 @@ py::dict found_designs(const DesignQuestion& question, const DesignSet& found) {
   out["high"] = ends[1];
   out["state"] = state;
   out["demand"] = demand;
-  out["pose"] = pose;
-  out["at"] = at;
+  out["poses"] = poses;
   out["demands"] = py::tuple(demands);
   out["inside"] = found.inside;
   out["outside"] = found.outside;
@@ -61,13 +61,12 @@ py::dict found_designs(const DesignQuestion& question, const DesignSet& found) {
 
 /// The pieces of an earlier run, from the arrays that it gave.
 std::vector<DesignPiece> pieces_from(const py::dict& from, std::size_t count) {
-  const auto low = from["low"].cast<Array>(), high = from["high"].cast<Array>(), at = from["at"].cast<Array>();
-  const auto state = from["state"].cast<std::vector<int>>(), demand = from["demand"].cast<std::vector<int>>(),
-             pose = from["pose"].cast<std::vector<int>>();
+  const auto low = from["low"].cast<Array>(), high = from["high"].cast<Array>(), poses = from["poses"].cast<Array>();
+  const auto state = from["state"].cast<std::vector<int>>(), demand = from["demand"].cast<std::vector<int>>();
   const auto n = static_cast<py::ssize_t>(state.size());
   if (low.ndim() != 2 || low.shape(0) != n || low.shape(1) != static_cast<py::ssize_t>(count) || high.ndim() != 2 ||
-      high.shape(0) != n || high.shape(1) != low.shape(1) || at.ndim() != 2 || at.shape(0) != n || at.shape(1) != 6 ||
-      demand.size() != state.size() || pose.size() != state.size())
+      high.shape(0) != n || high.shape(1) != low.shape(1) || poses.ndim() != 2 || poses.shape(0) != n ||
+      poses.shape(1) != 14 || demand.size() != state.size())
     throw InvalidArgument("earlier", "arrays of other shapes", "those of an earlier run");
   std::vector<DesignPiece> out(state.size());
   for (py::ssize_t k = 0; k < n; ++k) {
@@ -79,10 +78,13 @@ std::vector<DesignPiece> pieces_from(const py::dict& from, std::size_t count) {
     }
     piece.state = state[i] == 0 ? Membership::inside : state[i] == 1 ? Membership::outside : Membership::undecided;
     piece.demand = demand[i];
-    piece.at.pose = pose[i];
-    piece.at.shift = Vec3(at.at(k, 0), at.at(k, 1), at.at(k, 2));
-    piece.at.tilt = Vec3(at.at(k, 3), at.at(k, 4), 0.0);
-    piece.at.yaw = at.at(k, 5);
+    py::ssize_t j = 0;
+    const auto next = [&] { return poses.at(k, j++); };
+    for (MetAt* met : {&piece.at, &piece.other}) {
+      met->pose = static_cast<int>(next());
+      for (double* x : {&met->shift[0], &met->shift[1], &met->shift[2], &met->tilt[0], &met->tilt[1], &met->yaw})
+        *x = next();
+    }
   }
   return out;
 }
@@ -114,6 +116,18 @@ void bind_admissible(py::module_& m) {
       },
       py::arg("question"), py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("resolution"),
       py::arg("undecided"), py::arg("earlier") = py::none(), py::arg("progress") = py::none());
+  m.def(
+      "design_certificate",
+      [](const DesignQuestion& question, const py::dict& pieces,
+         const std::vector<std::pair<std::string, std::string>>& demands, const std::array<double, 3>& shares) {
+        question.validate();
+        DesignSet set;
+        for (const auto& [limit, part] : demands) set.demands.push_back({limit, part});
+        set.pieces = pieces_from(pieces, question.varied.size());
+        std::tie(set.inside, set.outside, set.undecided) = std::tuple(shares[0], shares[1], shares[2]);
+        return py::bytes(design_certificate(question, set));
+      },
+      py::arg("question"), py::arg("pieces"), py::arg("demands"), py::arg("shares"));
   m.def(
       "room_around",
       [](const DesignQuestion& question, const std::vector<double>& design, const std::vector<double>& proportions,

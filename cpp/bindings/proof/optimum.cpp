@@ -44,6 +44,7 @@ void bind_optimum(py::module_& m) {
   });
   py::class_<checker::Verdict>(m, "Verdict", "What the checker of a certificate says.")
       .def_readonly("proved", &checker::Verdict::proved)
+      .def_readonly("incomplete", &checker::Verdict::incomplete)
       .def_readonly("words", &checker::Verdict::words)
       .def_readonly("boxes", &checker::Verdict::leaves)
       .def_readonly("recut", &checker::Verdict::recut)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Collection, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple, Protocol, TypedDict, Unpack
 
@@ -21,9 +23,9 @@ from ninedof.design.study import Study
 from ninedof.proof.machine_record import ProofPose
 from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import plain_name
-from ninedof.support.arguments import finite, instance, items, pair, shown, table, text, whole
+from ninedof.support.arguments import finite, instance, items, pair, path_argument, shown, table, text, whole
 from ninedof.support.arrays import MOST_THREADS, Floats, as_floats
-from ninedof.support.files import sha256
+from ninedof.support.files import sha256, write_whole
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.structs import Fixed, options_of
 from ninedof.support.units import amount
@@ -34,7 +36,7 @@ MOST_VARIED = 4
 ENOUGH = 1e-5  # of the volume: what is undecided below it is not looked at
 AROUND_SECONDS = 20.0
 LONGEST = 1e9  # seconds
-METHOD = 2  # of the proofs: sets that another one proved are not gone on with
+METHOD = 3  # of the proofs: sets that another one proved are not gone on with
 POSES, SIDE = 400, 25  # of the sample: poses of the region, designs along a side
 
 
@@ -169,7 +171,8 @@ class AdmissibleSet:
     demands: tuple[tuple[str, str], ...]
     """All limits with their parts."""
     poses: Floats
-    """Where it is broken: the number of a listed pose or -1, then shift, tilt about x and y, and yaw, shape (n, 7)."""
+    """Where it is broken: the number of a listed pose or -1, then shift, tilt about x and y, and yaw. The same again
+    where the leg is shortest, of a spread of lengths. Shape (n, 14)."""
     shares: Mapping[str, float]
     """The shares of the volume: "inside", "outside", "undecided"."""
     designs: int
@@ -312,9 +315,14 @@ class AdmissibleSet:
             "high": self.high,
             "state": self.state.tolist(),
             "demand": self.demand.tolist(),
-            "pose": self.poses[:, 0].astype(int).tolist(),
-            "at": np.ascontiguousarray(self.poses[:, 1:]),
+            "poses": self.poses,
         }
+
+    def save_certificate(self, path: str | os.PathLike[str]) -> Path:
+        """Write a file that `check_certificate` and the program ninedof_check replay: the question, boxes, reasons."""
+        shares = [self.shares[name] for name in STATES]
+        data = _core.design_certificate(self.of.for_core(), self.for_core(), self.demands, shares)
+        return write_whole(path_argument("path", path), data)
 
     def _boxes(self, state: int) -> Floats:
         chosen = self.state == state
@@ -402,7 +410,7 @@ def admissible(
         state=found["state"],
         demand=found["demand"],
         demands=found["demands"],
-        poses=np.column_stack([found["pose"], found["at"]]),
+        poses=found["poses"],
         shares=Fixed({name: found[name] for name in STATES}),
         designs=found["looked_at"] + (0 if resume is None else resume.designs),
         boxes=found["boxes"] + (0 if resume is None else resume.boxes),
@@ -488,7 +496,7 @@ def _range(study: Study, name: str, ends: tuple[float, float] | None) -> tuple[f
 
 
 def _pose(row: list[float]) -> ProofPose:
-    listed, x, y, z, tilt_x, tilt_y, yaw = row
+    listed, x, y, z, tilt_x, tilt_y, yaw = row[:7]
     if listed >= 0:
         return ProofPose(listed=int(listed))
     return ProofPose((x, y, z), (tilt_x, tilt_y, 0.0), yaw)

@@ -125,6 +125,7 @@ def certify(
     begin = perf_counter()
     rule = _rule(region, configurations[0], values["rule"], resume)
     end = perf_counter() + seconds  # finding a rule does not count for the time limit
+
     def settings(bounds: list[float]) -> _core.ConditionSettings:
         remaining = end - perf_counter()
         return _core.ConditionSettings(threads=threads, seconds=remaining, gap=gap, wanted=bounds, tolerance=slack)

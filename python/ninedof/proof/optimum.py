@@ -187,22 +187,24 @@ class CertificateCheck:
     boxes: int
     recut: int
     """Boxes that were cut further than by the search."""
+    incomplete: bool = False
+    """Of a set of designs: nothing in it is wrong, and not all of it could be confirmed."""
     study: tuple[str, ...] = ()
     """Of a proof: the designs that it is about, one line each, as the checker read them; angles in radians."""
 
 
 def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None = None) -> CertificateCheck:
-    """Check a certificate of an optimum, without trusting the search that wrote it.
+    """Check a certificate of an optimum or of a set of designs, without trusting the search that wrote it.
 
-    By the code of the program ninedof_check, which shares none with the search: interval numbers, formulas and the
-    bounds of the domain are its own. The certificate of the paper's study takes some eight seconds.
+    By the code of the program ninedof_check, which shares none with the search: numbers, formulas and bounds are its
+    own. The certificate of the paper's study takes some eight seconds.
 
     Parameters
     ----------
     path : path
-        As `OptimumProof.save` writes it.
+        As `OptimumProof.save` and `AdmissibleSet.save_certificate` write it.
     progress : callable, optional
-        Called as progress(bytes read, all bytes, None).
+        Called as progress(bytes or boxes of designs read, all of them, None).
 
     Returns
     -------

@@ -1,6 +1,7 @@
 """`ninedof admissible`: what it prints and keeps, how it goes on, and what it refuses."""
 
 import json
+import zlib
 
 import numpy as np
 import pytest
@@ -41,6 +42,29 @@ def test_what_is_printed_is_what_python_proves(run, study, tmp_path):
     names = {file.name for file in (tmp_path / "set").iterdir()}
     assert names == {"admissible-a2-b1.npz", *(f"admissible-a2-b1.{kind}" for kind in ("png", "svg", "pdf"))}
     assert answer["around"].keys() == {"a2", "b1"}
+
+
+def test_its_certificate_is_checked_by_another_command(run, study, tmp_path):
+    file = tmp_path / "designs.certificate"
+    status, out, err = run(f"admissible {study} {ASKED} 0.1 --certificate {file} --json")
+    assert status == 0
+    assert json.loads(out)["certificate"] == str(file)
+    shares = json.loads(out)["shares"]
+    status, out, err = run(f"check {file} --json")
+    assert status == 0
+    answer = json.loads(out)
+    assert answer["proved"]
+    assert not answer["incomplete"]
+    assert answer["words"].startswith(f"{shares['inside']:.3%}")
+    assert "leg_ratio at most 3" in err
+    lines = file.read_text().splitlines()
+    lines[2:] = [line.replace("limit leg_ratio", "limit hope") for line in lines[2:]]
+    body = "".join(f"{line}\n" for line in lines[2:])
+    file.write_text(f"{lines[0]}\nchecksum {zlib.crc32(body.encode()):x}\n{body}")
+    status, out, err = run(f"check {file}")
+    assert status == 3
+    assert "Incomplete: not confirmed are" in " ".join(out.split())
+    assert "not checked: hope" in " ".join(out.split())
 
 
 def test_the_same_command_goes_on_and_another_question_begins_anew(run, study, tmp_path):

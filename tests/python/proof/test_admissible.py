@@ -150,6 +150,13 @@ def test_pieces_are_a_partition(case):
     assert (inner.sum(axis=1) == 1).all()
 
 
+def test_its_certificate_is_confirmed_by_the_checker(case, tmp_path):
+    found = nd.check_certificate(case.save_certificate(tmp_path / "designs.certificate"))
+    assert found.proved, found.words
+    assert found.words.startswith(f"{case.shares['inside']:.3%}")
+    assert found.boxes == len(case.state)
+
+
 def test_something_is_proved_on_both_sides(case):
     assert case.shares["inside"] > 0.001
     assert case.shares["outside"] > 0.01

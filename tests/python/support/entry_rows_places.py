@@ -22,6 +22,9 @@ at("save", few=25)(lambda: {"run": it.design(), "path": it.fresh(".toml")})
 at("save", of="save: a run", few=15)(lambda: {"run": it.result(), "path": it.fresh()})
 at("load_certificate", words={"run": ("certify.json",)})(lambda: {"run": it.run()})
 at("check_certificate", few=12, words={"path": ("certificate",)})(lambda: {"path": it.proof_file(), "progress": None})
+at("AdmissibleSet.save_certificate", lambda **a: it.admissible_set().save_certificate(**a))(
+    lambda: {"path": it.fresh()}
+)
 at("OptimumProof.save", lambda **a: it.proof().save(**a))(lambda: {"path": it.fresh()})
 at("report", few=3)(lambda: {"run": it.result(), "path": it.fresh(".html")})
 at("export", few=30, words={"platform_mass": ("options",)})(

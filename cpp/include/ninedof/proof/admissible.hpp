@@ -44,6 +44,7 @@ struct DesignPiece {
   Membership state = Membership::undecided;
   int demand = -1;  ///< of those outside: which is broken by all of them
   MetAt at;  ///< and at which pose; of limits without a pose that of the neutral one
+  MetAt other = {};  ///< of a spread of lengths where the leg is shortest; `at` is where it is longest
 };
 
 struct DesignSettings {
@@ -65,6 +66,9 @@ struct DesignSet {
 /// Divides the box until the settings end it; anytime. `from`: the undecided pieces of a run of the same question.
 DesignSet admissible_designs(const DesignQuestion& question, const DesignSettings& settings,
                              const std::vector<DesignPiece>& from = {}, const Control& control = {});
+
+/// A file that ninedof_check replays: the question, and the pieces with their reasons (docs/certificate.md).
+std::string design_certificate(const DesignQuestion& question, const DesignSet& set);
 
 /// A box around a design, all of which is inside.
 struct DesignRoom {

@@ -1,6 +1,6 @@
 #pragma once
-/// Checks a certificate of the optimum. Shares no source with the search that wrote it: its own intervals, its own
-/// formulas, from docs/certificate.md alone.
+/// Checks a certificate of the optimum, or of a set of admissible designs. Shares no source with the search that wrote
+/// it: its own numbers, its own formulas, from docs/certificate.md alone.
 
 #include <cstddef>
 #include <functional>
@@ -11,6 +11,7 @@ namespace ninedof::checker {
 
 struct Verdict {
   bool proved = false;
+  bool incomplete = false;  ///< of a set of designs: nothing in it is wrong, and not all of it could be confirmed
   std::string words;  ///< what is proved, or why the certificate is refused
   std::vector<std::string> study;  ///< of a proof: the designs that it is about, as the checker read them
   long leaves = 0;    ///< boxes looked at

@@ -90,8 +90,14 @@ void add(Found& all, Found one) {
     all.status = one.status;
 }
 
-/// Those whose joints coincide in every design of the study, and in every design that is asked about: it may be asked
-/// about more than the study has.
+Box home_pose() {
+  Box out;
+  out.piece = -1;
+  return out;
+}
+
+}  // namespace
+
 std::array<bool, leg_pairs> pairs_that_may_meet(const DesignQuestion& question) {
   Problem asked = question.problem;
   for (std::size_t k = 0; k < question.at.size(); ++k) asked.variables[k] = {question.at[k], question.at[k]};
@@ -102,14 +108,6 @@ std::array<bool, leg_pairs> pairs_that_may_meet(const DesignQuestion& question) 
   for (std::size_t k = 0; k < out.size(); ++k) out[k] = out[k] && there[k];
   return out;
 }
-
-Box home_pose() {
-  Box out;
-  out.piece = -1;
-  return out;
-}
-
-}  // namespace
 
 Demands::Demands(const DesignQuestion& question) {
   const std::array<bool, leg_pairs> exempt = pairs_that_may_meet(question);

@@ -25,6 +25,10 @@ struct Alone {
   int demand;
 };
 
+/// Pairs of legs whose joints coincide in every design of the study, and in every design that is asked about: it may be
+/// asked about more than the study has.
+std::array<bool, 21> pairs_that_may_meet(const DesignQuestion& question);
+
 struct Demands {
   explicit Demands(const DesignQuestion& question);
   std::vector<Demand> names;

@@ -58,10 +58,11 @@ MetAt Examiner::met_at(const Box& point, const DesignBox& designs) const {
 std::vector<DesignPiece> Examiner::pieces_of(const std::vector<Piece>& pieces) const {
   std::vector<DesignPiece> out;
   for (const Piece& piece : pieces) {
-    out.push_back({piece.box.low, piece.box.high, piece.state, -1, {}});
+    out.push_back({piece.box.low, piece.box.high, piece.state, -1, {}, {}});
     if (piece.loss == nullptr) continue;
     out.back().demand = piece.loss->demand;
     out.back().at = met_at(piece.loss->at, piece.box);
+    out.back().other = met_at(piece.loss->longest < 0 ? piece.loss->at : piece.loss->other, piece.box);
   }
   return out;
 }

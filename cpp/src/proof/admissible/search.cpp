@@ -38,7 +38,7 @@ class Search {
   }
   const std::vector<Demand>& names() const { return examiner_.names(); }
   double volume() const { return volume_of(range_, dimensions_); }
-  Waiting whole() const { return again({range_.low, range_.high, Membership::undecided, -1, {}}); }
+  Waiting whole() const { return again({range_.low, range_.high, Membership::undecided, -1, {}, {}}); }
   Waiting again(const DesignPiece& piece) const {
     const DesignBox box{piece.low, piece.high};
     return {{box, {}, {}, {}}, volume_of(box, dimensions_), {piece}};

@@ -4,12 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "proof/checker/ranges.hpp"
+#include "proof/checker/spelling.hpp"
 
 namespace ninedof::checker {
-
-/// Throws std::runtime_error: the certificate is not accepted.
-[[noreturn]] void refuse(const std::string& why);
 
 /// A variable or a limit, in the unit of the study.
 struct Bound {

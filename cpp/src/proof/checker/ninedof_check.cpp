@@ -1,5 +1,5 @@
 /// ninedof_check CERTIFICATE: the function check as a program of its own. Declared in `ninedof/proof/checker.hpp`.
-/// Exit status 0: a proof, 1: refused, 2: cannot be read.
+/// Exit status 0: a proof, 1: refused, 2: cannot be read, 3: not all is confirmed.
 
 #include <cstdio>
 #include <fstream>
@@ -20,7 +20,10 @@ int main(int count, char** words) {
   }
   const ninedof::checker::Verdict found = ninedof::checker::check(bytes);
   for (const std::string& line : found.study) std::printf("%s\n", line.c_str());
-  std::printf("%s: %s (%ld boxes, %ld cut further)\n", found.proved ? "Proved" : "Refused", found.words.c_str(),
-              found.leaves, found.recut);
-  return found.proved ? 0 : 1;
+  std::printf("%s: %s (%ld boxes, %ld cut further)\n",
+              found.proved       ? "Proved"
+              : found.incomplete ? "Incomplete"
+                                 : "Refused",
+              found.words.c_str(), found.leaves, found.recut);
+  return found.proved ? 0 : found.incomplete ? 3 : 1;
 }

@@ -6,7 +6,6 @@
 #include "ninedof/families/design_family.hpp"
 
 namespace ninedof::proof {
-namespace {
 
 std::string hexadecimal(double x) {
   if (std::isinf(x)) return x > 0.0 ? "inf" : "-inf";
@@ -14,6 +13,8 @@ std::string hexadecimal(double x) {
   const auto end = std::to_chars(text.data(), text.data() + text.size(), std::abs(x), std::chars_format::hex).ptr;
   return (std::signbit(x) ? "-0x" : "0x") + std::string(text.data(), end);
 }
+
+namespace {
 
 /// CRC-32 of ISO 3309, as zlib has it: against damage, not against malice, for which the tree itself is checked.
 std::uint32_t checksum(const std::string& bytes) {
@@ -26,6 +27,12 @@ std::uint32_t checksum(const std::string& bytes) {
 }
 
 }  // namespace
+
+std::string sealed(const std::string& kind, const std::string& body) {
+  std::array<char, 9> sum{};
+  std::to_chars(sum.data(), sum.data() + 8, checksum(body), 16);
+  return kind + "\nchecksum " + std::string(sum.data()) + "\n" + body;
+}
 
 std::string certificate(const Problem& study, double target, const std::vector<std::string>& left_out,
                         const std::vector<std::uint8_t>& tree) {
@@ -43,9 +50,7 @@ std::string certificate(const Problem& study, double target, const std::vector<s
   for (const std::string& limit : left_out) body += "left_out " + limit + "\n";
   body += "tree " + std::to_string(tree.size()) + "\n";
   body.append(tree.begin(), tree.end());
-  std::array<char, 9> sum{};
-  std::to_chars(sum.data(), sum.data() + 8, checksum(body), 16);
-  return "ninedof certificate 1\nchecksum " + std::string(sum.data()) + "\n" + body;
+  return sealed("ninedof certificate 1", body);
 }
 
 }  // namespace ninedof::proof

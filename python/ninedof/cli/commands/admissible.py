@@ -50,6 +50,9 @@ class AdmissibleOptions(Options):
     around: Annotated[bool, typer.Option("--around", help="How far each variable may go at once, from the design.")] = (
         False
     )
+    certificate: Annotated[Path | None, typer.Option(help="A file of the boxes with reasons for `ninedof check`.")] = (
+        None
+    )
     out: Annotated[Path | None, typer.Option(help="A folder for the answer; that of the run by default.")] = None
     threads: Threads = None
 
@@ -91,6 +94,10 @@ def admissible(options: AdmissibleOptions) -> None:
         figures = _draw(found, file) if len(found.vary) > 1 else []
         screen.print(f"designs {file}" + (f", figure {figures[0].stem} (PNG, SVG, PDF)" if figures else ""))
         data |= {"file": str(file)}
+    if options.certificate is not None:
+        found.save_certificate(options.certificate)
+        screen.print(f"certificate {options.certificate}")
+        data |= {"certificate": str(options.certificate)}
     if options.around:
         data |= {"around": _around(screen, found)}
     screen.data(data)

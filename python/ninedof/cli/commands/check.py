@@ -1,4 +1,4 @@
-"""`ninedof check`: a certificate of an optimum, read by a program that does not trust who wrote it."""
+"""`ninedof check`: a certificate, read by a program that does not trust who wrote it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import Options
-from ninedof.cli.screen import DONE, REFUSED, Screen, bold
+from ninedof.cli.screen import DONE, NO_RESULT, REFUSED, Screen, bold
 from ninedof.proof.optimum import FILE, check_certificate
 
 PLACE = 4
@@ -18,7 +18,11 @@ EXAMPLES = f"""[bold]Examples[/bold]
 
   ninedof optimize --certify --out proved       writes {FILE} into the run folder
 
-  ninedof check proved"""
+  ninedof check proved
+
+  ninedof admissible study.toml --vary a2 --vary b1 --certificate designs.certificate
+
+  ninedof check designs.certificate"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,15 +33,22 @@ class CheckOptions(Options):
 
 
 def check(options: CheckOptions) -> Answer:
-    """Check a certificate: that no design of its study has a condition number below the bound it states."""
+    """Check a certificate: that no design has a condition number below its bound, or that designs keep the limits."""
     path = options.certificate / FILE if options.certificate.is_dir() else options.certificate
     if not path.exists() and path != options.certificate:
         raise ValueError(f"{options.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
     with Screen(options.json).bar("points", "reading the certificate") as bar:
         result = check_certificate(path, progress=bar)
     parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in result.study)]
-    parts.append(bold("Proved" if result.proved else "Refused", f": {result.words}"))
-    if result.proved:
+    verdict = "Proved" if result.proved else "Incomplete" if result.incomplete else "Refused"
+    parts.append(bold(verdict, f": {result.words}"))
+    if result.study:
         parts.append(f"{result.boxes} boxes of designs read, {result.recut} cut further by the checker")
-    data = {"proved": result.proved, "words": result.words, "boxes": result.boxes, "study": result.study}
-    return Answer(parts, data, DONE if result.proved else REFUSED)
+    data = {
+        "proved": result.proved,
+        "incomplete": result.incomplete,
+        "words": result.words,
+        "boxes": result.boxes,
+        "study": result.study,
+    }
+    return Answer(parts, data, DONE if result.proved else NO_RESULT if result.incomplete else REFUSED)

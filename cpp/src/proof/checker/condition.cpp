@@ -1,0 +1,181 @@
+/// A bound of the condition number over a box. Declared in proof/checker/wants.hpp.
+
+#include <cmath>
+
+#include "proof/checker/wants.hpp"
+
+namespace ninedof::checker::sets {
+namespace {
+
+template <class T, std::size_t N>
+using Square = std::array<std::array<T, N>, N>;
+constexpr std::size_t six = 6;
+using Vector6 = std::array<double, six>;
+
+void add_outer(const Arrow& v, Square<Linear, 3>& out) {
+  const std::array x{v.x, v.y, v.z};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) out[i][j] = out[i][j] + x[i] * x[j];
+}
+
+/// H (H + F)^-1 F by cofactors.
+Square<Linear, 3> parallel_sum(const Square<Linear, 3>& h, const Square<Linear, 3>& f) {
+  Square<Linear, 3> sum, cofactor, first, out;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) sum[i][j] = h[i][j] + f[i][j];
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+      cofactor[i][j] = sum[a][c] * sum[b][d] - sum[a][d] * sum[b][c];
+    }
+  const Linear over = inverse(sum[0][0] * cofactor[0][0] + sum[0][1] * cofactor[0][1] + sum[0][2] * cofactor[0][2]);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      first[i][j] = h[i][0] * cofactor[0][j] + h[i][1] * cofactor[1][j] + h[i][2] * cofactor[2][j];
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      out[i][j] = over * (first[i][0] * f[0][j] + first[i][1] * f[1][j] + first[i][2] * f[2][j]);
+  return out;
+}
+
+/// The squares of the rates of all nine legs for the twist t = (l_c w, v) of the platform, O free: t^T S t. The singular
+/// values of the map from rates to twists are the inverse roots of the eigenvalues of S.
+Square<Linear, six> stiffness(const Mount& m, const Stand& at, double length) {
+  const Linear over = inverse(length);
+  Square<Linear, six> out;
+  Square<Linear, 3> upper, lower;
+  for (int leg = 0; leg < 3; ++leg) {
+    const LegLine l = leg_line(m, at, leg);
+    const Arrow e = unit(l.along()), moment = over * cross(l.to - at.p, e);
+    const std::array row{moment.x, moment.y, moment.z, e.x, e.y, e.z};
+    for (std::size_t i = 0; i < six; ++i)
+      for (std::size_t j = 0; j <= i; ++j) out[i][j] = out[i][j] + row[i] * row[j];
+    add_outer(unit(leg_line(m, at, 3 + leg).along()), upper);
+    add_outer(unit(leg_line(m, at, 6 + leg).along()), lower);
+  }
+  // The platform's point at O moves by w x y + v.
+  const Arrow y = over * (at.s - at.p);
+  const std::array<std::array<Linear, six>, 3> k{
+      {{0.0, y.z, -y.y, 1.0, 0.0, 0.0}, {-y.z, 0.0, y.x, 0.0, 1.0, 0.0}, {y.y, -y.x, 0.0, 0.0, 0.0, 1.0}}};
+  const Square<Linear, 3> w = parallel_sum(upper, lower);
+  for (std::size_t j = 0; j < six; ++j) {
+    std::array<Linear, 3> column;
+    for (std::size_t a = 0; a < 3; ++a) column[a] = w[a][0] * k[0][j] + w[a][1] * k[1][j] + w[a][2] * k[2][j];
+    for (std::size_t i = j; i < six; ++i)
+      out[i][j] = out[i][j] + k[0][i] * column[0] + k[1][i] * column[1] + k[2][i] * column[2];
+  }
+  return out;
+}
+
+/// Eigenvectors, as columns of `v`, by Jacobi's rotations: nothing of them is believed.
+void diagonalize(Square<double, six>& s, Square<double, six>& v) {
+  for (std::size_t i = 0; i < six; ++i)
+    for (std::size_t j = 0; j < six; ++j) v[i][j] = i == j ? 1.0 : 0.0;
+  for (int sweep = 0; sweep < 12; ++sweep)
+    for (std::size_t p = 0; p < six; ++p)
+      for (std::size_t q = p + 1; q < six; ++q) {
+        if (!(std::abs(s[p][q]) > 0.0)) continue;
+        const double theta = 0.5 * std::atan2(2.0 * s[p][q], s[p][p] - s[q][q]);
+        const double c = std::cos(theta), d = std::sin(theta);
+        const auto turn = [&](double& x, double& y) {
+          const double old = x;
+          x = c * old + d * y;
+          y = c * y - d * old;
+        };
+        for (auto& row : s) turn(row[p], row[q]);
+        for (std::size_t k = 0; k < six; ++k) turn(s[p][k], s[q][k]);
+        for (auto& row : v) turn(row[p], row[q]);
+      }
+}
+
+/// x^T S x.
+Linear form_of(const Square<Linear, six>& s, const Vector6& x) {
+  Linear out = 0.0;
+  for (std::size_t i = 0; i < six; ++i)
+    for (std::size_t j = 0; j <= i; ++j) out = out + ((i == j ? 1.0 : 2.0) * x[i] * x[j]) * s[i][j];
+  return out;
+}
+
+/// Cholesky's decomposition runs to its end although more than its rounding was taken from the diagonal.
+bool decomposes(Square<double, six> a) {
+  double trace = 0.0;
+  for (std::size_t i = 0; i < six; ++i) trace += std::abs(a[i][i]);
+  for (std::size_t i = 0; i < six; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = a[i][j] - (i == j ? 0x1p-46 * trace + grain::least : 0.0);
+      for (std::size_t k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
+      if (i > j) a[i][j] = sum / a[j][j];
+      else if (!(sum > 0.0)) return false;
+      else a[i][i] = std::sqrt(sum);
+    }
+  return true;
+}
+
+/// Whether all matrices of the box are positive definite: those at the corners are, less the errors of their rows.
+bool positive_everywhere(const Square<Linear, six>& a) {
+  std::vector<std::size_t> moving;
+  for (std::size_t k = 0; k < symbols; ++k)
+    for (std::size_t i = 0; i < six * six; ++i)
+      if (i % six <= i / six && a[i / six][i % six].a[k] != 0.0) {
+        moving.push_back(k);
+        break;
+      }
+  Vector6 errors{};
+  for (std::size_t i = 0; i < six; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      const double error = (a[i][j].r + grain::of_product * (std::abs(a[i][j].c) + swing(a[i][j]))) * grain::up;
+      errors[i] += error;
+      if (i != j) errors[j] += error;
+    }
+  for (unsigned corner = 0; corner < 1U << moving.size(); ++corner) {
+    Square<double, six> at{};
+    for (std::size_t i = 0; i < six; ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        at[i][j] = a[i][j].c;
+        for (std::size_t k = 0; k < moving.size(); ++k)
+          at[i][j] += (corner >> k & 1U) != 0U ? a[i][j].a[moving[k]] : -a[i][j].a[moving[k]];
+        if (i == j) at[i][i] -= errors[i] * grain::up;
+      }
+    if (!decomposes(at)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+/// kappa <= K where mu - S and K^2 S - mu are positive definite for some mu, which may change along the box.
+int condition_within(const Mount& m, const Stand& at, double length, double most) {
+  const Square<Linear, six> s = stiffness(m, at, length);
+  Square<double, six> middle{}, vectors{};
+  for (std::size_t i = 0; i < six; ++i)
+    for (std::size_t j = 0; j <= i; ++j) middle[i][j] = middle[j][i] = s[i][j].c;
+  diagonalize(middle, vectors);
+  std::size_t first = 0, last = 0;
+  for (std::size_t i = 1; i < six; ++i) {
+    if (middle[i][i] < middle[first][first]) first = i;
+    if (middle[i][i] > middle[last][last]) last = i;
+  }
+  Vector6 small{}, large{};
+  for (std::size_t i = 0; i < six; ++i) {
+    small[i] = vectors[i][first];
+    large[i] = vectors[i][last];
+  }
+  const auto squares = [](const Vector6& x) {
+    Linear sum = 0.0;
+    for (const double one : x) sum = sum + Linear(one) * one;
+    return sum;
+  };
+  const Linear k2 = Linear(most) * most, least = form_of(s, small), greatest = form_of(s, large);
+  if (upper_end(k2 * least * squares(large) - greatest * squares(small)) < 0.0) return -1;
+  Linear mu = 0.5 * (greatest + k2 * least);
+  mu.r = 0.0;
+  Square<Linear, six> below, above;
+  for (std::size_t i = 0; i < six; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      below[i][j] = (i == j ? mu : Linear(0.0)) - s[i][j];
+      above[i][j] = k2 * s[i][j] - (i == j ? mu : Linear(0.0));
+    }
+  return positive_everywhere(below) && positive_everywhere(above) ? 1 : 0;
+}
+
+}  // namespace ninedof::checker::sets

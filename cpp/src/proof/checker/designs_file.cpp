@@ -1,0 +1,255 @@
+#include "proof/checker/designs_file.hpp"
+
+#include <cmath>
+
+namespace ninedof::checker::sets {
+namespace {
+
+/// The lines of a file, in this order: whether there may be many, or none.
+struct LineKind {
+  const char* key;
+  bool many, optional;
+};
+constexpr std::array<LineKind, 11> kinds{{{"family", false, false},
+                                          {"variable", true, false},
+                                          {"tool", false, false},
+                                          {"characteristic_length", false, false},
+                                          {"region", false, false},
+                                          {"corner", true, true},
+                                          {"pose", true, true},
+                                          {"limit", true, true},
+                                          {"exempt", true, true},
+                                          {"shares", false, false},
+                                          {"box", true, false}}};
+constexpr std::array states{"inside", "outside", "undecided"};
+
+std::vector<std::string> names_of(const std::string& family) {
+  if (family == "hexagonal") return {"a1", "a2", "b1", "b2", "zp", "zs", "theta_z"};
+  std::vector<std::string> out;
+  const std::array triples{"base_external", "base_internal", "platform_external", "platform_internal"};
+  if (family == "general") {
+    for (const std::string triple : triples)
+      for (const char* joint : {"_1", "_2", "_3"})
+        for (const char* axis : {"_x", "_y", "_z"}) out.push_back(triple + joint + axis);
+    out.insert(out.end(), {"zp", "zs", "theta_z"});
+    return out;
+  }
+  if (family != "symmetric" && family != "symmetric_nonplanar") refuse(quoted(family) + " is no family of designs");
+  for (const std::string triple : triples) {
+    out.push_back(triple + "_radius");
+    if (triple != triples[0]) out.push_back(triple + "_angle");
+  }
+  out.insert(out.end(), {"zp", "zs"});
+  if (family == "symmetric_nonplanar")
+    for (const std::string triple : triples) out.push_back(triple + "_height");
+  return out;
+}
+
+/// The words of a line, one after another.
+class LineWords {
+ public:
+  explicit LineWords(const std::string& line) : line_(line) {}
+  bool done() const { return at_ > line_.size(); }
+  std::string word() {
+    if (done()) refuse(quoted(line_) + " ends too early");
+    const std::size_t end = std::min(line_.find(' ', at_), line_.size());
+    std::string out = line_.substr(at_, end - at_);
+    at_ = end + 1;
+    return out;
+  }
+  /// Each number has one spelling.
+  double real(bool finite = true) {
+    const std::string text = word();
+    const double out = number(text);
+    if (finite && std::isinf(out)) refuse(quoted(line_) + " has a number that is infinite");
+    if (hexadecimal(out) != text) refuse(quoted(text) + " is not spelled as " + quoted(hexadecimal(out)));
+    return out;
+  }
+  int whole() {
+    const std::string text = word();
+    int out = 0;
+    std::from_chars(text.data(), text.data() + text.size(), out);
+    if (digits(out) != text) refuse(quoted(text) + " is not a whole number");
+    return out;
+  }
+  template <std::size_t N>
+  std::array<double, N> reals() {
+    std::array<double, N> out{};
+    for (double& x : out) x = real();
+    return out;
+  }
+  Range range() {
+    const Range out{real(false), real(false)};
+    if (!out.sound()) refuse("the bounds of " + quoted(line_) + " are inverted");
+    return out;
+  }
+  /// Whether the first of two words stands there.
+  bool either(const char* yes, const char* no) {
+    const std::string text = word();
+    if (text != yes && text != no) refuse(quoted(text) + " is neither " + quoted(yes) + " nor " + quoted(no));
+    return text == yes;
+  }
+  Patch pose() {
+    Patch out;
+    out.piece = whole();
+    out.low = out.high = reals<pose_symbols>();
+    return out;
+  }
+
+ private:
+  const std::string& line_;
+  std::size_t at_ = 0;
+};
+
+LimitLine limit_of(LineWords& line) {
+  LimitLine out;
+  out.name = line.word();
+  for (const char c : out.name)
+    if (c != '_' && (c < 'a' || c > 'z')) refuse(quoted(out.name) + " is no name of a limit");
+  out.range = line.range();
+  out.of = line.word();
+  if (out.of != "length" && out.of != "zp" && out.of != "radius") refuse(quoted(out.of) + " is no unit of a limit");
+  out.at_neutral = line.either("neutral", "poses");
+  out.axis = line.reals<3>();
+  return out;
+}
+
+BoxLine box_of(LineWords& line, const DesignsFile& file) {
+  BoxLine out;
+  for (std::size_t k = 0; k < file.varied.size(); ++k) out.ends[k] = line.range();
+  const std::string state = line.word();
+  if (state != states[0] && state != states[1] && state != states[2]) refuse(quoted(state) + " is no state of a box");
+  out.state = state[0];
+  if (out.state != 'o') return out;
+  out.limit = line.whole();
+  out.at = line.pose();
+  out.other = line.pose();
+  return out;
+}
+
+void add(const std::string& key, LineWords& line, DesignsFile& out) {
+  if (key == "family") out.family = line.word();
+  else if (key == "variable") {
+    const std::string name = line.word();
+    out.variables.push_back({name, line.range()});
+    const Range& x = out.variables.back().range;
+    if (!std::isfinite(x.a) || !std::isfinite(x.b)) refuse("a variable has no bounds");
+    if (x.a < x.b) out.varied.push_back(out.variables.size() - 1);
+    if (out.varied.size() > most_varied_symbols) refuse("more than four variables vary");
+  } else if (key == "tool") out.tool = line.reals<6>();
+  else if (key == "characteristic_length") out.length = line.real();
+  else if (key == "region") {
+    out.region.shape = line.word();
+    out.region.size = line.reals<3>();
+    out.region.tilt = line.real();
+    out.region.yaw = line.real();
+    out.region.shifted = line.either("shifted", "held");
+    out.region.in_zp = line.either("zp", "length");
+  } else if (key == "corner") out.region.corners.push_back(line.reals<3>());
+  else if (key == "pose") {
+    PoseLine one{line.reals<3>(), line.reals<3>(), line.reals<3>()};
+    one.in_zp = line.either("zp", "length");
+    out.poses.push_back(one);
+  } else if (key == "limit") out.limits.push_back(limit_of(line));
+  else if (key == "exempt") out.exempt.push_back(line.whole());
+  else if (key == "shares") out.shares = line.reals<3>();
+  else out.boxes.push_back(box_of(line, out));
+}
+
+void validate(const DesignsFile& file) {
+  const std::vector<std::string> names = names_of(file.family);
+  if (file.variables.size() != names.size()) refuse("the variables are not those of the family");
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (file.variables[k].name != names[k]) refuse("variable " + names[k] + " is missing");
+  if (file.varied.empty()) refuse("no variable varies");
+  if (!(file.length > 0.0)) refuse("the characteristic length is not positive");
+  const RegionLine& region = file.region;
+  bool known = region.corners.empty() == (region.shape != "path") && region.corners.size() != 1;
+  for (const double x : {region.size[0], region.size[1], region.size[2], region.tilt, region.yaw}) known &= x >= 0.0;
+  if (!known || !(region.tilt <= 3.15 && region.yaw <= 3.15)) refuse("the region is none");
+  bool shape = false;
+  for (const char* one : {"none", "box", "ball", "cylinder", "path"}) shape |= region.shape == one;
+  if (!shape) refuse(quoted(region.shape) + " is no shape of a region");
+  for (const LimitLine& one : file.limits)
+    if (!(one.range.a < inf && one.range.b > 0.0)) refuse("the bounds of " + one.name + " allow nothing");
+  for (const int pair : file.exempt)
+    if (pair < 0 || pair > 20) refuse("a pair of legs is not from 0 to 20");
+  if (file.boxes.empty()) refuse("the file has no boxes");
+}
+
+std::string plain(const Triple& x) {
+  return digits(x[0]) + ", " + digits(x[1]) + ", " + digits(x[2]);
+}
+
+}  // namespace
+
+DesignsFile read_designs(const std::string& bytes) {
+  const std::string body = unsealed(kind_of_designs, bytes, bytes.size());
+  DesignsFile out;
+  std::size_t place = 0, last = kinds.size();  // the kind that comes next, and the one that was last
+  for (std::size_t at = 0; at < body.size();) {
+    const std::size_t end = body.find('\n', at);
+    if (end == std::string::npos) refuse("the last line has no end");
+    const std::string text = body.substr(at, end - at);
+    at = end + 1;
+    LineWords line(text);
+    const std::string key = line.word();
+    const std::size_t before = place;
+    while (place < kinds.size() && key != kinds[place].key) ++place;
+    if (place == kinds.size()) refuse("line " + quoted(text) + " is not in its place");
+    for (std::size_t k = before; k < place; ++k)
+      if (!kinds[k].optional && k != last) refuse("line " + quoted(kinds[k].key) + " is missing");
+    last = place;
+    if (!kinds[place].many) ++place;
+    add(key, line, out);
+    if (!line.done()) refuse(quoted(text) + " goes on after its end");
+  }
+  validate(out);
+  return out;
+}
+
+std::vector<std::string> question_of(const DesignsFile& file) {
+  std::vector<std::string> out{file.family + " designs with 0 < zs < zp"};
+  for (const auto& [name, range] : file.variables)
+    out.push_back(range.a == range.b ? name + " " + digits(range.a)
+                                     : name + " from " + digits(range.a) + " to " + digits(range.b));
+  if (file.tool != std::array<double, 6>{})
+    out.push_back("tool at " + plain({file.tool[0], file.tool[1], file.tool[2]}) + ", turned by " +
+                  plain({file.tool[3], file.tool[4], file.tool[5]}));
+  const auto in = [](bool zp) { return zp ? " zp" : ""; };
+  const RegionLine& region = file.region;
+  if (region.shape != "none")
+    out.push_back("at every pose of a " + region.shape +
+                  (region.shape == "path" ? "" : " of " + plain(region.size) + in(region.in_zp)) + ", tilts up to " +
+                  digits(region.tilt) + ", yaw up to " + digits(region.yaw) + ", O " +
+                  (region.shifted ? "shifted" : "held"));
+  for (const Triple& corner : region.corners) out.push_back("  by " + plain(corner) + in(region.in_zp));
+  for (const PoseLine& one : file.poses)
+    out.push_back("at the pose shifted by " + plain(one.position) + in(one.in_zp) + ", turned by " +
+                  plain(one.rotation) + ", O shifted by " + plain(one.internal) + in(one.in_zp));
+  for (const LimitLine& one : file.limits) {
+    std::string line = one.name;
+    if (one.range.a > 0.0) line += " at least " + digits(one.range.a);
+    if (one.range.b < inf) line += " at most " + digits(one.range.b);
+    if (one.of != "length") line += " " + one.of;
+    if (one.name == "condition_number") line += " with the characteristic length " + digits(file.length);
+    if (one.axis != Triple{}) line += " about " + plain(one.axis);
+    out.push_back(line + (one.at_neutral ? " at the neutral pose" : ""));
+  }
+  for (const int pair : file.exempt) {
+    const auto [a, b] = legs_of_pair(pair);
+    out.push_back(std::string(name_of_leg(a)) + "-" + name_of_leg(b) + " may meet: they share a joint");
+  }
+  return out;
+}
+
+const char* name_of_leg(int leg) {
+  return std::array{"l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"}[static_cast<std::size_t>(leg)];
+}
+
+std::array<int, 2> legs_of_pair(int pair) {
+  if (pair < 3) return {pair, (pair + 1) % 3};
+  return {(pair - 3) / 6, 3 + (pair - 3) % 6};
+}
+
+}  // namespace ninedof::checker::sets

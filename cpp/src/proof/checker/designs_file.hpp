@@ -1,0 +1,77 @@
+#pragma once
+/// What a certificate of a set of admissible designs says, before anything of it is believed.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "proof/checker/certificate_file.hpp"
+#include "proof/checker/linear.hpp"
+
+namespace ninedof::checker::sets {
+
+using Triple = std::array<double, 3>;
+
+/// A box of poses. Piece -1 is the neutral pose, -2 - k listed pose k, and others are those of the region: all of it, or
+/// straight part k of a path. Coordinates: the shift of p in the unit of the region (of a path the first, from 0 to 1
+/// along the part), the tilt vector about x and y, the yaw.
+struct Patch {
+  int piece = -1;
+  std::array<double, pose_symbols> low{}, high{};
+};
+
+struct RegionLine {
+  std::string shape;  ///< "none", "box", "ball", "cylinder" or "path"
+  Triple size{};
+  double tilt = 0.0, yaw = 0.0;
+  bool shifted = true, in_zp = false;
+  std::vector<Triple> corners;
+};
+
+struct PoseLine {
+  Triple position, rotation, internal;
+  bool in_zp = false;
+};
+
+struct LimitLine {
+  std::string name;
+  Range range;
+  std::string of;  ///< "length", "zp" or "radius"
+  bool at_neutral = false;
+  Triple axis{};  ///< of cones; zero: the direction of the leg at home
+};
+
+struct BoxLine {
+  std::array<Range, most_varied_symbols> ends{};
+  char state = 'u';  ///< 'i' inside, 'o' outside, 'u' undecided
+  int limit = 0;     ///< of those outside: 0 for singularities, 1 for 0 < zs < zp, then the limits from 2 on
+  Patch at, other;   ///< where all of the box break it; of a spread where a leg is longest and where shortest
+};
+
+struct DesignsFile {
+  std::string family;
+  std::vector<Bound> variables;
+  std::vector<std::size_t> varied;  ///< the variables that have a range
+  std::array<double, 6> tool{};     ///< its point, its rotation vector
+  double length = 1.0;              ///< the characteristic length
+  RegionLine region;
+  std::vector<PoseLine> poses;
+  std::vector<LimitLine> limits;
+  std::vector<int> exempt;  ///< pairs of legs that share a joint in all designs
+  std::array<double, 3> shares{};
+  std::vector<BoxLine> boxes;
+};
+
+constexpr const char* kind_of_designs = "ninedof certificate of designs 1";
+
+/// Accepts one spelling of each certificate, as `read` does.
+DesignsFile read_designs(const std::string& bytes);
+
+/// The question for people.
+std::vector<std::string> question_of(const DesignsFile& file);
+
+const char* name_of_leg(int leg);
+/// The legs of pair 0 to 20: three of external legs, then each of these with the six internal ones.
+std::array<int, 2> legs_of_pair(int pair);
+
+}  // namespace ninedof::checker::sets

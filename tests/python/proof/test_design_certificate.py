@@ -1,0 +1,285 @@
+"""Certificates of sets of designs that were changed and sealed anew: refused, not confirmed, or true.
+
+Oracle of what is still proved: margins of designs drawn from the boxes at poses drawn from the region, in numpy.
+"""
+
+import math
+import zlib
+
+import numpy as np
+import pytest
+from limit_oracle import limits_of, margins, robot_of
+from region_oracle import random_poses
+from sizes import size
+
+import ninedof as nd
+from ninedof.optimize.region_report import posed
+
+FIRST = "ninedof certificate of designs 1\nchecksum "
+STUDY = nd.Study(
+    variables={"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0, "theta_z": 0.0},
+    constraints={"leg_length": (2.0, 6.8), "stroke_ratio": (None, 1.22), "leg_clearance": (0.12, None)},
+    objective={"region": {"box": (0.3, 0.2, 0.2), "tilt": 0.1}},
+)
+
+
+@pytest.fixture(scope="module")
+def designs():
+    return nd.admissible(STUDY, ("a2", "b1"), resolution=0.1)
+
+
+@pytest.fixture(scope="module")
+def lines(designs, tmp_path_factory):
+    path = designs.save_certificate(tmp_path_factory.mktemp("set") / "designs.certificate")
+    return path.read_text().splitlines()[2:]
+
+
+@pytest.fixture
+def verdict(tmp_path):
+    def of(lines):
+        body = "".join(f"{line}\n" for line in lines).encode()
+        path = tmp_path / "forged.certificate"
+        path.write_bytes(f"{FIRST}{zlib.crc32(body):x}\n".encode() + body)
+        return nd.check_certificate(path)
+
+    return of
+
+
+def spelled(x):
+    """As the file has it: hexadecimal without needless digits."""
+    if math.isinf(x):
+        return "inf" if x > 0.0 else "-inf"
+    mantissa, exponent = float(x).hex().split("p")
+    return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}p{exponent}"
+
+
+def boxes(lines, state):
+    return [n for n, line in enumerate(lines) if line.startswith("box") and f" {state}" in line]
+
+
+def with_word(lines, n, place, word):
+    words = lines[n].split(" ")
+    words[place] = word
+    return [*lines[:n], " ".join(words), *lines[n + 1 :]]
+
+
+def in_state(lines, n, state):
+    """A box in another state, and the shares that go with it."""
+    line, old = lines[n], next(word for word in ("inside", "outside", "undecided") if f" {word}" in lines[n])
+    ends = [float.fromhex(x) for x in line.split(" ")[1:5]]
+    volume = (ends[1] - ends[0]) * (ends[3] - ends[2]) / (8.0 * 4.0)
+    out = [*lines[:n], line.split(f" {old}")[0] + " " + state, *lines[n + 1 :]]
+    shares = line_of(lines, "shares")
+    for place, sign in ((old, -1.0), (state.split(" ")[0], 1.0)):
+        k = 1 + ("inside", "outside", "undecided").index(place)
+        out = with_word(out, shares, k, spelled(float.fromhex(out[shares].split(" ")[k]) + sign * volume))
+    return out
+
+
+def line_of(lines, start):
+    return next(n for n, line in enumerate(lines) if line.startswith(start))
+
+
+def test_a_genuine_file_is_proved_and_says_what_it_is_about(designs, lines, verdict):
+    found = verdict(lines)
+    assert found.proved
+    assert not found.incomplete
+    assert found.boxes == len(designs.state)
+    assert "a2 from 2 to 10" in found.study
+    assert "at every pose of a box of 0.3, 0.2, 0.2, tilts up to 0.1, yaw up to 0, O shifted" in found.study
+    assert "stroke_ratio at most 1.22" in found.study
+    assert min(len(boxes(lines, state)) for state in ("inside", "outside", "undecided")) > 5
+
+
+def test_a_box_called_inside_that_is_not_is_refused(lines, verdict):
+    rng, named = np.random.default_rng(1), 0
+    for n in rng.choice(boxes(lines, "outside"), 15, replace=False):
+        found = verdict(in_state(lines, n, "inside"))
+        assert not found.proved
+        named += "called inside" in found.words
+        assert found.incomplete or "called inside" in found.words
+    assert named > 10
+
+
+def test_an_undecided_box_called_inside_is_refused_not_confirmed_or_true(lines, verdict):
+    rng = np.random.default_rng(3)
+    refused = 0
+    for n in rng.choice(boxes(lines, "undecided"), 15, replace=False):
+        forged = in_state(lines, n, "inside")
+        found = verdict(forged)
+        assert not found.proved or holds(forged, rng, [n] * 4)
+        refused += "called inside" in found.words
+        assert found.proved or found.incomplete or "called inside" in found.words
+    assert refused > 5
+
+
+def test_a_box_called_outside_that_is_not_is_refused(lines, verdict):
+    reason = lines[boxes(lines, "outside")[0]].split(" outside")[1]
+    rng = np.random.default_rng(2)
+    for n in rng.choice(boxes(lines, "inside"), 15, replace=False):
+        found = verdict(in_state(lines, n, "outside" + reason))
+        assert not found.proved
+        assert "called outside" in found.words
+
+
+def test_a_pose_that_was_moved_is_refused_or_shows_as_much(lines, verdict):
+    refused = 0
+    for n in boxes(lines, "outside")[:10]:
+        words = lines[n].split(" ")
+        at = words.index("outside") + 3  # the first coordinate of the pose
+        moved = lines
+        for place in range(at, at + 6):
+            moved = with_word(moved, n, place, "0x0p+0")
+        refused += not verdict(moved).proved
+        far = with_word(lines, n, at, "0x1p+60")  # the nearest pose of the region counts
+        assert not verdict(far).proved or verdict(far).words == verdict(lines).words
+        assert not verdict(with_word(lines, n, at - 1, "-2")).proved  # a listed pose, of which there is none
+        assert not verdict(with_word(lines, n, at - 1, "-1")).proved  # the neutral pose is no listed one
+    assert refused > 0
+
+
+@pytest.mark.parametrize("factor", [0.9, 0.97, 1.03, 1.1])
+@pytest.mark.parametrize(("name", "place"), [("leg_length", 3), ("stroke_ratio", 3)])
+def test_another_value_of_a_limit_is_refused(name, place, factor, lines, verdict):
+    n = line_of(lines, f"limit {name}")
+    value = spelled(float.fromhex(lines[n].split(" ")[place]) * factor)
+    assert not verdict(with_word(lines, n, place, value)).proved
+
+
+def test_boxes_that_are_no_division_are_refused(lines, verdict):
+    n = boxes(lines, "inside")[3]
+    width = float.fromhex(lines[n].split(" ")[2])
+    for forged in (
+        [*lines[:n], *lines[n + 1 :]],
+        [*lines[:n], lines[n], *lines[n:]],
+        with_word(lines, n, 2, spelled(np.nextafter(width, 100.0))),
+        with_word(lines, n, 2, spelled(np.nextafter(width, 0.0))),
+        with_word(lines, line_of(lines, "variable a2"), 3, spelled(10.5)),
+        lines[:-1],
+    ):
+        found = verdict(forged)
+        assert not found.proved
+        assert "division" in found.words
+
+
+def test_other_shares_are_refused(lines, verdict):
+    n = line_of(lines, "shares")
+    for place in (1, 2, 3):
+        found = verdict(with_word(lines, n, place, spelled(float.fromhex(lines[n].split(" ")[place]) + 1e-6)))
+        assert found.words == "the shares are not those of the boxes"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("family hexagonal", "family general", "variables are not those"),
+        ("family hexagonal", "family hope", "no family"),
+        ("variable a1", "variable a9", "variable a1 is missing"),
+        ("variable zp 0x1.4p+2 0x1.4p+2", "variable zp 0x1.4p+2 inf", "no bounds"),
+        ("0x1.4p+2", "0x1.40p+2", "not spelled"),
+        ("0x1.4p+2", "5.0", "not a hexadecimal"),
+        ("region box", "region cube", "no shape"),
+        ("shifted", "best", "neither"),
+        ("limit leg_length", "limit leg length", "hexadecimal"),
+        ("shares", "hope", "not in its place"),
+        ("exempt 5", "exempt 5 6", "goes on after"),
+        ("tool 0x0p+0 0x0p+0 0x0p+0 0x0p+0 0x0p+0 0x0p+0\n", "", 'tool" is missing'),
+        ("tool 0x0p+0", "tool inf", "infinite"),
+        ("exempt 5\n", "", "called inside"),
+        ("exempt 5", "exempt 21", "not from 0 to 20"),
+        ("exempt 5", "exempt 0", "shares no joint"),
+        ("exempt 5", "exempt 99999999999999999999", "whole number"),
+        ("inside", "aside", "no state"),
+        ("outside 2", "outside 7", "names no limit"),
+        ("outside 2", "outside -1", "names no limit"),
+        ("tool", "family hexagonal\ntool", "not in its place"),
+    ],
+)
+def test_a_file_that_is_none_is_refused(old, new, words, lines, verdict):
+    text = "\n".join(lines)
+    assert old in text
+    found = verdict(text.replace(old, new, 1).split("\n"))
+    assert not found.proved
+    assert not found.incomplete
+    assert words in found.words
+    assert found.study == ()
+
+
+def test_a_limit_that_the_checker_does_not_know_leaves_it_incomplete(lines, verdict):
+    zero = "0x0p+0 0x0p+0 0x0p+0"
+    n = line_of(lines, "exempt")
+    for line, name in (
+        (f"limit fault_tolerant 0x0p+0 0x1p+3 length poses {zero}", "fault_tolerant"),
+        (f"limit hope 0x0p+0 0x1p+3 length poses {zero}", "hope"),
+        (f"limit base_cone 0x0p+0 0x1p+1 zp poses {zero}", "base_cone"),
+    ):
+        found = verdict([*lines[:n], line, *lines[n:]])
+        assert found.incomplete
+        assert not found.proved
+        assert f"not checked: {name}" in found.words
+
+
+def test_damage_anywhere_is_refused(designs, tmp_path):
+    path = designs.save_certificate(tmp_path / "designs.certificate")
+    data = path.read_bytes()
+    for at in np.random.default_rng(4).integers(0, len(data), size(60, 600)):
+        path.write_bytes(data[:at] + bytes([data[at] ^ 1]) + data[at + 1 :])
+        assert not nd.check_certificate(path).proved
+        path.write_bytes(data[:at])
+        assert not nd.check_certificate(path).proved
+
+
+def holds(lines, rng, which=None):
+    """Whether no design of a box inside breaks a limit of the lines, as far as samples show."""
+    limits = {
+        line.split(" ")[1]: [float.fromhex(x) for x in line.split(" ")[2:4]] for line in lines if "limit " in line
+    }
+    shape = [float.fromhex(x) for x in lines[line_of(lines, "region")].split(" ")[2:7]]
+    fixed = {
+        line.split(" ")[1]: float.fromhex(line.split(" ")[2])
+        for line in lines
+        if line.startswith("variable") and line.split(" ")[1] not in ("a2", "b1")
+    }
+    study = nd.Study(
+        variables=dict(STUDY.variables) | fixed,
+        constraints={
+            name: (low if low > 0.0 else None, high if math.isfinite(high) else None)
+            for name, (low, high) in limits.items()
+        },
+        objective={"region": {"box": shape[:3], "tilt": shape[3], "yaw": shape[4]}},
+    )
+    for n in rng.choice(boxes(lines, "inside"), 4) if which is None else which:
+        ends = [float.fromhex(x) for x in lines[n].split(" ")[1:5]]
+        design = fixed | {"a2": rng.uniform(*ends[:2]), "b1": rng.uniform(*ends[2:])}
+        there = posed(study, random_poses(study.objective.region, 40, rng))
+        robot = robot_of(there, design)
+        if any(np.min(margins(limit, robot)) < -1e-9 for limit in limits_of(there)):
+            return False
+    return True
+
+
+def test_what_is_proved_of_a_changed_file_is_true(lines, verdict):
+    """Numbers before the boxes, moved by up to some percent."""
+    rng = np.random.default_rng(7)
+    first = boxes(lines, "")[0]
+    places = [
+        (n, k)
+        for n in range(first)
+        if lines[n].split(" ")[0] in ("variable", "region", "limit")
+        for k, word in enumerate(lines[n].split(" "))
+        if word.lstrip("-").startswith("0x") and float.fromhex(word) != 0.0
+    ]
+    proved = refused = 0
+    for _ in range(size(60, 600)):
+        n, k = places[rng.integers(len(places))]
+        value = float.fromhex(lines[n].split(" ")[k]) * math.exp(0.03 * rng.normal())
+        forged = with_word(lines, n, k, spelled(value))
+        if lines[n].startswith("variable") and lines[n].split(" ")[2] == lines[n].split(" ")[3]:
+            forged = with_word(forged, n, 5 - k, spelled(value))  # both ends of a variable that is fixed
+        if not verdict(forged).proved:
+            refused += 1
+            continue
+        proved += 1
+        assert holds(forged, rng), forged[n]
+    assert proved > 5
+    assert refused > 5
