@@ -22,11 +22,12 @@ MADE = ("values.md", "comparison.md")  # printed by bench/python
 REQUIREMENT = (ROOT / "examples/18_requirement.toml").read_text(encoding="utf-8")
 ACTUATORS = (ROOT / "examples/22_actuators.toml").read_text(encoding="utf-8")
 PLACED = REQUIREMENT.replace("tilt_deg = 10.0", 'tilt_deg = 10.0\ninternal_point = "best"')
+BUILT = REQUIREMENT + "\n[tolerances]\njoints = 0.05\nlegs = 0.05\n"
 FILES = {
     "actuators.md": {"examples/22_actuators.toml": ACTUATORS},
     "admissible.md": {"examples/18_requirement.toml": REQUIREMENT},
     "certificate.md": {"examples/18_requirement.toml": REQUIREMENT},
-    "certify.md": {"examples/18_requirement.toml": REQUIREMENT, "placed.toml": PLACED},
+    "certify.md": {"examples/18_requirement.toml": REQUIREMENT, "built.toml": BUILT, "placed.toml": PLACED},
     "first-design.md": {},
     "guides/assembly-modes.md": {},
     "guides/characteristic-length.md": {},
