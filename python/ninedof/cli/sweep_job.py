@@ -65,8 +65,12 @@ class Job(JobOptions):
         data: Any,
         table: Table,
         draw: Callable[[], Iterable[tuple[str, Figure]]],
+        stated: Mapping[str, Any] | None = None,
     ) -> None:
-        """Write the result and its record, print the table, then write figures, each with its name, and the report."""
+        """Write the result and its record, print the table, then write figures, each with its name, and the report.
+
+        `stated` is what the record says of the study of the design.
+        """
 
         def drawn(place: Path) -> list[Path]:
             self.screen.say(f"drawing the {next(iter(data))}")
@@ -74,7 +78,7 @@ class Job(JobOptions):
 
             return [file for name, figure in draw() for file in plot.save(figure, place, name)]
 
-        write, report = partial(write_run, result, folder, results=data), self.report and self.figures
+        write, report = partial(write_run, result, folder, question=stated, results=data), self.report and self.figures
         record = write_job(self.screen, Answer([table], data), write, drawn if self.figures else None, report)
         self.screen.print(folder_words(folder))
         self.screen.data({**data, "record": str(record)})

@@ -101,7 +101,7 @@ def condition_number(
     ----------
     geometry : Geometry, Result or Design
     configuration : Configuration
-        Shape (...).
+        Shape (...); of a design its neutral pose by default. The worst over its study is `Result.condition_number`.
     characteristic_length : float, array_like of shape (...), or str
         Length l_c > 0, or a kind as in `characteristic_length`; 1 by default, of a design its own.
     norm : {"2", "frobenius"}

@@ -301,6 +301,8 @@ class AdmissibleSet:
             f"Proved, of all designs with {self.of.words}{held}: {inside} keep every limit{bound} at every pose, "
             f"{outside} break one; {undecided} are not decided."
         ]
+        if self.study.tolerances:
+            out.append("Of machines as they are drawn: the tolerances of the study are not looked at.")
         if self.of.moved:
             out.append(f"The design's {' and '.join(self.of.moved)} is outside of the range: the middle is marked.")
         if self.excluded:

@@ -98,7 +98,7 @@ def write_run(
     draw : callable, optional
         Called with the directory after the record was written; draws figures there and returns their paths.
     question : mapping, optional
-        What was asked, where the run does not hold it itself: of a workspace.
+        What was asked, where the run does not hold it itself: of a workspace, and of a sweep besides what it holds.
     results : mapping, optional
         What the record says of a sweep or an atlas; the arrays lie beside it.
 
@@ -137,7 +137,8 @@ def _record_of(run: Run, question: Mapping[str, Any], results: Mapping[str, Any]
         return Record("front", run.study, {"front": front})
     if isinstance(run, WorkspaceMap):
         return Record("workspace", question, {"workspace": run.to_dict()})
-    question = {name: value for name, value in run.attributes.items() if name not in versions()}
+    own = {name: value for name, value in run.attributes.items() if name not in versions()}
+    question = {**question, **own}
     return Record("atlas" if run.attributes.get("kind") == "atlas" else "sweep", question, results)
 
 

@@ -3,6 +3,7 @@
 import io
 import json
 import shutil
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
@@ -132,3 +133,37 @@ def test_the_table_has_one_line_a_row_at_80_columns():
     lines = [line for line in console.export_text().splitlines() if line.startswith("│")]
     assert len(lines) == 9 + len(certificate.limits) + 1
     assert lines[-1].startswith("│ condition number ")
+
+
+def test_other_tolerances_are_proved_anew_and_the_largest_are_found(run, capsys):
+    assert status(run) == 0
+    capsys.readouterr()
+    assert status(run, "--tolerance", 1e-4) == 3  # its optimum lies on its limits
+    said = " ".join(capsys.readouterr().out.split())
+    assert "As built: every joint centre within 0.0001 and every leg length within 0.0001 of the drawing." in said
+    assert "With the lengths of the drawing p is off by at most" in said
+    assert nd.load_certificate(run).tolerances == nd.Tolerances(1e-4, 1e-4)
+    assert "As built: every joint centre" in nd.report(run, run / "page.html").read_text()
+    assert status(run, "--tolerance", "max") == 0
+    assert "No tolerance was proved: radius ratio leaves no reserve." in " ".join(capsys.readouterr().out.split())
+    assert not nd.load_certificate(run).tolerances
+
+
+def test_a_run_with_a_reserve_says_so_and_its_tolerances_are_proved(tmp_path, capsys):
+    folder, file = tmp_path / "built", tmp_path / "built.toml"
+    replace(nd.Study.paper(), tolerances=nd.Tolerances(joints=0.001)).save(file)
+    assert main_status("optimize", file, "--starts", 2, "--out", folder, "--no-figures") == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "reserve for the tolerances: radius ratio max" in said
+    assert "proved of every machine within the tolerances" in said
+    assert status(folder) == 0
+    assert status(folder, "--tolerance", "max") == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "The largest tolerances that were proved, to 5 %: joints 0.001" in said
+    assert nd.load_certificate(folder).leg_tolerance == 0.0
+
+
+@pytest.mark.parametrize("bad", ["-1", "much", "inf", "nan"])
+def test_bad_tolerances_are_named(run, bad, capsys):
+    assert status(run, f"--tolerance={bad}") == 2
+    assert f"--tolerance: got '{bad}', expected a length from 0 on, or \"max\"" in capsys.readouterr().err

@@ -86,7 +86,7 @@ def test_no_report_where_none_is_asked_for(here):
     assert not (here / "run" / "report.html").exists()
 
 
-def test_paths_and_workspaces_of_a_run_have_its_title_block_and_its_tool(tmp_path, monkeypatch):
+def test_paths_workspaces_and_sweeps_of_a_run_have_its_title_block_and_its_tool(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     variables = {"a1": 0.0, "a2": 581.24, "b1": 290.62, "b2": 0.0, "zp": 398.28, "zs": 244.35}
     about = {"project": "Polishing head", "author": "A. Smith", "revision": "C"}
@@ -99,10 +99,11 @@ def test_paths_and_workspaces_of_a_run_have_its_title_block_and_its_tool(tmp_pat
     for words in (
         ["path", "machine", "--line", "5", "0", "5", "--points", "21"],
         ["workspace", "machine", "--legs", "200", "470"],
+        ["sweep", "machine", "--over", "x_p=-5:5:5"],
     ):
         with pytest.raises(SystemExit):
             main([*words, "--out", words[0]])
         page = shown((tmp_path / words[0] / "report.html").read_text())
         assert "project Polishing head author A. Smith revision C" in page
-        assert "lengths in mm" in page
+        assert "lengths in mm" in page or words[0] == "sweep"
     assert drawn == [study.tool]

@@ -119,7 +119,8 @@ def sweep(job: Sweep) -> None:
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
     table = summary_table(summary, title, result.units)
     data = json_data(result, summary)
-    job.write(result, folder, data, table, lambda: _figures(result, what, note))
+    stated = {} if what is None or what in FIGURES else named_design(what).stated
+    job.write(result, folder, data, table, lambda: _figures(result, what, note), stated)
 
 
 def _note(what: str | None, where: str) -> str:
