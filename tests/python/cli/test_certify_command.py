@@ -151,7 +151,7 @@ def test_other_tolerances_are_proved_anew_and_the_largest_are_found(run, capsys)
 
 def test_a_run_with_a_reserve_says_so_and_its_tolerances_are_proved(tmp_path, capsys):
     folder, file = tmp_path / "built", tmp_path / "built.toml"
-    replace(nd.Study.paper(), tolerances=nd.Tolerances(joints=0.001)).save(file)
+    replace(nd.Study.paper(), tolerances=nd.Tolerances(joints=0.0001)).save(file)
     assert main_status("optimize", file, "--starts", 2, "--out", folder, "--no-figures") == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "reserve for the tolerances: radius ratio max" in said
@@ -159,7 +159,7 @@ def test_a_run_with_a_reserve_says_so_and_its_tolerances_are_proved(tmp_path, ca
     assert status(folder) == 0
     assert status(folder, "--tolerance", "max") == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "The largest tolerances that were proved, to 5 %: joints 0.001" in said
+    assert "The largest tolerances that were proved, to 5 %: joints 0.0001" in said
     assert nd.load_certificate(folder).leg_tolerance == 0.0
 
 

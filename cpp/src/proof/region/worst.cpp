@@ -161,10 +161,12 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
   long count = 0;
   // One bound after another: what is proved for one begins the next, and there always is a bound to return.
   std::vector<double> gaps{1.0, 0.3, 0.1};
-  if (domain.machine().region.empty()) gaps = {1.0, settings.gap, 1e-6, 1e-9};  // points need no division
-  else std::erase_if(gaps, [&](double gap) { return gap <= settings.gap; });
+  std::erase_if(gaps, [&](double gap) { return gap <= settings.gap; });
   if (!from.empty()) gaps.clear();
-  if (gaps.empty() || gaps.back() > settings.gap) gaps.push_back(settings.gap);
+  gaps.push_back(settings.gap);
+  if (domain.machine().region.empty())  // points need no division
+    for (const double narrow : {1e-6, 1e-9})
+      if (narrow < settings.gap) gaps.push_back(narrow);
   for (const double gap : gaps) {
     bool given = gap == gaps.back() && settings.condition > met.value;
     double target = given ? settings.condition : met.value * (1.0 + gap);
@@ -201,6 +203,7 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
       if (control.progress) control.progress(count, 0, met.value);
     }
     ahead.insert(ahead.end(), stuck.begin(), stuck.end());
+    if (!ahead.empty() && gap < settings.gap && !given) break;  // narrower than was asked for
     out.tried = target;
     if (!ahead.empty()) {
       boxes = std::move(ahead);
