@@ -64,6 +64,8 @@ void Limit::validate() const {
     throw InvalidArgument(label, text, "only a greatest value (max)");
   if (row.sides == LimitSides::only_low && high < infinity)
     throw InvalidArgument(label, text, "only a least value (min)");
+  if (row.kind == LimitKind::angle && high < infinity && high > 3.15)
+    throw InvalidArgument(label, text, "angles up to 180 degrees, in radians");
   if (of != Unit::length && of != row.of)
     throw InvalidArgument(label, std::string("of = \"") + to_string(of) + "\"",
                           std::string("of = \"length\"") +

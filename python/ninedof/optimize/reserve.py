@@ -3,28 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninedof import _core
 from ninedof.design.duty import Tolerances
 from ninedof.design.limits import Limit
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
-from ninedof.proof.machine import posed_robot
-from ninedof.proof.machine_record import PROVED
+from ninedof.proof.machine import NEUTRAL_LIMIT, open_limits
 from ninedof.support.arguments import finite, flag, table, text
 from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr
+from ninedof.support.structs import Fixed
 
 ROUNDS = 6  # two are enough where limits change little with the design
 MORE = 1.02  # of what a proof lacks: a limit on its edge would be proved by rounding only
-FOR_PROOF = 5.0  # seconds of each limit
+STEP = 0.005  # of a limit of the condition number, in each round
+LEAST = 0.5  # of a limit, and of its inverse: tolerances that take more leave no machine
+FOR_PROOF = 60.0  # seconds of each limit, which takes fewer: the same result whatever the machine
+CONDITION_LIMITS = {"condition_limit": "condition_limit", NEUTRAL_LIMIT: "neutral_condition_limit"}
+UNPROVED = "not proved of every machine within the tolerances"
 
 
-def _shares(name: str, value: Any) -> dict[str, float]:
-    return {text(name, key): finite(name, share, 0.0) for key, share in table(name, value).items()}
+def _shares(name: str, value: Any) -> Mapping[str, float]:
+    shares = {text(name, key): finite(name, share, 0.0) for key, share in table(name, value).items()}
+    return Fixed(shares)
 
 
 @short_repr
@@ -32,7 +36,7 @@ def _shares(name: str, value: Any) -> dict[str, float]:
 class Reserve(Table):
     """What the search kept of each limit in the place of all of it."""
 
-    shares: dict[str, float] = entry(_shares)
+    shares: Mapping[str, float] = entry(_shares, Fixed())
     """By label and side, "stroke_ratio max": the part of the limit; only of limits that need a reserve."""
     proved: bool = entry(flag, False)
     """Whether all limits are proved of every machine within the tolerances, at every pose."""
@@ -46,14 +50,23 @@ class Reserve(Table):
             low, high = (self.shares.get(f"{limit.label} {side}", 1.0) for side in ("min", "max"))
             kept = replace(limit, low=limit.low * low, high=limit.high * high)
             constraints.setdefault(limit.name, []).append(kept)
-        return replace(study, constraints=constraints, tolerances=Tolerances())
+        kept_of = {name: self.shares.get(f"{label} max", 1.0) for label, name in CONDITION_LIMITS.items()}
+        bounds = {name: getattr(study.objective, name) for name in kept_of}
+        objective = {name: bound * kept_of[name] for name, bound in bounds.items() if bound is not None}
+        return replace(
+            study,
+            constraints=constraints,
+            objective=replace(study.objective, **objective),
+            tolerances=Tolerances(),
+        )
 
     @property
     def words(self) -> list[str]:
         """The reserve in sentences."""
         parts = [f"{name.replace('_', ' ')} {100.0 * abs(1.0 - share):.2g} %" for name, share in self.shares.items()]
         out = [f"reserve for the tolerances: {', '.join(parts)}"] if parts else []
-        return [*out, "proved of every machine within the tolerances" if self.proved else self.note]
+        note = "proved of every machine within the tolerances" if self.proved else self.note
+        return [*out, note] if note else out
 
 
 def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) -> Any:
@@ -71,45 +84,61 @@ def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) 
     threads : int
 
     """
-    study, reserve, first = result.study, Reserve({}), result
+    study, shares, first = result.study, dict[str, float](), result
     region = study.objective.region
     if region is not None and not places_o(region):
-        return replace(result, reserve=Reserve({}, False, "no reserve for tolerances: O is placed anew at every pose"))
-    for _ in range(ROUNDS):
+        return replace(result, reserve=Reserve(note="no reserve for tolerances: O is placed anew at every pose"))
+    for left in reversed(range(ROUNDS + 1)):
         if result.best is None or result.interrupted:
             break
-        open_ones = list(_open(study, result, threads))
-        if not open_ones:
-            return replace(_of(study, result, first), reserve=replace(reserve, proved=True, note=""))
-        shares, names = dict(reserve.shares), []
-        for limit in open_ones:
-            name = f"{limit.name} {limit.side}"
-            worst = limit.value[limit.side == "max"]
-            share = limit.limit / worst if 0.0 < worst < math.inf else 0.0
-            lacking = (1.0 - share) * MORE
-            names.append(name.replace("_", " "))
-            shares[name] = shares.get(name, 1.0) * (1.0 - lacking)
-        words = f"not proved of every machine within the tolerances: {', '.join(names)}"
-        reserve = Reserve({key: share for key, share in shares.items() if 0.1 < share < 10.0}, False, words)
-        if len(reserve.shares) < len(shares) or any(limit.limit == 0.0 for limit in open_ones):
+        try:
+            lacking = _open(study, result, threads)
+        except KeyboardInterrupt:
+            note = "interrupted before the limits were proved of every machine within the tolerances"
+            return replace(_of(study, result, first), interrupted=True, reserve=Reserve(shares, note=note))
+        if not lacking:
+            return replace(_of(study, result, first), reserve=Reserve(shares, proved=True))
+        taken = {key: shares.get(key, 1.0) * share for key, share in lacking.items()}
+        if left == 0 or not all(LEAST < share < 1.0 / LEAST for share in taken.values()):
             break
-        result = solve(reserve.study(study), result)
-    return replace(_of(study, result, first), reserve=reserve)
+        shares |= taken
+        result = solve(Reserve(shares).study(study), result)
+    return _without(study, result, first, Reserve(shares), threads)
+
+
+def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
+    """Return the limits that are not proved of every machine within the tolerances, and the part to be kept of each."""
+    best, out = result.best, dict[str, float]()
+    poses = best.configurations[: 1 + len(study.objective.poses)]
+    design = best.geometry, poses, best.characteristic_length
+    for limit in open_limits(study, *design, study.tolerances, seconds=FOR_PROOF, threads=threads):
+        met, worst = limit.value if limit.side == "max" else limit.value[::-1]
+        if limit.name in CONDITION_LIMITS:  # its enclosure is wide
+            share = min(limit.limit / met, 1.0) * (1.0 - STEP)
+        else:
+            share = 1.0 - (1.0 - limit.limit / worst) * MORE if 0.0 < worst < math.inf else 0.0
+        out[f"{limit.name} {limit.side}"] = share
+    return out
 
 
 def _of(study: Study, result: Any, first: Any) -> Any:
-    """Return a result as one of the study itself."""
-    reason = result.reason
-    if result.best is None:
-        reason = f"with a reserve for the tolerances: {reason}"
-    return replace(result, study=study, reason=reason, actuators=first.actuators)
+    """Return a result as one of the study itself, with the actuators that were chosen before."""
+    chosen = first.actuators
+    if chosen is not None and result.best is not None and result is not first:
+        combination = replace(chosen.chosen, objective=result.best.objective)
+        chosen = replace(chosen, chosen=combination, notes=(*chosen.notes, "actuators were chosen without the reserve"))
+    return replace(result, study=study, actuators=chosen)
 
 
-def _open(study: Study, result: Any, threads: int) -> Iterable[_core.LimitOverPoses]:
-    """Yield the limits that are not proved of every machine within the tolerances."""
-    best = result.best
-    poses = best.configurations[: 1 + len(study.objective.poses)]
-    robot = posed_robot(study, best.geometry, poses, best.characteristic_length, None, study.tolerances)
-    for limit in _core.limits_over_poses(robot, study.problem(), 0.0, threads, FOR_PROOF).limits:
-        if limit.answer != PROVED:
-            yield limit
+def _without(study: Study, result: Any, first: Any, reserve: Reserve, threads: int) -> Any:
+    """Return what is left where no design is proved: the last one, or that there is none."""
+    if first.best is None or result.interrupted:
+        return replace(_of(study, result, first), reserve=replace(reserve, note=UNPROVED))
+    if result.best is not None:
+        lacking = ", ".join(name.replace("_", " ") for name in _open(study, result, threads))
+        reason = f"{UNPROVED}: {lacking}"
+    else:
+        reason = f"with a reserve for the tolerances: {result.reason}"
+    status = type(result.status).INFEASIBLE
+    none = replace(result, status=status, reason=reason, candidates=(), region=None)
+    return replace(_of(study, none, first), actuators=None, reserve=replace(reserve, note=UNPROVED))

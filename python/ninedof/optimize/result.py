@@ -24,7 +24,7 @@ from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.reserve import Reserve
 from ninedof.optimize.tables import candidates_table
 from ninedof.optimize.words import agreement_sentence, price_words, reached_words
-from ninedof.proof.machine import certify, machine_digest
+from ninedof.proof.machine import certify, machine_digest, open_limits
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.optimum import OptimumProof
 from ninedof.proof.point_rule import PointRule, rule_of
@@ -34,9 +34,9 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.idle import idle_names
 from ninedof.sheet.sheet import Sheet, sheet
-from ninedof.support.arguments import choice, finite, instance, items
+from ninedof.support.arguments import choice, finite, instance, items, known_keys
 from ninedof.support.arrays import Floats
-from ninedof.support.progress import progress_argument
+from ninedof.support.progress import phase, progress_argument
 from ninedof.support.short import short_repr
 from ninedof.support.structs import Fixed, entries_of, from_core
 from ninedof.tables.html import notebook
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-WIDE = 20.0  # an enclosure that is proved at once, where only limits count
+PROOFS = 12  # about as many are needed for the largest tolerances
 MOST_PLACED = 200  # poses at which O is placed for the summary, a few milliseconds each
 
 
@@ -382,8 +382,8 @@ class Result:
         Parameters
         ----------
         **options
-            condition_number, slack, threads, rule, progress : as those of `certify`. time_limit : seconds of each
-            proof, 20; there are a dozen.
+            condition_number, slack, threads, rule, progress : as those of `certify`, no slack by default. time_limit :
+            seconds, 60: a limit has a twelfth of it in each proof.
 
         Returns
         -------
@@ -397,16 +397,20 @@ class Result:
             Without a design; for a bad option.
 
         """
+        known = {"condition_number", "slack", "time_limit", "threads", "rule", "progress"}
+        known_keys("largest_tolerance", options, known)
         place, design = self._placing(), self._machine()
-        progress_argument(options.get("progress"))
+        seconds = finite("time_limit", options.pop("time_limit", 60.0), 0.0) / PROOFS
+        progress = progress_argument(options.pop("progress", None))
+        threads = options.setdefault("threads", 0)
         if place is not None and not isinstance(options.get("rule"), PointRule):
-            options["rule"] = rule_of(place, *design, options.get("threads", 0), options.get("progress"))
-        options = {"gap": WIDE, "time_limit": 20.0} | options
+            options["rule"] = rule_of(place, *design, threads, progress)
 
         def proved(tolerances: Tolerances) -> bool:
-            return certify(self.study, *design, **options | {"tolerance": tolerances}).proved
+            phase(progress, f"proving {max(tolerances.joints, tolerances.legs):.3g}")
+            return not open_limits(self.study, *design, tolerances, seconds=max(seconds, 0.5), **options)
 
-        return largest_tolerance(proved, self.study.tolerances, float(design[1].position[0, 2]))
+        return largest_tolerance(proved, self.study.tolerances, self.study.zp(design[1][0]))
 
     def is_certified_by(self, certificate: MachineCertificate) -> bool:
         """Whether a certificate is one of this design at these poses, as `certify` returned it."""

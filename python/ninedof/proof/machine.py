@@ -29,6 +29,9 @@ from ninedof.support.schema import entries
 from ninedof.support.structs import from_core, options_of
 
 DRAWN = Tolerances()
+NEUTRAL_LIMIT = label("condition_limit", "neutral")
+WIDE = 20.0  # an enclosure that is proved at once, where only a bound counts
+LARGEST = 0.1  # of the machine's height
 FOR_ERRORS = 0.2  # of the time
 FOR_LIMITS = 5.0  # seconds of each: their enclosures are not gone on with, those of the condition number are
 
@@ -119,6 +122,11 @@ def certify(
         raise ValueError(
             f"resume: got a certificate over {resume.where}, expected one over {_where(study, only_neutral)}"
         )
+    if not max(built.joints, built.legs) < LARGEST * study.zp(configurations[0]):
+        raise ValueError(
+            f"tolerance: got {max(built.joints, built.legs):g}, expected less than a tenth of the machine's height, "
+            f"{LARGEST * study.zp(configurations[0]):.6g}"
+        )
     digest = machine_digest(study, geometry, configurations, characteristic_length, built)
     if resume is not None and resume.machine != digest:
         raise ValueError("resume: got a certificate of another machine, expected one of this machine")
@@ -151,7 +159,7 @@ def certify(
         of_neutral = _core.search_condition(at_home, settings([bound]), _core.ConditionState(), None, None)
         if of_neutral.interrupted:
             raise KeyboardInterrupt
-        at_neutral.append(_condition_proof(label("condition_limit", "neutral"), bound, of_neutral, True, slack))
+        at_neutral.append(_condition_proof(NEUTRAL_LIMIT, bound, of_neutral, True, slack))
 
     def certificate(state: _core.ConditionState, interrupted: bool) -> MachineCertificate:
         of_condition = [_condition_proof(*bound, state, only_neutral, slack) for bound in limits_of_index.items()]
@@ -181,6 +189,40 @@ def certify(
         machine, settings(list(limits_of_index.values())), _state_of(resume), keep_state, progress
     )
     return certificate(state, state.interrupted)
+
+
+def open_limits(
+    study: Study,
+    geometry: Geometry,
+    configurations: Configuration,
+    characteristic_length: float,
+    built: Tolerances,
+    *,
+    condition_number: float | None = None,
+    slack: float = 0.0,
+    seconds: float,
+    threads: int = 0,
+    rule: PointRule | None = None,
+) -> list[LimitProof]:
+    """Return the limits that are not proved of every machine within tolerances; `seconds` are of each."""
+    design = geometry, configurations, characteristic_length
+    robot = posed_robot(study, *design, rule, built)
+    over_poses = _core.limits_over_poses(robot, study.problem(), slack, threads, seconds)
+    proofs = [_limit_proof(limit, False) for limit in over_poses.limits]
+    objective = study.objective
+    alone = posed_robot(replace(study, objective=Objective()), geometry, configurations[[0]], design[2], None, built)
+    for name, machine, bound in (
+        ("condition_limit", robot, objective.condition_limit),
+        ("condition_number", robot, condition_number),
+        (NEUTRAL_LIMIT, alone, objective.neutral_condition_limit),
+    ):
+        if bound is not None:
+            how = _core.ConditionSettings(threads=threads, seconds=seconds, gap=WIDE, wanted=[bound], tolerance=slack)
+            state = _core.search_condition(machine, how, _core.ConditionState(), None, None)
+            if state.interrupted:
+                raise KeyboardInterrupt
+            proofs.append(_condition_proof(name, bound, state, False, slack))
+    return [one for one in proofs if one.answer != PROVED]
 
 
 def posed_robot(

@@ -1,6 +1,7 @@
 """Studies with tolerances: their limits hold of every machine within them. Oracle: random machines, by numpy."""
 
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -95,17 +96,41 @@ def test_limits_that_need_no_reserve_leave_the_optimum_as_it_is():
 
 
 def test_tolerances_beyond_a_fixed_design_are_said():
-    asked = study_of(nd.Region(box=(30.0, 40.0, 20.0)))
-    result = nd.optimize(replace(asked, tolerances=nd.Tolerances(joints=5.0)))
+    asked = replace(study_of(nd.Region(box=(30.0, 40.0, 20.0))), constraints={"leg_length": (50.0, 900.0)})
+    longest = max(high for _, high in nd.optimize(asked).certify(time_limit=0.01).lengths)
+    tight = replace(asked, constraints={"leg_length": (50.0, longest + 1.0)})
+    assert nd.optimize(replace(tight, tolerances=nd.Tolerances(joints=0.4))).reserve.proved
+    result = nd.optimize(replace(tight, tolerances=nd.Tolerances(joints=2.0)))
+    assert result.status == "infeasible"
     assert not result.reserve.proved
     assert result.best is None
     assert result.reason.startswith("with a reserve for the tolerances: ")
 
 
+def test_a_limit_of_the_condition_number_has_a_reserve_too():
+    worst = nd.optimize(REQUIREMENT, starts=2).objective
+    speed = replace(REQUIREMENT.objective, index="speed", condition_limit=1.1 * worst)
+    result = nd.optimize(replace(REQUIREMENT, objective=speed, tolerances=nd.Tolerances(joints=0.02)), starts=2)
+    assert result.reserve.proved
+    assert result.certify(time_limit=20.0).proved
+
+
+def test_ctrl_c_in_a_proof_keeps_the_design(monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(import_module("ninedof.optimize.reserve"), "open_limits", interrupted)
+    result = nd.optimize(replace(REQUIREMENT, tolerances=TOLERANCES), starts=2)
+    assert result.interrupted
+    assert result.best is not None
+    assert not result.reserve.proved
+
+
 def test_tolerances_as_large_as_the_machine_are_no_crash():
     result = nd.optimize(replace(REQUIREMENT, tolerances=nd.Tolerances(joints=300.0)), starts=2)
-    assert not result.reserve.proved
-    assert "not proved" in " ".join(result.reserve.words)
+    assert result.status == "infeasible"
+    assert result.best is None
+    assert result.reason.startswith("not proved of every machine within the tolerances: ")
 
 
 def test_a_listed_pose_and_the_neutral_one_are_proved_too():

@@ -45,7 +45,6 @@ def test_no_machine_within_tolerances_passes_what_is_proved(shape):
         assert (read >= low).all()
         assert (read <= high).all()
         reached = np.maximum(reached, read.max(axis=0))
-        assert np.ptp(read, axis=0).max() <= by_name["stroke", "max"].value[1]
         assert read.max() / read.min() <= by_name["leg_ratio", "max"].value[1]
         determinants = np.linalg.det(np.stack(unit_rows(m))) * side[:, None].reshape(3, 1)
         assert determinants.min() >= by_name["no singularity", "min"].value[0]
@@ -126,6 +125,30 @@ def test_what_is_violated_a_machine_within_tolerances_passes():
     assert largest(m) < tight < largest(worst_joints(m, TOLERANCES.joints, largest))
 
 
+@pytest.mark.parametrize("shape", ["box", "cylinder"])
+def test_strokes_of_one_machine_are_within_what_is_proved(shape):
+    """Errors of joints count at both ends of a stroke: the bound is far below what they would be apart."""
+    region = REGIONS[shape]
+    geometry, neutral, certificate = proved(region, time_limit=0.01, tolerance=TOLERANCES)
+    *_, drawn = proved(region, time_limit=0.01)
+    ratio = {"stroke_ratio": (None, 1.9), "stroke": (None, 400.0)}
+    *_, ratios = proved(region, ratio, time_limit=0.01, tolerance=TOLERANCES)
+    most, most_ratio = (
+        drawing_of(c)[name, "max"].value[1] for c, name in ((certificate, "stroke"), (ratios, "stroke_ratio"))
+    )
+    rng, reached = np.random.default_rng(2), 0.0
+    poses = sampled(region, geometry, neutral, rng, size(4_000, 20_000))
+    for _ in range(size(150, 5_000)):
+        moved = {name: getattr(poses, name) + TOLERANCES.joints * disc(rng, 3, 3, 0.9) for name in JOINTS}
+        lengths = model.lengths(poses._replace(**moved))
+        longest, shortest = lengths.max(axis=0) + TOLERANCES.legs, lengths.min(axis=0) - TOLERANCES.legs
+        reached = max(reached, (longest - shortest).max())
+        assert (longest / shortest).max() <= most_ratio
+    assert reached <= most
+    whole = drawing_of(drawn)["stroke", "max"].value[1]
+    assert most - whole < 2.0 * TOLERANCES.legs + 0.7 * TOLERANCES.joints
+
+
 def test_a_stroke_of_the_drawing_alone_is_no_violation():
     region = REGIONS["box"]
     _, _, drawn = proved(region, time_limit=0.01)
@@ -157,8 +180,10 @@ def test_the_certificate_says_of_which_machines_it_is():
 
 
 def test_tolerances_as_large_as_the_machine_prove_nothing_and_do_not_fail():
-    *_, certificate = proved(REGIONS["box"], time_limit=0.01, tolerance=200.0)
+    *_, certificate = proved(REGIONS["box"], time_limit=0.01, tolerance=30.0)
     assert not certificate.proved
+    with pytest.raises(ValueError, match="tolerance: got 200, expected less than a tenth of the machine's height, 36"):
+        proved(REGIONS["box"], tolerance=200.0)
     assert "No bound of the error" in certificate.sentences()[0]
 
 

@@ -30,8 +30,8 @@ struct PosedRobot {
   std::vector<Configuration> poses;
   std::vector<PointRule> rule;  ///< none or one: where s is in the region, in place of what the region says
   Tool tool = {};  ///< whose frame the geometry has; limits of the design alone are of the plates
-  /// Statements are about every machine whose joints and leg lengths are within these of the drawing. Its platform is at
-  /// the pose, its cones have the axes of the drawing, and its lengths are as actuators read them.
+  /// Statements are about every machine whose joints and leg lengths are within these of the drawing. Its platform is
+  /// at the pose, its cones have the axes of the drawing, and its lengths are as actuators read them.
   Tolerances tolerances = {};
 };
 
@@ -98,9 +98,9 @@ struct LimitsOverPoses {
 };
 
 /// Where the worst value of each limit is, and in what it is enclosed; over the neutral pose alone where the machine
-/// has no others. Pairs of legs that are `exempt` may meet if their joints coincide in this machine. `slack`: of a limit,
-/// relative; one that is passed by no more counts as kept; with one above 0 strokes are searched once more where they are
-/// undecided. `settings.seconds` are of each search. Throws InvalidArgument for a limit that is not valid.
+/// has no others. Pairs of legs that are `exempt` may meet if their joints coincide in this machine. `slack`: of a
+/// limit, relative; one that is passed by no more counts as kept; with one above 0 strokes are searched once more where
+/// they are undecided. `settings.seconds` are of each search. Throws InvalidArgument for a limit that is not valid.
 LimitsOverPoses limits_over_poses(const PosedRobot& machine, const std::vector<Limit>& limits,
                                   const std::array<bool, 21>& exempt, double slack, const ProofSettings& settings,
                                   const Control& control = {});
@@ -120,8 +120,8 @@ struct WorstOverPoses {
 WorstOverPoses worst_condition(const PosedRobot& machine, const ProofSettings& settings, const PoseBoxes& from = {},
                                const Control& control = {});
 
-/// How far the platform and O may be from a pose, of every machine within tolerances whose legs have the lengths that the
-/// drawing has there: the first number to first order at the worst pose found, the second proved, of all poses.
+/// How far the platform and O may be from a pose, of every machine within tolerances whose legs have the lengths that
+/// the drawing has there: the first number to first order at the worst pose found, the second proved, of all poses.
 struct ErrorOverPoses {
   Interval position;  ///< of p
   Interval rotation;  ///< angle, radians

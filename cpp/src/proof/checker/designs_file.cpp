@@ -170,8 +170,11 @@ void validate(const DesignsFile& file) {
   bool shape = false;
   for (const char* one : {"none", "box", "ball", "cylinder", "path"}) shape |= region.shape == one;
   if (!shape) refuse(quoted(region.shape) + " is no shape of a region");
-  for (const LimitLine& one : file.limits)
+  for (const LimitLine& one : file.limits) {
+    if (one.name.find("cone") != std::string::npos && !(one.range.b <= 3.15 || one.range.b == inf))
+      refuse("the bound of " + one.name + " is no angle");
     if (!(one.range.a < inf && one.range.b > 0.0)) refuse("the bounds of " + one.name + " allow nothing");
+  }
   for (const int pair : file.exempt)
     if (pair < 0 || pair > 20) refuse("a pair of legs is not from 0 to 20");
   if (file.boxes.empty()) refuse("the file has no boxes");

@@ -54,12 +54,12 @@ class DesignsReplay {
     const auto joint_of = [](int leg, bool at_platform) {
       return static_cast<std::size_t>(leg < 3 ? (at_platform ? 6 + leg : leg) : leg < 6 ? 6 + leg : leg - 3);
     };
+    // Of the place of one in the middle of the designs: a cube may be so large that any distance is small beside it.
     const auto together = [&](std::size_t i, std::size_t j) {
-      const Arrow apart = m.plate[i] - m.plate[j];
-      double most = 0.0, size = 0.0;
-      for (const Linear* x : {&apart.x, &apart.y, &apart.z}) most = std::max(most, std::abs(x->c) + swing(*x) + x->r);
-      for (const Linear* x : {&m.plate[i].x, &m.plate[i].y, &m.plate[i].z}) size += std::abs(x->c) + swing(*x);
-      return most <= 1e-12 * size;
+      const Arrow &one = m.plate[i], apart = one - m.plate[j];
+      const double size = std::hypot(one.x.c, one.y.c, one.z.c);
+      const auto nowhere = [size](const Linear& x) { return std::abs(x.c) + swing(x) + x.r <= 1e-12 * size; };
+      return nowhere(apart.x) && nowhere(apart.y) && nowhere(apart.z);
     };
     for (const int pair : file_.exempt) {
       const auto [a, b] = legs_of_pair(pair);

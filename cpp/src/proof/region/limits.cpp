@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "math/numbers.hpp"
@@ -72,6 +73,8 @@ class Statements {
     std::size_t limit;
     const SpreadRow* row;
     std::array<std::pair<std::size_t, std::size_t>, 9> ends;
+    /// How far each leg turns at its joint on the base and on the platform, where that may be off.
+    std::array<std::array<std::optional<std::size_t>, 2>, 9> turns{};
   };
 
   LimitOverPoses& put(const std::string& name, const LimitRow& row, Side side, double limit, bool at_neutral) {
@@ -119,20 +122,46 @@ class Statements {
     groups_.push_back(std::move(group));
   }
   void add_stroke(const std::string& label, const LimitRow& row, Side side, double bound, bool at_neutral) {
-    Stroke stroke{out_.limits.size(), row.spread, {}};
+    Stroke stroke{out_.limits.size(), row.spread, {}, {}};
     for (int leg = 0; leg < 9; ++leg) stroke.ends[at_index(leg)] = questions_.ends_of_leg(leg, at_neutral);
+    for (const bool platform : {false, true})
+      for (int k = 0; k < legs_at_body; ++k) {
+        const LegEnds ends = leg_ends(leg_at(platform, k));
+        const int joint = (ends.from >= point_u && ends.from < point_p) == platform ? ends.from : ends.to;
+        if (machine_.tolerances.joints[at_index(joint)] == 0.0) continue;
+        const LimitRow& cone = limit_row(platform ? "platform_cone" : "base_cone");
+        stroke.turns[at_index(leg_at(platform, k))][platform] =
+            questions_.ask(cone, k, {true, at_neutral, not_a_number, {}});
+      }
     put(label, row, side, bound, at_neutral);
     strokes_.push_back(stroke);
   }
 
-  Touched<Interval> touched(std::pair<int, int> joints) const {
+  /// The value of a limit of the design over its items, and its last unit; joints may be off by `loose`.
+  std::pair<Interval, Interval> design_number(const Limit& limit, const LimitRow& row, Side side, double loose) const {
+    Interval value = side == Side::high ? Interval(-infinity) : Interval(infinity), unit(1.0);
+    for (int item = 0; item < row.design->items(side); ++item) {
+      const bool radial = row.design->picks_widest;
+      Interval here = row.design->enclosure(touched(row.design->joints(joints_, side, item), loose, radial), item);
+      if (radial) here = here * widest_share();
+      unit = unit_of(limit.of, row.design->body(item), loose);
+      if (row.design->body(item) >= 0) here = here / unit;
+      value = side == Side::high ? max(value, here) : min(value, here);
+    }
+    return {value, unit};
+  }
+  /// `radial`: what is asked is a distance from z alone, so that it is enough to move joints from and to it.
+  Touched<Interval> touched(std::pair<int, int> joints, double loose = 0.0, bool radial = false) const {
     const auto exact = [&](int joint) {
       const Vec3& x = joints_[at_index(joint)];
       Xyz<Interval> out = joint < point_u ? Xyz<Interval>{x.x(), x.y(), x.z()} : exact_[at_index(joint - point_u)];
-      const double radius = machine_.tolerances.joints[at_index(joint)];
-      if (radius > 0.0)
-        for (Interval* k : {&out.x, &out.y, &out.z}) *k = *k + Interval(-radius, radius);
-      return out;
+      if (loose == 0.0) return out;
+      const Interval ball(-loose, loose), radius = sqrt(square(out.x) + square(out.y));
+      if (radial && radius.lo > loose) {
+        const Interval scale = Interval(1.0) + ball / radius;
+        return Xyz<Interval>{scale * out.x, scale * out.y, out.z};
+      }
+      return Xyz<Interval>{out.x + ball, out.y + ball, out.z + ball};
     };
     return {exact(joints.first), exact(joints.second), exact_zp(), machine_.neutral.internal_point.z()};
   }
@@ -150,32 +179,28 @@ class Statements {
   double zp() const { return machine_.neutral.position.z() - machine_.tool.position.z(); }
   void add_design_limit(const Limit& limit, const LimitRow& row, Side side) {
     const double given = side == Side::low ? limit.low : limit.high;
-    const Interval nearly = widest_share();
-    Interval value = side == Side::high ? Interval(-infinity) : Interval(infinity), unit(1.0);
-    for (int item = 0; item < row.design->items(side); ++item) {
-      Interval here = row.design->enclosure(touched(row.design->joints(joints_, side, item)), item);
-      if (row.design->picks_widest) here = here * nearly;
-      unit = unit_of(limit.of, row.design->body(item));
-      if (row.design->body(item) >= 0) here = here / unit;
-      value = side == Side::high ? max(value, here) : min(value, here);
+    const auto [drawn, unit] = design_number(limit, row, side, 0.0);
+    Interval value = drawn;
+    if (const double loose = std::ranges::max(machine_.tolerances.joints); loose > 0.0) {
+      const Interval built = design_number(limit, row, side, loose).first;  // the drawing has the end that is met
+      value = side == Side::high ? Interval(drawn.lo, built.hi) : Interval(built.lo, drawn.hi);
     }
     // What has the whole robot as its unit is shown as a length.
     const bool whole = row.design->body(0) < 0;
     const double bound = whole && limit.of != Unit::length ? given * (side == Side::high ? unit.lo : unit.hi) : given;
     put(limit.label(), row, side, bound, false).value = value;
   }
-  /// Which joint of a body is farthest from z was decided in doubles, of the drawing: another one may be farther.
+  /// Which joint is farthest from z was decided in doubles. Of joints that may be off by `loose` another one may be, at
+  /// most so much beyond or short of the one of the drawing.
   Interval widest_share() const {
-    const double arm = machine_.tool.position.norm(), loose = std::ranges::max(machine_.tolerances.joints);
-    const auto width = [this](int body) { return joints_[at_index(widest_joint(joints_, body))].head<2>().norm(); };
-    const double far = arm == 0.0 ? 0.0 : arm / width(point_u);
-    const double away = loose == 0.0 ? 0.0 : loose / std::min(width(point_r), width(point_u));
-    return {1.0 - 0x1p-49 * (1.0 + far) - away, 1.0 + 0x1p-49 * (1.0 + far) + away};
+    const double arm = machine_.tool.position.norm();
+    const double far = arm == 0.0 ? 0.0 : arm / joints_[at_index(widest_joint(joints_, point_u))].head<2>().norm();
+    return {1.0 - 0x1p-49 * (1.0 + far), 1.0 + 0x1p-49 * (1.0 + far)};
   }
-  Interval unit_of(Unit of, int body) const {
+  Interval unit_of(Unit of, int body, double loose) const {
     if (of == Unit::zp) return exact_zp();
     if (of == Unit::length) return 1.0;
-    const Xyz<Interval> widest = touched({widest_joint(joints_, body), 0}).a;
+    const Xyz<Interval> widest = touched({widest_joint(joints_, body), 0}, loose, true).a;
     return sqrt(square(widest.x) + square(widest.y)) * widest_share();
   }
 
@@ -202,13 +227,33 @@ class Statements {
     for (const Stroke& stroke : strokes_) answer(stroke);
     for (LimitOverPoses& limit : out_.limits) limit.answer = answer_of(limit);
   }
+  /// At most the difference of the errors of a leg's length at two poses: an error of a joint counts along the leg,
+  /// whose direction in the joint's body stays within an angle of that at home, up to what is of second order.
+  double apart(const Stroke& stroke, int leg, double shortest) const {
+    const Tolerances& t = machine_.tolerances;
+    const LegEnds ends = leg_ends(leg);
+    Interval sum = Interval(2.0) * Interval(t.legs[leg]);
+    double joints = 0.0;
+    for (const bool platform : {false, true})
+      if (const auto asked = stroke.turns[at_index(leg)][platform]) {
+        const double r =
+            t.joints[at_index((ends.from >= point_u && ends.from < point_p) == platform ? ends.from : ends.to)];
+        const double angle = questions_[*asked].high,
+                     chord = angle < 1.57 ? 2.0 * std::sin(angle) * (1.0 + 0x1p-40) : 2.0;
+        sum = sum + Interval(r) * Interval(chord);
+        joints += r * (1.0 + 0x1p-40);
+      }
+    if (!(shortest > 0.0)) return infinity;  // of the machines that are built: no leg of the drawing is shorter
+    return (sum + square(Interval(joints)) / (Interval(2.0) * Interval(shortest))).hi;
+  }
   void answer(const Stroke& stroke) {
     LimitOverPoses& limit = out_.limits[stroke.limit];
     struct Leg {
       Interval shortest, longest;
       MetAt shortest_at, longest_at;
       std::string name;
-      double reading;
+      double reading;  ///< by which its length may be off
+      double apart;    ///< by which errors at its two ends may differ
     };
     std::vector<Leg> legs;
     limit.boxes = 0;
@@ -217,12 +262,8 @@ class Statements {
       const auto& [first, second] = stroke.ends[at_index(k)];
       const Extreme &a = questions_[first], &b = questions_[second];
       limit.boxes += a.boxes + b.boxes;
-      legs.push_back({{a.low, a.high},
-                      {b.low, b.high},
-                      a.at,
-                      b.at,
-                      leg_name(k),
-                      over_region::reading_error(machine_.tolerances, k)});
+      const double reading = over_region::reading_error(machine_.tolerances, k);
+      legs.push_back({{a.low, a.high}, {b.low, b.high}, a.at, b.at, leg_name(k), reading, apart(stroke, k, a.low)});
     }
     if (!stroke.row->each_leg) {
       Leg all = legs.front();
@@ -232,6 +273,7 @@ class Statements {
         all.shortest = min(all.shortest, leg.shortest);
         all.longest = max(all.longest, leg.longest);
         all.reading = std::max(all.reading, leg.reading);
+        all.apart = infinity;
       }
       all.name = "all legs";
       legs = {all};
@@ -240,9 +282,12 @@ class Statements {
     for (const Leg& leg : legs) {
       Interval one = stroke.row->ratio ? ratio_of(leg.longest, leg.shortest) : leg.longest - leg.shortest;
       if (leg.reading > 0.0) {
-        // What is off by most at one end need not be so at the other: the machine of the drawing has the lower end.
-        const Interval longest = leg.longest - Interval(leg.reading), shortest = leg.shortest + Interval(leg.reading);
+        // The machine of the drawing has the lower end.
+        const Interval reading(leg.reading), longest = leg.longest - reading, shortest = leg.shortest + reading;
         one.lo = std::max((stroke.row->ratio ? ratio_of(longest, shortest) : longest - shortest).lo, 0.0);
+        const Interval travel = Interval((longest - shortest).hi) + Interval(leg.apart), least(leg.shortest.lo);
+        if (!stroke.row->ratio) one.hi = std::min(one.hi, travel.hi);
+        else if (least.lo > 0.0) one.hi = std::min(one.hi, (Interval(1.0) + travel / least).hi);
       }
       if (one.lo > value.lo || limit.part.empty()) {
         limit.part = leg.name;

@@ -93,7 +93,8 @@ class ErrorShare final : public IndexOverPoses {
     }
     return out;
   }
-  /// At most what the length of a leg differs by from what is linear in (rotation vector, p, s), for errors up to these.
+  /// At most what the length of a leg differs by from what is linear in (rotation vector, p, s), for errors up to
+  /// these.
   double rest(int leg, const Errors& most, double length) const {
     const LegEnds ends = leg_ends(leg);
     const int joint = ends.from >= point_u && ends.from < point_p ? ends.from : ends.to;
@@ -103,7 +104,8 @@ class ErrorShare final : public IndexOverPoses {
     if (!(length > away)) return infinity;
     return (0.5 * arm * most[0] * most[0] + 0.5 * away * away / (length - away)) * (1.0 + 0x1p-40);
   }
-  /// Whether three rows of the map take all errors of the legs to vectors of at most this length, everywhere in the box.
+  /// Whether three rows of the map take all errors of the legs to vectors of at most this length, everywhere in the
+  /// box.
   bool within(const std::array<NineForms, 9>& map, const std::array<double, 9>& off, std::size_t first,
               double most) const {
     std::array<NineForms, 3> rows;
@@ -160,11 +162,17 @@ ErrorOverPoses error_over_poses(const PosedRobot& machine, const ProofSettings& 
   }
   const double most = std::ranges::max(met);
   if (!(most > forms::tiny)) return {0.0, 0.0, 0.0};
-  double share = infinity, most_met = 1.0;
+  double share = infinity;
   long boxes = 0;
-  const ErrorShare index(domain, met);
+  // What is not moved at all, as O by errors of external joints, still has a bound.
+  double arm = 0.0;
+  for (const Vec3& u : machine.geometry.platform_external()) arm = std::max(arm, u.norm());
+  const double least = 1e-6 * std::max({arm * met[0], met[1], met[2]});
+  const Errors of{std::max(met[0], least / arm), std::max(met[1], least), std::max(met[2], least)};
+  const ErrorShare index(domain, of);
   ProofSettings how = settings;
   how.gap = std::clamp(settings.gap, 1e-3, widest_gap);
+  how.condition = 0.0;
   Moves unused;
   // The rest of second order grows with the bound: one that does not hold at a pose never will, a wider one may.
   const auto hopeless = [&] { return !index.bounded(at.at, 1.0 + how.gap, unused); };
@@ -172,11 +180,10 @@ ErrorOverPoses error_over_poses(const PosedRobot& machine, const ProofSettings& 
   if (std::isfinite(most) && !hopeless()) {
     const WorstOverPoses found = worst(index, {1.0, at.at}, how, all_boxes(domain), control);
     share = found.extreme.high;
-    most_met = std::max(found.extreme.low, 1.0);
     boxes = found.extreme.boxes;
   }
   const auto enclosed = [&](std::size_t k, double by) {
-    return Interval(most_met * met[k], std::isfinite(by) ? detail::above(by * met[k]) : infinity);
+    return Interval(met[k], std::isfinite(by) ? detail::above(by * of[k]) : infinity);
   };
   return {enclosed(1, share), enclosed(0, share), enclosed(2, share), boxes};
 }

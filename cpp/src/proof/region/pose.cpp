@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
+#include "ninedof/math/error.hpp"
 
 namespace ninedof::over_region {
 namespace {
@@ -42,6 +43,9 @@ Domain::Domain(const PosedRobot& machine)
       built_{machine.geometry, machine.tolerances.joints},
       rule_(machine.rule.begin(), machine.rule.end()) {
   validate(machine.tolerances);
+  const auto unknown = [](double x) { return std::isnan(x); };
+  if (machine.tolerances.legs.hasNaN() || std::ranges::any_of(machine.tolerances.joints, unknown))
+    throw InvalidArgument("tolerances", "nan", "finite lengths >= 0");
   if (!machine.region.empty()) {
     const Region& region = machine.region.front();
     Box box;

@@ -1,7 +1,6 @@
 #include "proof/region/worst.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 

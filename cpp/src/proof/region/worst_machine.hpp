@@ -7,7 +7,8 @@
 
 namespace ninedof::over_region {
 
-/// How far the length of a leg may be from that of the drawing, at every pose: an error of a joint counts along the leg.
+/// How far the length of a leg may be from that of the drawing, at every pose: an error of a joint counts along the
+/// leg.
 inline double reading_error(const Tolerances& t, int leg) {
   double out = t.legs[leg];
   const LegEnds ends = leg_ends(leg);
@@ -16,7 +17,8 @@ inline double reading_error(const Tolerances& t, int leg) {
   return out;
 }
 
-/// One where a number is large: each joint is moved to the end of its ball where the slope of `value`, a function of a geometry, leads.
+/// One where a number is large: each joint is moved to the end of its ball where the slope of `value`, a function of a
+/// geometry, leads.
 template <class Value>
 Geometry worst_machine(const PosedRobot& machine, const Value& value) {
   const Geometry& g = machine.geometry;

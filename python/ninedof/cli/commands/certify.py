@@ -71,11 +71,17 @@ def certify(options: CertifyOptions) -> None:
     if options.tolerance == LARGEST:
         with screen.bar("boxes", "certify") as bar:
             built = result.largest_tolerance(
-                condition_number=options.condition, slack=options.slack, threads=options.threads or 0, progress=bar
+                condition_number=options.condition,
+                slack=options.slack,
+                time_limit=options.time,
+                threads=options.threads or 0,
+                progress=bar,
             )
     else:
         built = tolerances_of(tolerance, result.study)
-    if earlier is not None and earlier.tolerances != built:  # a proof of other machines is not gone on with
+    if earlier is not None and earlier.tolerances != built:  # a proof of other machines is kept, and not gone on with
+        other = file.with_name(f"{file.stem}-earlier{file.suffix}")
+        screen.print(f"the certificate for other tolerances is kept as {save_certificate(earlier, other)}")
         earlier = None
     states = []
 
