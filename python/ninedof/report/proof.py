@@ -26,7 +26,8 @@ STATUS = {
 def of_result(result: Result, certificate: MachineCertificate | None = None) -> Html:
     """Return what is established of an optimization and what is not; `certificate`: what `ninedof certify` proved."""
     proofs = [*(certificate.sentences() if certificate else ()), *_checked(result)]
-    between = certificate is None or not certificate.proved
+    kept = result.reserve is not None and result.reserve.proved  # of every machine within the tolerances
+    between = not kept and (certificate is None or not certificate.proved)
     return _two(proofs, list(_searched(result, between)), STATUS[result.status], result.status)
 
 
