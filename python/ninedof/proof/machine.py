@@ -205,6 +205,9 @@ def open_limits(
     rule: PointRule | None = None,
 ) -> list[LimitProof]:
     """Return the limits that are not proved of every machine within tolerances; `seconds` are of each."""
+    slack, threads = finite("slack", slack, 0.0, 0.01), whole("threads", threads, 0, MOST)
+    if condition_number is not None:
+        condition_number = finite("condition_number", condition_number, 1.0)
     design = geometry, configurations, characteristic_length
     robot = posed_robot(study, *design, rule, built)
     over_poses = _core.limits_over_poses(robot, study.problem(), slack, threads, seconds)
