@@ -18,9 +18,7 @@ TREE = {
         ("Guides", _listed("characteristic-length regions reading-a-map assembly-modes confidence", "guides/")),
         (
             "Subjects",
-            _listed(
-                "conventions kinematics workspace failure optimization certificate certify admissible actuators sweeps"
-            )
+            _listed("conventions kinematics workspace failure optimization certificate certify admissible actuators")
             + _listed("sweeps study-file figures viewer report exports"),
         ),
         ("The paper", _listed("paper values equations")),
