@@ -129,10 +129,10 @@ def best_words(best: float | None) -> str:
 
 
 class _Boxes(ProgressColumn):
-    """The number of boxes of poses so far; nothing before the first."""
+    """The number of boxes so far; nothing before the first."""
 
     def render(self, task: Task) -> Text:
-        return Text(f"{task.completed:,.0f} boxes of poses" if task.completed else "")
+        return Text(f"{task.completed:,.0f} boxes" if task.completed else "")
 
 
 def _narrow() -> BarColumn:

@@ -142,7 +142,9 @@ def _stated(study: Study) -> float:
     """Return the greatest leg force that a study allows at its poses."""
     limit = min((one.high for one in study.limits if one.name == "force" and one.at == "poses"), default=None)
     if limit is None:
-        raise ValueError("force: got none, expected a number: there is no study with a limit of force at its poses")
+        raise ValueError(
+            "force: got none, expected a number (--force at the terminal): there is no study with a limit of force at its poses"
+        )
     return limit
 
 

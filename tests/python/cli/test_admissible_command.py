@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
+from ninedof.cli.app import main
 
 STUDY = """
 [variables]
@@ -150,3 +151,15 @@ def test_more_threads_and_going_on_change_nothing_that_is_proved():
     assert fine.shares["inside"] >= coarse.shares["inside"]
     with pytest.raises(ValueError, match="resume: got the designs of another question"):
         nd.admissible(study, ranges, condition_number=9.0, resume=coarse)
+
+
+def test_the_designs_of_another_question_are_kept(tmp_path, capsys):
+    file = tmp_path / "paper.toml"
+    nd.Study.paper().save(file)
+    asked = ["admissible", str(file), "--vary", "a2=5.5:6.5", "--vary", "b1=2.5:3.5", "--time", "0.2", "--out"]
+    for bound in ("4", "5"):
+        with pytest.raises(SystemExit):
+            main([*asked, str(tmp_path / "sets"), "--condition", bound])
+    assert "the designs of another question are kept as" in capsys.readouterr().out
+    assert (tmp_path / "sets" / "admissible-a2-b1-earlier.npz").is_file()
+    assert (tmp_path / "sets" / "admissible-a2-b1.npz").is_file()

@@ -33,7 +33,7 @@ def test_lines_come_at_growing_spacing_and_then_every_five_minutes(capsys):
         ("limits", "study.toml  120/500  2.500000  -:--:--  to go"),
         ("points", "study.toml  24 %  -:--:--  to go  0:00:12"),
         ("poses", "study.toml  120 poses, volume 2.5  -:--:--  to go"),
-        ("boxes", "study.toml  120 boxes of poses  0:00:12"),
+        ("boxes", "study.toml  120 boxes  0:00:12"),
     ],
 )
 def test_a_line_has_the_words_of_the_bar(capsys, kind, line):

@@ -73,6 +73,9 @@ def admissible(options: AdmissibleOptions) -> None:
         raise ValueError(f"--set{str(error).removeprefix('at')}") from None
     file = None if folder is None else admissible_file(folder, asked)
     earlier = None if file is None else load_admissible(file, asked)
+    if file is not None and earlier is None and file.exists():  # that of another question
+        other = file.replace(file.with_name(f"{file.stem}-earlier{file.suffix}"))
+        screen.print(f"the designs of another question are kept as {other}")
     goes_on()
     with screen.bar("boxes", "designs") as bar:
         found = admissible_of(

@@ -66,7 +66,10 @@ def certify(options: CertifyOptions) -> None:
             f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
         )
     file = certificate_file(run)
-    earlier = load_certificate(run) if file.exists() else None
+    try:
+        earlier = load_certificate(run) if file.exists() else None
+    except ValueError as error:
+        raise ValueError(f"{error}; once it is removed, the proof begins anew") from None
     goes_on()
     if options.tolerance == LARGEST:
         with screen.bar("boxes", "certify") as bar:
