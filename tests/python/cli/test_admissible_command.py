@@ -155,8 +155,9 @@ def test_more_threads_and_going_on_change_nothing_that_is_proved():
 
 def test_the_designs_of_another_question_are_kept(tmp_path, capsys):
     file = tmp_path / "paper.toml"
-    nd.Study.paper().save(file)
-    asked = ["admissible", str(file), "--vary", "a2=5.5:6.5", "--vary", "b1=2.5:3.5", "--time", "0.2", "--out"]
+    file.write_text(STUDY)
+    asked = ["admissible", str(file), "--vary", "a2=5.5:6.5", "--vary", "b1=2.5:3.5", "--time", "0.2"]
+    asked += ["--set", "zp=5", "--set", "zs=3", "--out"]
     for bound in ("4", "5"):
         with pytest.raises(SystemExit):
             main([*asked, str(tmp_path / "sets"), "--condition", bound])
