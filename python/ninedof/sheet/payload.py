@@ -143,7 +143,8 @@ def _stated(study: Study) -> float:
     limit = min((one.high for one in study.limits if one.name == "force" and one.at == "poses"), default=None)
     if limit is None:
         raise ValueError(
-            "force: got none, expected a number (--force at the terminal): there is no study with a limit of force at its poses"
+            "force: got none, expected a number (--force at the terminal): there is no study with a limit of force at "
+            "its poses"
         )
     return limit
 

@@ -162,6 +162,7 @@ TEST_SUITE("region_search") {
             if (!(std::abs(value) < 100.0)) continue;                                // exempt pairs of legs
             if (row.kind == LimitKind::angle && std::abs(value - 1.0) < 0.01) continue;  // a kink: on the axis
             if (value < -1.5 && fixed.margins[at_index(k)].constraint < 0) continue;  // next to a singularity
+            if (*row.needs != '\0' && size > 1e3) continue;                          // there forces change too fast
             ++looked_at;
             CHECK((whole.design.margin_gradient.row(k).tail<6>() - gradient).norm() <= 1e-12 * size);
             CHECK(whole.design.margin_gradient.row(k).head(x.size()) == plain.design.margin_gradient.row(k));
