@@ -110,8 +110,8 @@ def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
     """Return the limits that are not proved of every machine within the tolerances, and the part to be kept of each."""
     best, out = result.best, dict[str, float]()
     poses = best.configurations[: 1 + len(study.objective.poses)]
-    design = best.geometry, poses, best.characteristic_length
-    for limit in open_limits(study, *design, study.tolerances, seconds=FOR_PROOF, threads=threads):
+    design = best.geometry, poses, best.characteristic_length, None
+    for limit in open_limits(study, design, study.tolerances, FOR_PROOF, threads):
         met, worst = limit.value if limit.side == "max" else limit.value[::-1]
         if limit.name in CONDITION_LIMITS:  # its enclosure is wide
             share = min(limit.limit / met, 1.0) * (1.0 - STEP)

@@ -403,12 +403,13 @@ class Result:
         seconds = finite("time_limit", options.pop("time_limit", 60.0), 0.0) / PROOFS
         progress = progress_argument(options.pop("progress", None))
         threads = options.setdefault("threads", 0)
-        if place is not None and not isinstance(options.get("rule"), PointRule):
-            options["rule"] = rule_of(place, *design, threads, progress)
+        rule = options.pop("rule", None)
+        if place is not None and not isinstance(rule, PointRule):
+            rule = rule_of(place, *design, threads, progress)
 
         def proved(tolerances: Tolerances) -> bool:
             phase(progress, f"proving {max(tolerances.joints, tolerances.legs):.3g}")
-            return not open_limits(self.study, *design, tolerances, seconds=max(seconds, 0.5), **options)
+            return not open_limits(self.study, (*design, rule), tolerances, max(seconds, 0.5), **options)
 
         return largest_tolerance(proved, self.study.tolerances, self.study.zp(design[1][0]))
 

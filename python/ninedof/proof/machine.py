@@ -193,27 +193,26 @@ def certify(
 
 def open_limits(
     study: Study,
-    geometry: Geometry,
-    configurations: Configuration,
-    characteristic_length: float,
+    design: tuple[Geometry, Configuration, float, PointRule | None],
     built: Tolerances,
-    *,
-    condition_number: float | None = None,
-    slack: float = 0.0,
     seconds: float,
     threads: int = 0,
-    rule: PointRule | None = None,
+    slack: float = 0.0,
+    condition_number: float | None = None,
 ) -> list[LimitProof]:
-    """Return the limits that are not proved of every machine within tolerances; `seconds` are of each."""
+    """Return the limits that are not proved of every machine within tolerances; `seconds` are of each.
+
+    The design has geometry, configurations and characteristic length, as `certify` takes them, and a rule for O.
+    """
     slack, threads = finite("slack", slack, 0.0, 0.01), whole("threads", threads, 0, MOST)
     if condition_number is not None:
         condition_number = finite("condition_number", condition_number, 1.0)
-    design = geometry, configurations, characteristic_length
-    robot = posed_robot(study, *design, rule, built)
+    robot = posed_robot(study, *design, built)
     over_poses = _core.limits_over_poses(robot, study.problem(), slack, threads, seconds)
     proofs = [_limit_proof(limit, False) for limit in over_poses.limits]
     objective = study.objective
-    alone = posed_robot(replace(study, objective=Objective()), geometry, configurations[[0]], design[2], None, built)
+    geometry, configurations, length, _ = design
+    alone = posed_robot(replace(study, objective=Objective()), geometry, configurations[[0]], length, None, built)
     for name, machine, bound in (
         ("condition_limit", robot, objective.condition_limit),
         ("condition_number", robot, condition_number),
