@@ -230,7 +230,7 @@ PoseRow planted(const PoseRow& sound) {
   if constexpr (error == 2)
     out.form = [](const FormLook& look, int item) {
       PoseForm u = row.form(look, item);
-      u.r *= 0.1;
+      u.r *= 0.01;
       return u;
     };
   return out;
