@@ -10,6 +10,7 @@
 #include "ninedof/conditioning/symmetric.hpp"
 #include "ninedof/proof/checker.hpp"
 #include "proof/checker/certificate_file.hpp"
+#include "proof/checker/spelling.hpp"
 
 using namespace fuzz;
 using checker::Certificate;
@@ -17,25 +18,12 @@ using checker::Range;
 
 namespace {
 
-constexpr const char* head = "ninedof certificate 1\nchecksum ";
-
-std::uint32_t checksum(const std::string& bytes) {
-  std::uint32_t crc = 0xFFFFFFFFU;
-  for (const char c : bytes) {
-    crc ^= static_cast<unsigned char>(c);
-    for (int k = 0; k < 8; ++k) crc = crc >> 1U ^ ((crc & 1U) != 0U ? 0xEDB88320U : 0U);
-  }
-  return ~crc;
-}
-
 /// The text of a certificate without its first two lines and without the length of the tree.
 std::string completed(std::string body) {
   const std::string mark = "\ntree\n";
   if (const std::size_t at = body.find(mark); at != std::string::npos)
     body.insert(at + mark.size() - 1, " " + std::to_string(body.size() - at - mark.size()));
-  char sum[16];
-  std::snprintf(sum, sizeof sum, "%x\n", checksum(body));
-  return head + std::string(sum) + body;
+  return checker::sealed("ninedof certificate 1", body);
 }
 
 double within(const Range& x, double share) {

@@ -82,8 +82,9 @@ class Actuator(Table):
         instance("other", other, Actuator)
         wide = self.shortest <= other.shortest and other.longest <= self.longest
         strong = self.force >= other.force and self.rate >= other.rate
-        known = self.price is not None and other.price is not None
-        return wide and strong and (self.price <= other.price if known else self.price == other.price)  # type: ignore[operator]
+        if self.price is None or other.price is None:
+            return wide and strong and self.price == other.price
+        return wide and strong and self.price <= other.price
 
 
 COLUMNS = tuple(one.name for one in entries(Actuator))

@@ -155,7 +155,8 @@ class ActuatorSearch:
 
     def _combination(self, rows: Rows, result: Result) -> Combination:
         by_kind = self._by_kind([row for row in rows if row is not None])
-        return Combination(**by_kind, objective=result.best.objective)  # type: ignore[union-attr]
+        assert result.best is not None, "a complete combination that was solved has a design"
+        return Combination(**by_kind, objective=result.best.objective)
 
     def _with_choice(self, result: Result, rows: Rows, next_best: Rows | None) -> Result:
         other = None if next_best is None else self._combination(next_best, self.results[next_best])
@@ -218,7 +219,8 @@ class ActuatorSearch:
     def _least_margin(self, free: Result, kinds: Sequence[str], row: Actuator) -> float:
         """Return the least margin of the limits of a row at the poses and the design of a study without them."""
         limits = {name: limit for kind in kinds for name, limit in row_limits(kind, row, free.study.stated).items()}
-        point = replace(free.solved, constraints=limits).evaluate(free.best.variables)  # type: ignore[union-attr]
+        assert free.best is not None, "its margins are asked of a study that has a design"
+        point = replace(free.solved, constraints=limits).evaluate(free.best.variables)
         return min(point.margins.values())
 
 

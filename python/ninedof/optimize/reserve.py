@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -84,7 +84,7 @@ def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) 
     threads : int
 
     """
-    study, shares, first = result.study, dict[str, float](), result
+    study, shares, first, lacking = result.study, dict[str, float](), result, dict[str, float]()
     region = study.objective.region
     if region is not None and not places_o(region):
         return replace(result, reserve=Reserve(note="no reserve for tolerances: O is placed anew at every pose"))
@@ -103,7 +103,7 @@ def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) 
             break
         shares |= taken
         result = solve(Reserve(shares).study(study), result)
-    return _without(study, result, first, Reserve(shares), threads)
+    return _without(study, result, first, Reserve(shares, note=UNPROVED), lacking)
 
 
 def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
@@ -130,15 +130,14 @@ def _of(study: Study, result: Any, first: Any) -> Any:
     return replace(result, study=study, actuators=chosen)
 
 
-def _without(study: Study, result: Any, first: Any, reserve: Reserve, threads: int) -> Any:
+def _without(study: Study, result: Any, first: Any, reserve: Reserve, lacking: Iterable[str]) -> Any:
     """Return what is left where no design is proved: the last one, or that there is none."""
     if first.best is None or result.interrupted:
-        return replace(_of(study, result, first), reserve=replace(reserve, note=UNPROVED))
+        return replace(_of(study, result, first), reserve=reserve)
     if result.best is not None:
-        lacking = ", ".join(name.replace("_", " ") for name in _open(study, result, threads))
-        reason = f"{UNPROVED}: {lacking}"
+        reason = f"{UNPROVED}: {', '.join(name.replace('_', ' ') for name in lacking)}"
     else:
         reason = f"with a reserve for the tolerances: {result.reason}"
     status = type(result.status).INFEASIBLE
     none = replace(result, status=status, reason=reason, candidates=(), region=None)
-    return replace(_of(study, none, first), actuators=None, reserve=replace(reserve, note=UNPROVED))
+    return replace(_of(study, none, first), actuators=None, reserve=reserve)

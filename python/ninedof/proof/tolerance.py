@@ -32,12 +32,11 @@ def largest_tolerance(proved: Callable[[Tolerances], bool], shape: Tolerances, h
     low, high = 0.0, FIRST
     while high <= MOST and proved(of(high)):
         low, high = high, STEP * high
-    if low == 0.0:
-        while high >= LEAST and low == 0.0:
-            if proved(of(high / STEP)):
-                low = high / STEP
-            else:
-                high /= STEP
+    while low == 0.0 and high >= LEAST:
+        if proved(of(high / STEP)):
+            low = high / STEP
+        else:
+            high /= STEP
     if low == 0.0:
         return Tolerances()
     for _ in range(HALVINGS):
