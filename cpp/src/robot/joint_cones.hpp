@@ -16,6 +16,12 @@ constexpr int leg_at(bool platform, int k) {
   return k < 3 || platform ? k : k + 3;
 }
 
+/// The joint of a leg on a body; s for an internal leg of the other one.
+constexpr int joint_at(bool platform, int leg) {
+  const LegEnds ends = leg_ends(leg);
+  return (ends.from >= point_u && ends.from < point_p) == platform ? ends.from : ends.to;
+}
+
 /// 1 if the leg points away from its joint on the body, else -1: external legs point from the base to the platform.
 constexpr double sense_at(bool platform, int k) {
   return platform && k < 3 ? -1.0 : 1.0;

@@ -17,15 +17,12 @@ class ConditionOverPoses final : public IndexOverPoses {
   /// With a leg locked it is that of doubles, with room for rounding.
   double at(const Geometry& g, const Box& point) const override {
     constexpr double room = 1e-9;
-    const FormPose pose = domain().pose(point);
     if (locked_ >= 0) {
-      Mat3 rotation;
-      rotation << centre(pose.q[0]), centre(pose.q[1]), centre(pose.q[2]);
-      const PosedPoints here = posed_points(g, {centre(pose.p), rotation, centre(pose.s)});
+      const PosedPoints here = posed_points(g, domain().configuration(point));
       return LockedLegs(here.at, here.legs, length_).condition_number({locked_}) * (1.0 - room);
     }
     Moves unused;
-    return forms::condition_attained(forms::gram(g, length_, pose, unused));
+    return forms::condition_attained(forms::gram(g, length_, domain().pose(point), unused));
   }
   bool bounded(const Box& box, double bound, Moves& moves) const override {
     const PoseOf<CurvedForm> pose = domain().pose<CurvedForm>(box);

@@ -9,6 +9,7 @@
 #include "ninedof/limits/numbers.hpp"
 #include "proof/region/questions.hpp"
 #include "proof/region/worst_machine.hpp"
+#include "robot/joint_cones.hpp"
 
 namespace ninedof {
 namespace {
@@ -126,9 +127,7 @@ class Statements {
     for (int leg = 0; leg < 9; ++leg) stroke.ends[at_index(leg)] = questions_.ends_of_leg(leg, at_neutral);
     for (const bool platform : {false, true})
       for (int k = 0; k < legs_at_body; ++k) {
-        const LegEnds ends = leg_ends(leg_at(platform, k));
-        const int joint = (ends.from >= point_u && ends.from < point_p) == platform ? ends.from : ends.to;
-        if (machine_.tolerances.joints[at_index(joint)] == 0.0) continue;
+        if (machine_.tolerances.joints[at_index(joint_at(platform, leg_at(platform, k)))] == 0.0) continue;
         const LimitRow& cone = limit_row(platform ? "platform_cone" : "base_cone");
         stroke.turns[at_index(leg_at(platform, k))][platform] =
             questions_.ask(cone, k, {true, at_neutral, not_a_number, {}});
@@ -231,13 +230,11 @@ class Statements {
   /// whose direction in the joint's body stays within an angle of that at home, up to what is of second order.
   double apart(const Stroke& stroke, int leg, double shortest) const {
     const Tolerances& t = machine_.tolerances;
-    const LegEnds ends = leg_ends(leg);
     Interval sum = Interval(2.0) * Interval(t.legs[leg]);
     double joints = 0.0;
     for (const bool platform : {false, true})
       if (const auto asked = stroke.turns[at_index(leg)][platform]) {
-        const double r =
-            t.joints[at_index((ends.from >= point_u && ends.from < point_p) == platform ? ends.from : ends.to)];
+        const double r = t.joints[at_index(joint_at(platform, leg))];
         const double angle = questions_[*asked].high,
                      chord = angle < 1.57 ? 2.0 * std::sin(angle) * (1.0 + 0x1p-40) : 2.0;
         sum = sum + Interval(r) * Interval(chord);

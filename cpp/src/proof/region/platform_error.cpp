@@ -13,6 +13,7 @@
 #include "math/numbers.hpp"
 #include "proof/region/worst.hpp"
 #include "proof/region/worst_machine.hpp"
+#include "robot/joint_cones.hpp"
 
 namespace ninedof {
 namespace over_region {
@@ -37,19 +38,13 @@ class ErrorShare final : public IndexOverPoses {
 
   /// To first order, of the machine of the drawing, at a good corner of the errors.
   double at(const Geometry& g, const Box& point) const override {
-    const Mat9 map = error_map(g, configuration(point));
+    const Mat9 map = error_map(g, domain().configuration(point));
     if (!map.allFinite()) return infinity;
     double out = 0.0;
     for (std::size_t k = 0; k < of_.size(); ++k)
       if (of_[k] < infinity)
         out = std::max(out, far_corner(map.middleRows<3>(3 * static_cast<Eigen::Index>(k))) / of_[k]);
     return out;
-  }
-  Configuration configuration(const Box& point) const {
-    const FormPose pose = domain().pose(point);
-    Mat3 rotation;
-    rotation << centre(pose.q[0]), centre(pose.q[1]), centre(pose.q[2]);
-    return {centre(pose.p), rotation, centre(pose.s)};
   }
   bool bounded(const Box& box, double bound, Moves& moves) const override {
     const FormPose pose = domain().pose(box);
@@ -96,8 +91,7 @@ class ErrorShare final : public IndexOverPoses {
   /// At most what the length of a leg differs by from what is linear in (rotation vector, p, s), for errors up to
   /// these.
   double rest(int leg, const Errors& most, double length) const {
-    const LegEnds ends = leg_ends(leg);
-    const int joint = ends.from >= point_u && ends.from < point_p ? ends.from : ends.to;
+    const int joint = joint_at(true, leg);
     const double arm = joint == point_s ? 0.0 : joint_of(domain().machine().geometry, joint).norm();
     double away = (leg < 6 ? most[1] + arm * most[0] : 0.0) + (leg >= 3 ? most[2] : 0.0);
     away *= 1.0 + 0x1p-40;
@@ -157,7 +151,7 @@ ErrorOverPoses error_over_poses(const PosedRobot& machine, const ProofSettings& 
     of[k] = 1.0;
     const ErrorShare index(domain, of);
     at = searched(index, settings.threads);
-    const ErrorBounds e = error_bounds(machine.geometry, index.configuration(at.at), machine.tolerances);
+    const ErrorBounds e = error_bounds(machine.geometry, domain.configuration(at.at), machine.tolerances);
     met[k] = std::max({at.value, k == 0 ? e.rotation : k == 1 ? e.position : e.internal_point, forms::tiny});
   }
   const double most = std::ranges::max(met);

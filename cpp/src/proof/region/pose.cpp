@@ -125,6 +125,13 @@ MetAt Domain::met(const Box& point) const {
   return out;
 }
 
+Configuration Domain::configuration(const Box& point) const {
+  const FormPose at = pose(point);
+  Mat3 rotation;
+  rotation << centre(at.q[0]), centre(at.q[1]), centre(at.q[2]);
+  return {centre(at.p), rotation, centre(at.s)};
+}
+
 bool Domain::outside(const Box& box) const {
   return cut(box) && std::ranges::any_of(discs_, [&](const Disc& disc) {
            const double least = least_length(box, disc);  // infinite where squares leave the doubles: not known then

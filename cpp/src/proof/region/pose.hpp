@@ -39,6 +39,8 @@ class Domain {
   template <class T, class Unit>
   PoseOf<T> moved(const Box& box, const PoseOf<T>& neutral, const Unit& unit) const;
   MetAt met(const Box& point) const;
+  /// A box of one pose in doubles.
+  Configuration configuration(const Box& point) const;
   /// Whether no point of the box is a pose of the domain.
   bool outside(const Box& box) const;
   /// The nearest pose of the domain to a point.
