@@ -10,8 +10,8 @@ STUDY = nd.Study(
     constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0)},
     objective={"region": {"box": [0.3, 0.3, 0.2], "tilt_deg": 8}},
     characteristic_length=1.0,
-    tolerances={"joints": 0.5, "legs": 0.7},  # of the study, and not of this question
-    starts=6,
+    tolerances={"joints": 5e-4, "legs": 7e-4},  # of the study, and not of this question
+    starts=2,
 )
 
 
