@@ -60,6 +60,7 @@ from ninedof.paper.sweeps import sweep_figure
 from ninedof.pareto import Front, pareto
 from ninedof.position.position import AssemblyModes, PositionStatus, Tracked, TrackStatus, forward_position, track
 from ninedof.proof.admissible import AdmissibleSet, admissible
+from ninedof.proof.admissible_rows import AdmissibleRow, AdmissibleRows, admissible_actuators
 from ninedof.proof.bounds import (
     Bounds,
     DeterminantBounds,
@@ -134,6 +135,8 @@ __version__: str = _core.version
 __all__ = [
     "About",
     "Actuator",
+    "AdmissibleRow",
+    "AdmissibleRows",
     "AdmissibleSet",
     "AssemblyModes",
     "Bounds",
@@ -193,6 +196,7 @@ __all__ = [
     "WorkspaceSlice",
     "WorkspaceStatus",
     "admissible",
+    "admissible_actuators",
     "applicable_bounds",
     "atlas",
     "axis_condition_number_bounds",

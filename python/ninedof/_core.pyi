@@ -463,6 +463,7 @@ def admissible_designs(
     seconds: float,
     resolution: float,
     undecided: float,
+    first: bool = ...,
     earlier: Mapping[str, Any] | None = ...,
     progress: _Progress | None = ...,
 ) -> dict[str, Any]: ...

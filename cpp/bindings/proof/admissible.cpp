@@ -102,10 +102,10 @@ void bind_admissible(py::module_& m) {
       .def_readwrite("condition", &DesignQuestion::condition, "Greatest condition number.");
   m.def(
       "admissible_designs",
-      [](const DesignQuestion& question, int threads, double seconds, double resolution, double undecided,
+      [](const DesignQuestion& question, int threads, double seconds, double resolution, double undecided, bool first,
          const py::object& from, const py::object& progress) {
         require_sound_arithmetic();
-        const DesignSettings settings{threads, seconds, resolution, undecided};
+        const DesignSettings settings{threads, seconds, resolution, undecided, first};
         const std::vector<DesignPiece> earlier =
             from.is_none() ? std::vector<DesignPiece>{} : pieces_from(from.cast<py::dict>(), question.varied.size());
         const DesignSet found = interruptible(
@@ -115,7 +115,8 @@ void bind_admissible(py::module_& m) {
         return found_designs(question, found);
       },
       py::arg("question"), py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("resolution"),
-      py::arg("undecided"), py::arg("earlier") = py::none(), py::arg("progress") = py::none());
+      py::arg("undecided"), py::arg("first") = false, py::arg("earlier") = py::none(),
+      py::arg("progress") = py::none());
   m.def(
       "design_certificate",
       [](const DesignQuestion& question, const py::dict& pieces,

@@ -1,5 +1,5 @@
 #pragma once
-/// Nine linear equations over a box of poses.
+/// Nine linear equations over a box of poses, and of designs.
 
 #include <array>
 
@@ -8,22 +8,24 @@
 
 namespace ninedof {
 
-using NineForms = std::array<PoseForm, 9>;
+template <class T>
+using Nine = std::array<T, 9>;
 
 /// Equations A x = b with A = h^T, where h is given by rows. It is inverted in the middle of the box, in doubles: errors
 /// of that inverse count as those of any other approximate one.
+template <class T>
 class BoxSystem {
  public:
-  explicit BoxSystem(const std::array<NineForms, 9>& h);
+  explicit BoxSystem(const Nine<Nine<T>>& h);
   /// Component k of x. With approximate x and y of A x = b and A^T y = e_k, constant over the box,
   ///     x_k = x~_k + y~.(b - A x~) + (e_k - A^T y~).A^-1 (b - A x~),
   /// of which the last is of second order. Unknown where h may be singular.
-  PoseForm component(int k, const NineForms& b) const;
+  T component(int k, const Nine<T>& b) const;
   /// h^-1 by rows: with E = 1 - inverse_ h it is inverse_ + E inverse_ + E E h^-1. Unknown where h may be singular.
-  std::array<NineForms, 9> inverse() const;
+  Nine<Nine<T>> inverse() const;
 
  private:
-  std::array<NineForms, 9> h_;
+  Nine<Nine<T>> h_;
   Mat9 inverse_;  ///< of h in the middle
   Mat9 error_;    ///< |E| is at most this, entry by entry
   // h^-1 = (1 - E)^-1 inverse_ with |E| weight_ <= moved_ <= shrinks_ weight_, entry by entry, for a positive weight_.

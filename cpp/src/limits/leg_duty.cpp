@@ -51,8 +51,9 @@ struct LegDuty {
     out.home_turn.setZero();
     return value;
   }
-  static PoseForm u(const FormLook& look, int item) {
-    const DutyOverBox box(look);
+  template <class Look>
+  static auto u(const Look& look, int item) {
+    const DutyOverBox<Look> box(look);
     const int leg = first + item;
     if constexpr (!of_rate) return box.force(leg);
     else if constexpr (!of_force) return box.rate(leg);
@@ -60,10 +61,11 @@ struct LegDuty {
   }
   static Interval read(const Interval& number) { return number; }
   static Interval smooth(const Interval& number) { return number; }
-  static void moves(const FormLook& look, int, Moves& out) {
+  template <class Look>
+  static void moves(const Look& look, int, Moves& out) {
     for (int leg = 0; leg < 9; ++leg) {
-      const FormEnds ends = look.ends(leg);
-      const FormVector v = ends.to - ends.from;
+      const auto ends = look.ends(leg);
+      const auto v = ends.to - ends.from;
       out.add(v, 1.0 / std::max(centre(v).norm(), 1e-300));
     }
   }

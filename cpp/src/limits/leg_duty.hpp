@@ -54,6 +54,13 @@ Wrench<T> unit_force(const Look& look, int leg) {
   return out;
 }
 
+/// A wrench as nine numbers, its moment times `per_length`.
+template <class T>
+std::array<T, 9> row_of(const Wrench<T>& w, double per_length) {
+  const Xyz<T> m = per_length * w.moment;
+  return {m.x, m.y, m.z, w.force.x, w.force.y, w.force.z, w.at_o.x, w.at_o.y, w.at_o.z};
+}
+
 /// Of the platform's mass, from p.
 template <class Look>
 auto centre_of_mass(const Look& look) {

@@ -164,3 +164,24 @@ def test_the_designs_of_another_question_are_kept(tmp_path, capsys):
     assert "the designs of another question are kept as" in capsys.readouterr().out
     assert (tmp_path / "sets" / "admissible-a2-b1-earlier.npz").is_file()
     assert (tmp_path / "sets" / "admissible-a2-b1.npz").is_file()
+
+
+def test_a_study_with_actuators_says_for_which_rows_a_design_exists(run, study):
+    with study.open("a") as file:
+        file.write('[[actuators]]\nname = "A"\nshortest = 2.0\nlongest = 9.0\n')
+        file.write('[[actuators]]\nname = "B"\nshortest = 0.1\nlongest = 0.5\n')
+    status, out, _ = run(f"admissible {study} {ASKED} 0.05 --json")
+    assert status == 0
+    rows = json.loads(out)["rows"]
+    assert [(row["legs"], row["actuator"]) for row in rows[:3]] == [
+        ("external", "A"),
+        ("external", "B"),
+        ("upper", "A"),
+    ]
+    assert {row["state"] for row in rows if row["actuator"] == "B"} == {"none"}
+    status, out, _ = run(f"admissible {study} {ASKED} 0.05")
+    assert "most break" in out
+    for option in ("--around", "--condition 4", "--out x"):
+        status, _, err = run(f"admissible {study} {ASKED} 0.05 {option}")
+        assert status == 2
+        assert f"{option.split()[0]}: got it for a study with actuators" in err

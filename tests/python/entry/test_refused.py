@@ -101,6 +101,7 @@ EXCEPT = {  # rows and arguments where one of these values has a meaning, or ano
     ),
     *("follow characteristic_length", "sheet characteristic_length", "inverse_velocity sdot", "workspace position"),
     *("failure characteristic_length", "admissible resolution", "admissible time_limit"),
+    *("admissible_actuators resolution", "admissible_actuators time_limit"),
     *("inverse_velocity: O chosen sdot", "sheet centre", "stiffness internal", "workspace home"),
     *("certified_workspace home", "sweep_designs design", "sheet leg_errors", "sheet joint_errors"),
     *("sheet leg_stiffness", "Region.worded unit", "Objective.worded unit", "CertifiedWorkspace.with_estimate unit"),

@@ -401,6 +401,18 @@ row("admissible", few=3, words={"vary": ("vary",)})(
         "progress": None,
     }
 )
+row("admissible_actuators", few=3, words={"vary": ("vary",)})(
+    lambda: {
+        "study": it.study_with_actuators(),
+        "vary": {"a2": (4.0, 8.0), "b1": (2.0, 4.0)},
+        "at": {"zp": 4.0, "zs": 2.4, "theta_z": 0.0},
+        "time_limit": 5.0,
+        "resolution": 0.2,
+        "threads": 1,
+        "progress": None,
+    }
+)
+row("AdmissibleRow.to_dict", lambda: it.admissible_row().to_dict())(dict)
 row("AdmissibleSet.state_of", lambda **a: it.admissible_set().state_of(**a))(lambda: {"designs": [[5.0, 3.0]]})
 row("AdmissibleSet.around", lambda **a: it.admissible_set().around(**a), few=3)(
     lambda: {"design": {"a2": 5.0, "b1": 3.0}, "proportions": {"a2": 2.0, "b1": 1.0}}

@@ -1,5 +1,6 @@
 """What good calls are made of: one small thing of each kind, made once."""
 
+import dataclasses
 import functools
 import itertools
 import tempfile
@@ -80,6 +81,16 @@ def trajectory():
 @functools.cache
 def followed():
     return nd.follow(g(), trajectory(), c())
+
+
+def study_with_actuators():
+    return dataclasses.replace(study(), actuators=(nd.Actuator("one", 2.0, 5.0),), actuators_for="all")
+
+
+@functools.cache
+def admissible_row():
+    place = {"zp": 4.0, "zs": 2.4, "theta_z": 0.0}
+    return nd.admissible_actuators(study_with_actuators(), {"a2": (4.0, 8.0)}, at={**place, "b1": 3.0}).rows[0]
 
 
 @functools.cache

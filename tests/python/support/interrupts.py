@@ -53,10 +53,10 @@ def interrupted_on_entry(name):
     """Send SIGINT as soon as the core's function `name` gives the GIL away: before it has found anything."""
     core, interval, found = getattr(_core, name), sys.getswitchinterval(), Interrupter()
 
-    def watched(*arguments):
+    def watched(*arguments, **options):
         sys.setswitchinterval(1000.0)  # the other thread does not run before
         found()
-        return core(*arguments)
+        return core(*arguments, **options)
 
     found.start()
     setattr(_core, name, watched)

@@ -52,6 +52,7 @@ struct DesignSettings {
   double seconds = 60.0;  ///< of wall time
   double resolution = 0.0;  ///< boxes are not divided below this part of each range
   double undecided = 0.0;  ///< the search ends where no more of the volume is left
+  bool first = false;  ///< and where one is inside: whether there is a design at all
 };
 
 struct DesignSet {

@@ -31,9 +31,10 @@ Plane above(const DesignForm& f) {
 }
 
 /// As FormHome, over designs; the sides are those of the middle.
-HomeOf<DesignForm> home_of(const DesignForms& forms, const Vec3& axis) {
+HomeOf<DesignForm> home_of(const DesignForms& forms, const LimitOptions& options) {
   HomeOf<DesignForm> out;
-  set_axes(forms.joints, forms.home, axis, out);
+  out.duty = options.duty;
+  set_axes(forms.joints, forms.home, options.axis, out);
   out.side.fill(1.0);
   const DesignLook look(forms.joints, forms.home, out);
   for (int k = 0; k < singularity_free_row.items; ++k)
@@ -80,8 +81,8 @@ PoseOf<DesignForm> Poses::pose(const Box& box, const DesignForms& designs) const
 
 DesignsAt::DesignsAt(const DesignQuestion& question, const Poses& poses, const DesignBox& box)
     : question_(question), poses_(poses), forms_(design_forms(question, box)) {
-  homes_.push_back(home_of(forms_, Vec3::Zero()));
-  for (const Limit& limit : question.problem.limits) homes_.push_back(home_of(forms_, limit.axis));
+  homes_.push_back(home_of(forms_, {}));
+  for (const Limit& limit : question.problem.limits) homes_.push_back(home_of(forms_, limit.options()));
   for (const auto& body : homes_.front().axis)
     for (const DesignVector& axis : body) known_ = known_ && is_known(axis.x);
   const DesignLook at_home(forms_.joints, forms_.home, homes_.front());

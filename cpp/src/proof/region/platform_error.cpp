@@ -50,21 +50,19 @@ class ErrorShare final : public IndexOverPoses {
     const FormPose pose = domain().pose(box);
     const AsBuilt drawn{domain().machine().geometry};
     const FormLook look(drawn, pose, home_);
-    const KnownForms known(look);
+    const KnownForms<FormLook> known(look);
     Errors most;
     for (std::size_t k = 0; k < most.size(); ++k) most[k] = bound * of_[k];
-    std::array<NineForms, 9> h;
+    Nine<Nine<PoseForm>> h;
     std::array<double, 9> off{};
     for (int leg = 0; leg < 9; ++leg) {
-      const Wrench<PoseForm> w = unit_force(known, leg);
-      const FormVector m = 1.0 / length_ * w.moment;
-      h[at_index(leg)] = {m.x, m.y, m.z, w.force.x, w.force.y, w.force.z, w.at_o.x, w.at_o.y, w.at_o.z};
+      h[at_index(leg)] = row_of(unit_force(known, leg), 1.0 / length_);
       moves.add(known.direction(leg));
       const Ends<PoseForm> ends = look.ends(leg);
       const FormVector v = ends.to - ends.from;
       off[at_index(leg)] = reading_[at_index(leg)] + rest(leg, most, lower(sqrt(dot(v, v))));
     }
-    const std::array<NineForms, 9> map = BoxSystem(h).inverse();  // a turn is taken times `length_`
+    const Nine<Nine<PoseForm>> map = BoxSystem(h).inverse();  // a turn is taken times `length_`
     most[0] *= length_ * (1.0 - 0x1p-50);
     for (std::size_t k = 0; k < most.size(); ++k)
       if (!within(map, off, 3 * k, most[k])) return false;
@@ -100,9 +98,8 @@ class ErrorShare final : public IndexOverPoses {
   }
   /// Whether three rows of the map take all errors of the legs to vectors of at most this length, everywhere in the
   /// box.
-  bool within(const std::array<NineForms, 9>& map, const std::array<double, 9>& off, std::size_t first,
-              double most) const {
-    std::array<NineForms, 3> rows;
+  bool within(const Nine<Nine<PoseForm>>& map, const std::array<double, 9>& off, std::size_t first, double most) const {
+    std::array<Nine<PoseForm>, 3> rows;
     Vec3 open = Vec3::Zero();
     double size = 0.0;
     for (std::size_t i = 0; i < 3; ++i)

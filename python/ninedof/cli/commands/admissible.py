@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, NoReturn
 
 import typer
 
@@ -15,13 +17,16 @@ from ninedof.design.study import Study
 from ninedof.optimize.result import Result
 from ninedof.proof.admissible import AdmissibleSet, design_range
 from ninedof.proof.admissible import admissible as admissible_of
+from ninedof.proof.admissible_rows import AdmissibleRow, admissible_actuators
 from ninedof.records.admissible import admissible_file, load_admissible, save_admissible
 from ninedof.records.load import load
 from ninedof.support.command import goes_on
-from ninedof.support.units import with_unit
+from ninedof.support.units import amount, with_unit
 from ninedof.tables import RIGHT, Column, Table
 
 PLACE = 4
+WORDS = {"exists": "yes", "none": "no"}
+Ranges = Mapping[str, tuple[float, float] | None]
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1
@@ -60,17 +65,16 @@ class AdmissibleOptions(Options):
 def admissible(options: AdmissibleOptions) -> None:
     """Divide a box of designs into those proved to keep every limit at every pose, those proved not to, and the rest.
 
-    The other variables have the values of the run or of the study. The same command again goes on.
+    The other variables have the values of the run or of the study. The same command again goes on. For a study with
+    actuators: for which of their rows there is a design.
     """
     screen = Screen(options.json)
     of, folder = _of(options)
     vary, at = dict(map(_vary, options.vary)), changes_option(options.set or ())
-    try:
+    if isinstance(of, Study) and of.actuators:
+        _rows(screen, of, options, vary, at)
+    with _as_options():
         asked = design_range(of, vary, at, options.condition)
-    except ValueError as error:
-        if not str(error).startswith("at"):
-            raise
-        raise ValueError(f"--set{str(error).removeprefix('at')}") from None
     file = None if folder is None else admissible_file(folder, asked)
     earlier = None if file is None else load_admissible(file, asked)
     if file is not None and earlier is None and file.exists():  # that of another question
@@ -105,6 +109,47 @@ def admissible(options: AdmissibleOptions) -> None:
         data |= {"around": _around(screen, found)}
     screen.data(data)
     raise typer.Exit(INTERRUPTED if found.interrupted else DONE)
+
+
+def _rows(screen: Screen, study: Study, options: AdmissibleOptions, vary: Ranges, at: Mapping[str, Any]) -> NoReturn:
+    """Print for which rows of its actuators a study has designs; nothing is kept."""
+    for name in ("condition", "around", "certificate", "out"):
+        if getattr(options, name):
+            raise ValueError(f"--{name}: got it for a study with actuators, expected the run of `optimize`")
+    with _as_options(), screen.bar("boxes", "actuators") as bar:
+        found = admissible_actuators(
+            study,
+            vary,
+            at=at,
+            time_limit=options.time,
+            resolution=options.resolution,
+            threads=options.threads or 0,
+            progress=bar,
+        )
+    heads = [Column("legs"), Column("actuator"), Column("a design exists"), Column("for example")]
+    rows = [(one.kind, one.row.name, WORDS.get(one.state, one.state), _example(one, study)) for one in found.rows]
+    screen.print(Table("", heads, rows))
+    screen.data({"rows": [one.to_dict() for one in found.rows]})
+    raise typer.Exit(INTERRUPTED if found.interrupted else DONE)
+
+
+def _example(one: AdmissibleRow, study: Study) -> str:
+    """Return a design in words, or what excludes most designs."""
+    if one.design is None:
+        return f"most break {next(iter(one.excluded)).replace('_', ' ')}" if one.excluded else ""
+    values = ((name, f"{name} = {study.shown(name, value):.5g}") for name, value in one.design.items())
+    return ", ".join(amount(words, study.unit_of(name)) for name, words in values)
+
+
+@contextmanager
+def _as_options() -> Iterator[None]:
+    """Name the option of values of other variables."""
+    try:
+        yield
+    except ValueError as error:
+        if not str(error).startswith("at"):
+            raise
+        raise ValueError(f"--set{str(error).removeprefix('at')}") from None
 
 
 def _draw(found: AdmissibleSet, file: Path) -> list[Path]:

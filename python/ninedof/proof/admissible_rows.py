@@ -1,0 +1,112 @@
+"""For which rows of a list of actuators admissible designs exist."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+from ninedof.design.actuators import LEG_KINDS, Actuator
+from ninedof.design.study import Study
+from ninedof.proof.admissible import LONGEST, AdmissibleSet, SearchLimits, design_range, divided
+from ninedof.support.arguments import finite, instance, whole
+from ninedof.support.arrays import MOST_THREADS
+from ninedof.support.progress import Progress, part_of, progress_argument
+
+EXISTS, NONE, UNDECIDED = "exists", "none", "undecided"
+
+
+@dataclass(frozen=True)
+class AdmissibleRow:
+    """Whether a design exists whose legs of one kind have a row; the other kinds may have any length."""
+
+    kind: str
+    """ "external", "upper" or "lower"; "all" in a study that takes one row for all legs."""
+    row: Actuator
+    state: str
+    """ "exists" or "none", both proved, or "undecided"."""
+    design: Mapping[str, float] | None
+    """A design in the middle of a box that is proved inside: the variables that vary. None without one."""
+    excluded: Mapping[str, float]
+    """The share of the box that each limit excluded until the answer was there, as `AdmissibleSet.excluded`."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain values, as JSON has them; angles in radians."""
+        return {
+            "legs": self.kind,
+            "actuator": self.row.name,
+            "state": self.state,
+            "design": None if self.design is None else dict(self.design),
+            "excluded": dict(self.excluded),
+        }
+
+
+@dataclass(frozen=True)
+class AdmissibleRows:
+    """For which rows designs exist."""
+
+    rows: tuple[AdmissibleRow, ...]
+    """By kinds of legs, the rows in the order of the study."""
+    interrupted: bool = False
+    """Ctrl-C: the rows after it are undecided."""
+
+
+def admissible_actuators(
+    study: Study,
+    vary: Collection[str] | Mapping[str, tuple[float, float] | None],
+    *,
+    at: Mapping[str, float | str] | None = None,
+    time_limit: float | None = None,
+    resolution: float = 0.01,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> AdmissibleRows:
+    """Say for which rows of a study's actuators a design exists that keeps every limit at every pose; proved.
+
+    Each row is asked about alone, for each kind of legs: the other kinds have no limits of actuators. Where none exists
+    for a row, none exists for any combination with it; where one exists, a combination may still have none.
+
+    Parameters
+    ----------
+    study : Study
+        One with actuators.
+    vary, at, resolution, threads, progress : optional, but for the first
+        As in `admissible`. Forces and rates of rows count where the study states loads and speeds.
+    time_limit : float, optional
+        Seconds for all rows together; none by default. A row that was not decided is "undecided".
+
+    Returns
+    -------
+    AdmissibleRows
+
+    Raises
+    ------
+    ValueError
+        For a study without actuators, and as `admissible`.
+
+    """
+    if not instance("study", study, Study).actuators:
+        raise ValueError("study: got one without actuators, expected a list of them")
+    resolution = finite("resolution", resolution, 0.0, 1.0)
+    threads = whole("threads", threads, 0, MOST_THREADS)
+    end = perf_counter() + (LONGEST if time_limit is None else finite("time_limit", time_limit, 0.0))
+    progress = progress_argument(progress)
+    kinds = {"all": LEG_KINDS} if study.actuators_for == "all" else {kind: (kind,) for kind in LEG_KINDS}
+    asked = [(kind, row) for kind in kinds for row in study.actuators]
+    out, interrupted = [], False
+    for n, (kind, row) in enumerate(asked):
+        question = design_range(study.with_actuators(dict.fromkeys(kinds[kind], row)), vary, at)
+        seconds = 0.0 if interrupted else max(end - perf_counter(), 0.0) / (len(asked) - n)
+        limits = SearchLimits(seconds, resolution, threads, undecided=0.0, first=True)
+        found = divided(question, limits, progress=part_of(progress, f"{row.name} for {kind} legs"))
+        out.append(AdmissibleRow(kind, row, *_state(found), found.excluded))
+        interrupted = interrupted or found.interrupted
+    return AdmissibleRows(tuple(out), interrupted)
+
+
+def _state(found: AdmissibleSet) -> tuple[str, dict[str, float] | None]:
+    if len(found.inside):
+        middle = found.inside[0].mean(axis=1).tolist()
+        return EXISTS, dict(zip(found.vary, middle, strict=True))
+    return UNDECIDED if len(found.undecided) else NONE, None
