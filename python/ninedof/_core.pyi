@@ -463,10 +463,17 @@ def admissible_designs(
     seconds: float,
     resolution: float,
     undecided: float,
-    first: bool = ...,
     earlier: Mapping[str, Any] | None = ...,
     progress: _Progress | None = ...,
 ) -> dict[str, Any]: ...
+def any_admissible(
+    question: DesignQuestion,
+    *,
+    threads: int,
+    seconds: float,
+    resolution: float,
+    progress: _Progress | None = ...,
+) -> tuple[str, list[float], float, int, bool]: ...
 def design_certificate(
     question: DesignQuestion,
     pieces: Mapping[str, Any],

@@ -102,10 +102,10 @@ void bind_admissible(py::module_& m) {
       .def_readwrite("condition", &DesignQuestion::condition, "Greatest condition number.");
   m.def(
       "admissible_designs",
-      [](const DesignQuestion& question, int threads, double seconds, double resolution, double undecided, bool first,
+      [](const DesignQuestion& question, int threads, double seconds, double resolution, double undecided,
          const py::object& from, const py::object& progress) {
         require_sound_arithmetic();
-        const DesignSettings settings{threads, seconds, resolution, undecided, first};
+        const DesignSettings settings{threads, seconds, resolution, undecided};
         const std::vector<DesignPiece> earlier =
             from.is_none() ? std::vector<DesignPiece>{} : pieces_from(from.cast<py::dict>(), question.varied.size());
         const DesignSet found = interruptible(
@@ -115,7 +115,23 @@ void bind_admissible(py::module_& m) {
         return found_designs(question, found);
       },
       py::arg("question"), py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("resolution"),
-      py::arg("undecided"), py::arg("first") = false, py::arg("earlier") = py::none(),
+      py::arg("undecided"), py::arg("earlier") = py::none(), py::arg("progress") = py::none());
+  m.def(
+      "any_admissible",
+      [](const DesignQuestion& question, int threads, double seconds, double resolution, const py::object& progress) {
+        require_sound_arithmetic();
+        const DesignExistence found = interruptible(
+            progress,
+            [&](const WorkControl& control) {
+              return any_admissible(question, {threads, seconds, resolution}, control);
+            },
+            [](DesignExistence& one) { return one.interrupted = true; });
+        constexpr std::array words{"exists", "none", "undecided"};
+        const std::vector<double> design(found.design.begin(), found.design.begin() + std::ssize(question.varied));
+        return py::make_tuple(words[static_cast<std::size_t>(found.state)], design, found.undecided, found.looked_at,
+                              found.interrupted);
+      },
+      py::arg("question"), py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("resolution"),
       py::arg("progress") = py::none());
   m.def(
       "design_certificate",

@@ -52,7 +52,6 @@ struct DesignSettings {
   double seconds = 60.0;  ///< of wall time
   double resolution = 0.0;  ///< boxes are not divided below this part of each range
   double undecided = 0.0;  ///< the search ends where no more of the volume is left
-  bool first = false;  ///< and where one is inside: whether there is a design at all
 };
 
 struct DesignSet {
@@ -67,6 +66,20 @@ struct DesignSet {
 /// Divides the box until the settings end it; anytime. `from`: the undecided pieces of a run of the same question.
 DesignSet admissible_designs(const DesignQuestion& question, const DesignSettings& settings,
                              const std::vector<DesignPiece>& from = {}, const Control& control = {});
+
+/// Whether any design of the box is inside.
+struct DesignExistence {
+  enum class State { exists, none, undecided } state = State::undecided;  ///< the first two are proved
+  std::array<double, most_varied> design{};  ///< that is inside, in the order of `varied`
+  double undecided = 1.0;  ///< share of the volume that is left
+  long looked_at = 0;  ///< boxes of designs
+  bool interrupted = false;
+};
+/// Poses are not covered but met: of each box those where designs near it broke a limit. Where a middle breaks none, its
+/// own worst poses join them, and where there are none, the middle is a design that is inside. Of the settings
+/// `undecided` has no meaning.
+DesignExistence any_admissible(const DesignQuestion& question, const DesignSettings& settings,
+                               const Control& control = {});
 
 /// A file that ninedof_check replays: the question, and the pieces with their reasons (docs/certificate.md).
 std::string design_certificate(const DesignQuestion& question, const DesignSet& set);

@@ -5,6 +5,7 @@
 namespace ninedof::admissible {
 namespace {
 
+constexpr double point_width = 0.05;  // one design is searched as long as a box of this width
 constexpr std::size_t most_open = 10'000;  // boxes of poses that a box of designs hands on
 
 /// A few of each demand.
@@ -67,6 +68,47 @@ std::vector<DesignPiece> Examiner::pieces_of(const std::vector<Piece>& pieces) c
   return out;
 }
 
+bool Examiner::breaks(const DesignBox& box, const std::vector<Loss>& witnesses, const std::vector<int>& some,
+                      Knowledge& known) const {
+  const DesignsAt designs(question_, poses_, box);
+  const auto took = [&](const Found& found) {
+    known.losses.insert(known.losses.end(), found.losses.begin(), found.losses.end());
+    return found.status == Found::Status::outside;
+  };
+  if (took(look_at_heights(designs.forms(), demands_.between_plates))) return true;
+  for (const Alone& alone : demands_.alone)
+    if (took(look_at(designs.forms(), alone))) return true;
+  if (!designs.known()) return false;
+  const Stop never = [] { return false; };
+  const Spreads spreads(designs, never);
+  for (const int k : some) {
+    Loss loss = witnesses[static_cast<std::size_t>(k)];
+    const Met met = meet(designs, spreads, loss);
+    if (!met.known || least_of(met.most) >= 0.0) continue;
+    loss.most = met.most;
+    known.losses.push_back(loss);
+    if (most_of(met.most) < 0.0) return true;
+  }
+  return false;
+}
+
+std::vector<int> Examiner::worst_of(const DesignBox& design, const std::vector<Loss>& witnesses) const {
+  const DesignsAt designs(question_, poses_, design);
+  if (!designs.known()) return {};
+  const Stop never = [] { return false; };
+  const Spreads spreads(designs, never);
+  std::map<int, std::pair<double, int>> worst;
+  for (std::size_t k = 0; k < witnesses.size(); ++k) {
+    const Met met = meet(designs, spreads, witnesses[k]);
+    if (!met.known || met.most.c >= 0.0) continue;
+    const auto [at, fresh] = worst.try_emplace(witnesses[k].demand, met.most.c, static_cast<int>(k));
+    if (!fresh) at->second = std::min(at->second, std::pair(met.most.c, static_cast<int>(k)));
+  }
+  std::vector<int> out;
+  for (const auto& [demand, one] : worst) out.push_back(one.second);
+  return out;
+}
+
 Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
   Examined out;
   const DesignsAt designs(question_, poses_, asked.box);
@@ -78,6 +120,7 @@ Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
   double width = 0.0;
   for (std::size_t k = 0; k < question_.varied.size(); ++k)
     width = std::max(width, (asked.box.high[k] - asked.box.low[k]) / (question_.high[k] - question_.low[k]));
+  if (width == 0.0) width = point_width;
   // Takes what was found; whether no design of the box is inside.
   const auto took = [&](std::size_t n, Found found) {
     out.boxes += found.boxes;

@@ -32,6 +32,11 @@ class Examiner {
   const std::vector<Demand>& names() const { return demands_.names; }
   /// Not finished where it was stopped.
   Examined examine(const ToExamine& asked, const Stop& stop) const;
+  /// Whether these witnesses show that no design of the box is inside; their planes go to `known`.
+  bool breaks(const DesignBox& box, const std::vector<Loss>& witnesses, const std::vector<int>& some,
+              Knowledge& known) const;
+  /// Of each demand that a design, a box of no width, breaks at a witness: the worst one.
+  std::vector<int> worst_of(const DesignBox& design, const std::vector<Loss>& witnesses) const;
   /// With the poses at which limits are broken.
   std::vector<DesignPiece> pieces_of(const std::vector<Piece>& pieces) const;
 

@@ -20,7 +20,6 @@ struct Waiting {
   ToExamine asked;
   double undecided;                 ///< volume
   std::vector<DesignPiece> pieces;  ///< what is known of it
-  double away = 0.0;                ///< its middle from a design that keeps all that was lost, in ranges
 };
 
 /// What one look gives.
@@ -63,27 +62,12 @@ class Search {
     for (const Rest& rest : parts.rests) {
       ToExamine next = found.inherited;
       next.box = rest.box;
-      out.rests.push_back({std::move(next), rest.undecided, examiner_.pieces_of(rest.pieces),
-                           away(rest.box, found.known.losses, one.asked.box)});
+      out.rests.push_back({std::move(next), rest.undecided, examiner_.pieces_of(rest.pieces)});
     }
     return out;
   }
 
  private:
-  double away(const DesignBox& part, const std::vector<Loss>& losses, const DesignBox& of) const {
-    double most = 0.0;
-    for (const Loss& loss : losses) {
-      double value = loss.most.c, slopes = 0.0;
-      for (std::size_t k = 0; k < dimensions_; ++k) {
-        const double half = 0.5 * (of.high[k] - of.low[k]);
-        value += loss.most.a[k] * (0.5 * (part.low[k] + part.high[k]) - of.low[k] - half) / half;
-        slopes += std::abs(loss.most.a[k]) / half * (range_.high[k] - range_.low[k]);
-      }
-      if (slopes > 0.0) most = std::max(most, -value / slopes);
-    }
-    return most;
-  }
-
   Examiner examiner_;
   std::size_t dimensions_;
   DesignBox range_;
@@ -112,20 +96,11 @@ DesignSet admissible_designs(const DesignQuestion& question, const DesignSetting
     if (piece.state != Membership::undecided) out.pieces.push_back(piece);
     else (search.divisible(one, settings.resolution) ? waiting : small).push_back(std::move(one));
   }
-  // The largest next; where one design will do, the nearest.
-  const auto fewer = [nearest = settings.first](const Waiting& a, const Waiting& b) {
-    return nearest && a.away != b.away ? a.away > b.away : a.undecided < b.undecided;
-  };
+  const auto fewer = [](const Waiting& a, const Waiting& b) { return a.undecided < b.undecided; };
   std::ranges::make_heap(waiting, fewer);
   double undecided = 0.0;
-  bool done = false;
-  const auto look_for_first = [&](const std::vector<DesignPiece>& pieces) {
-    const auto inside = [](const DesignPiece& piece) { return piece.state == Membership::inside; };
-    done = done || (settings.first && std::ranges::any_of(pieces, inside));
-  };
-  look_for_first(from);
   for (const Waiting& one : waiting) undecided += one.undecided;
-  while (!waiting.empty() && undecided > settings.undecided * whole && !done && !stopped()) {
+  while (!waiting.empty() && undecided > settings.undecided * whole && !stopped()) {
     std::vector<Waiting> now;
     while (!waiting.empty() && now.size() < boxes_at_once) {
       std::ranges::pop_heap(waiting, fewer);
@@ -146,9 +121,7 @@ DesignSet admissible_designs(const DesignQuestion& question, const DesignSetting
       out.boxes += found[n].boxes;
       undecided -= now[n].undecided;
       out.pieces.insert(out.pieces.end(), found[n].decided.begin(), found[n].decided.end());
-      look_for_first(found[n].decided);
       for (Waiting& rest : found[n].rests) {
-        look_for_first(rest.pieces);
         undecided += rest.undecided;
         if (!search.divisible(rest, settings.resolution)) {
           small.push_back(std::move(rest));
