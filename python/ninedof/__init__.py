@@ -88,6 +88,11 @@ from ninedof.sheet.failure.result import Failure
 from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.payload import Payload, largest_payload
 from ninedof.sheet.sheet import Sheet, sheet
+from ninedof.singularity.architecture import (
+    ArchitectureClass,
+    ArchitectureSingularity,
+    architecture_singularity,
+)
 from ninedof.singularity.singularity import (
     Mechanism,
     Singularity,
@@ -135,6 +140,8 @@ __all__ = [
     "About",
     "Actuator",
     "AdmissibleSet",
+    "ArchitectureClass",
+    "ArchitectureSingularity",
     "AssemblyModes",
     "Bounds",
     "Candidate",
@@ -194,6 +201,7 @@ __all__ = [
     "WorkspaceStatus",
     "admissible",
     "applicable_bounds",
+    "architecture_singularity",
     "atlas",
     "axis_condition_number_bounds",
     "axis_singular_values",

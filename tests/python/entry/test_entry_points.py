@@ -132,6 +132,7 @@ RETURNING = (
         "best_internal_map",
     ),
     *("singularity", "singularity_margins", "distance_to_singularity", "nearest_singularity"),
+    "architecture_singularity",
     *("compare", "follow", "path_limits", "failure", "region_map", "sheet", "largest_payload", "sweep", "trace"),
     *("Study.evaluate", "check"),
     *("applicable_bounds", "WorkspaceMap.slice"),
