@@ -76,8 +76,7 @@ def architecture_singularity(geometry: Geometry) -> ArchitectureSingularity:
     -------
     ArchitectureSingularity
         With a `dissimilarity` of 0 the external triangles are similar, as those of every design with threefold symmetry
-        are. At the two `rotations` they are parallel and det N is 0 at every position p, wherever O is: no yaw of such
-        a machine passes them.
+        are. At the two `rotations` they are parallel and det N is 0 at every position p, wherever O is.
 
     Examples
     --------

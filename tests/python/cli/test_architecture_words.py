@@ -38,7 +38,11 @@ def words(text):
             HEXAGONS | {"b2": 1.0},
             "its external triangles are similar and, at the orientation of the pose, parallel: det N is 0",
         ),
-        ("general", HEIGHTS | COINCIDENT, "external legs 1 and 2 with the same joints: det N is 0 at every pose"),
+        (
+            "general",
+            HEIGHTS | COINCIDENT,
+            "base_external, platform_external: got external legs 1 and 2 with the same joints",
+        ),
         ("general", HEIGHTS | FLAT, "base_internal: got collinear joints (height / longest side = 0): det B is 0"),
     ],
 )
