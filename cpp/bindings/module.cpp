@@ -10,6 +10,7 @@ PYBIND11_MODULE(ninedof_core, m, pybind11::mod_gil_not_used()) {
   m.attr("version") = NINEDOF_VERSION;
   ninedof::python::watch_interpreter_exit();
   ninedof::python::bind_geometry(m);
+  ninedof::python::bind_architecture_singularity(m);
   ninedof::python::bind_kinematics(m);
   ninedof::python::bind_position(m);
   ninedof::python::bind_limits(m);

@@ -89,6 +89,11 @@ from ninedof.sheet.failure.result import Failure
 from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.payload import Payload, largest_payload
 from ninedof.sheet.sheet import Sheet, sheet
+from ninedof.singularity.architecture import (
+    ArchitectureClass,
+    ArchitectureSingularity,
+    architecture_singularity,
+)
 from ninedof.singularity.singularity import (
     Mechanism,
     Singularity,
@@ -138,6 +143,8 @@ __all__ = [
     "AdmissibleRow",
     "AdmissibleRows",
     "AdmissibleSet",
+    "ArchitectureClass",
+    "ArchitectureSingularity",
     "AssemblyModes",
     "Bounds",
     "Candidate",
@@ -198,6 +205,7 @@ __all__ = [
     "admissible",
     "admissible_actuators",
     "applicable_bounds",
+    "architecture_singularity",
     "atlas",
     "axis_condition_number_bounds",
     "axis_singular_values",

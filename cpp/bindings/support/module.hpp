@@ -8,6 +8,7 @@ namespace ninedof::python {
 namespace py = pybind11;
 
 void bind_geometry(py::module_& m);
+void bind_architecture_singularity(py::module_& m);
 void bind_kinematics(py::module_& m);
 void bind_position(py::module_& m);
 void bind_limits(py::module_& m);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ninedof/math/error.hpp"
+#include "ninedof/robot/architecture_singularity.hpp"
 #include "optimize/conflict.hpp"
 
 namespace ninedof {
@@ -34,6 +35,20 @@ std::vector<Eigen::VectorXd> nearest_ends(const SearchRound& round) {
   std::vector<Eigen::VectorXd> out;
   for (std::size_t k = 0; k < std::min(few, ends.size()); ++k) out.push_back(ends[k]->variables);
   return out;
+}
+
+/// Why a design is singular at every pose, or at every position of one of its orientations; empty if it is not.
+std::string architecture_reason(const Problem& problem, const Eigen::VectorXd& x) {
+  try {
+    const Geometry g = geometry(problem, x);
+    for (const Configuration& c : configurations(problem, x))
+      if (homothety_residual(g, c.rotation) <= 1e-9)
+        return "its external triangles are similar and, at the orientation of the pose, parallel: det N is 0 at all "
+               "positions, wherever O is";
+  } catch (const InvalidArgument& e) {
+    return e.what();
+  }
+  return "";
 }
 
 /// Unbounded: the best design of every round is at its size limit, none is worse than the one before, and together they
@@ -188,6 +203,8 @@ void explain_failure(const PreparedProblem& p, const SearchRound& round, const S
   }
   result.status = Status::infeasible;
   result.reason = "all designs reached within the limits are singular: none has a finite condition number";
+  if (const std::string why = architecture_reason(p.problem, conflict.allowed); !why.empty())
+    result.reason += "; the last of them by its architecture: " + why;
   if (p.problem.objective.index == Index::speed && std::isinf(p.problem.objective.condition_limit))
     result.reason += "; the index speed needs a limit on it (condition_limit)";
 }

@@ -14,24 +14,42 @@
 namespace ninedof {
 namespace {
 
-constexpr double collinear_tolerance = 1e-9;
+constexpr double tolerance = 1e-9;  // relative: below it joints are on one line, and legs coincide
 
-void require_triangle(const std::string& name, const Triple& t) {
+/// The longest side. Throws unless it is a length; `lost` is what three joints in one point do.
+double longest_side(const std::string& name, const Triple& t, const std::string& lost) {
   for (std::size_t i = 0; i < 3; ++i)
     if (!t[i].allFinite())
       throw InvalidArgument(name, "a non-finite coordinate in joint " + std::to_string(i + 1), "three finite points");
   for (const Vec3& joint : t) require_coordinates(name.c_str(), joint);
-  const Vec3 a = t[1] - t[0], b = t[2] - t[0], c = t[2] - t[1];
-  const double longest = std::max({a.norm(), b.norm(), c.norm()});
-  if (longest == 0.0) throw InvalidArgument(name, "three coincident joints", "joints that span a triangle");
+  const double longest = std::max({(t[1] - t[0]).norm(), (t[2] - t[0]).norm(), (t[2] - t[1]).norm()});
+  if (longest == 0.0) throw InvalidArgument(name, "three coincident joints: " + lost, "joints apart from each other");
   if (longest < least_length)
     throw InvalidArgument(name, "a triangle of size " + format_number(longest),
                           "one of at least " + format_number(least_length));
+  return longest;
+}
+
+void require_triangle(const std::string& name, const Triple& t, const std::string& lost) {
+  const double longest = longest_side(name, t, lost);
   // Divided first: the cross product of very short or very long sides would underflow or overflow.
-  const double height = (a / longest).cross(b / longest).norm();
-  if (!(height > collinear_tolerance))
-    throw InvalidArgument(name, "collinear joints (height / longest side = " + format_number(height) + ")",
+  const double height = ((t[1] - t[0]) / longest).cross((t[2] - t[0]) / longest).norm();
+  if (!(height > tolerance))
+    throw InvalidArgument(name, "collinear joints (height / longest side = " + format_number(height) + "): " + lost,
                           "joints that span a triangle");
+}
+
+void require_legs_apart(const Triple& base, const Triple& platform) {
+  const std::string lost = "det N is 0 at every pose";
+  const double one = longest_side("base_external", base, lost),
+               other = longest_side("platform_external", platform, lost);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if ((base[i] - base[k]).norm() <= tolerance * one && (platform[i] - platform[k]).norm() <= tolerance * other)
+        throw InvalidArgument("base_external, platform_external",
+                              "external legs " + std::to_string(k + 1) + " and " + std::to_string(i + 1) +
+                                  " with the same joints: " + lost,
+                              "legs that differ in at least one joint");
 }
 
 void require_side(const std::string& name, double side) {
@@ -69,10 +87,9 @@ Geometry::Geometry(const Triple& base_external, const Triple& base_internal, con
       base_internal_(base_internal),
       platform_external_(platform_external),
       platform_internal_(platform_internal) {
-  require_triangle("base_external", base_external_);
-  require_triangle("base_internal", base_internal_);
-  require_triangle("platform_external", platform_external_);
-  require_triangle("platform_internal", platform_internal_);
+  require_legs_apart(base_external_, platform_external_);
+  require_triangle("base_internal", base_internal_, "det B is 0 at every pose");
+  require_triangle("platform_internal", platform_internal_, "det C is 0 at every pose");
 }
 
 Geometry Geometry::hexagonal(double a1, double a2, double b1, double b2) {

@@ -43,7 +43,7 @@ Triple displaced(Triple joints, const double* radius, Draws& draws) {
   return joints;
 }
 
-/// None if the errors make three joints collinear.
+/// None if the errors make three internal joints collinear, or another robot that is singular at every pose.
 std::optional<Geometry> built(const Geometry& g, const Tolerances& t, Draws& draws) {
   const double* radius = t.joints.data();
   const Triple r = displaced(g.base_external(), radius, draws), r_hat = displaced(g.base_internal(), radius + 3, draws);

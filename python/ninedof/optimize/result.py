@@ -486,12 +486,16 @@ def _robot(problem: _core.Problem, x: Sequence[float]) -> dict[str, Any]:
 def with_fixed_design(result: Result) -> Result:
     """Return a result without a design with the one design of its study, if no variable is free, whatever it violates.
 
-    It is for showing the indices and margins of that design; the result itself has no best design.
+    It is for showing the indices and margins of that design; the result itself has no best design. A design that is
+    singular at every pose is no robot and has none: the reason of the result says so.
     """
     study = result.study
     if result.candidates or any(isinstance(ends, tuple) for ends in study.variables.values()):
         return result
-    point = study.evaluate({})
+    try:
+        point = study.evaluate({})
+    except ValueError:
+        return result
     own: dict[str, Any] = {f.name: getattr(point, f.name) for f in fields(Candidate) if hasattr(point, f.name)}
     violation = max(0.0, -min(point.margins.values(), default=0.0))
     search: dict[str, Any] = {"active": (), "prices": {}, "optimality_residual": math.nan, "reached": 0}

@@ -169,6 +169,34 @@ TEST_SUITE("verdict") {
     CHECK(refuses("a1, a2", [] { optimize(fixed_study({0.0, 0.0, 1.5, 1.0, 5.0, 3.0, 0.0})); }));
   }
 
+  TEST_CASE("infeasible by the architecture: the reason names the class") {
+    Problem general;
+    general.family = "general";
+    const ninedof::DesignFamily& family = ninedof::design_family("general");
+    for (const ninedof::VariableInfo& v : family.variables()) general.variables.push_back({v.low, v.low});
+    const auto set = [&](const std::string& name, double value) {
+      general.variables[static_cast<std::size_t>(family.index(name))] = {value, value};
+    };
+    set("zp", 4.0);
+    set("zs", 2.0);
+    REQUIRE(optimize(general).status == Status::optimal);
+    const Problem sound = general;
+    for (const char* axis : {"x", "y", "z"})
+      for (const char* plate : {"base", "platform"}) {
+        const std::string joint = std::string(plate) + "_external_";
+        const auto& first = general.variables[static_cast<std::size_t>(family.index(joint + "1_" + axis))];
+        set(joint + "2_" + axis, first.low);
+      }
+    CHECK(optimize(general).reason.find("external legs 1 and 2 with the same joints") != std::string::npos);
+    general = sound;
+    for (const char* joint : {"1", "2", "3"}) set(std::string("base_internal_") + joint + "_y", 0.0);
+    CHECK(optimize(general).reason.find("det B is 0 at every pose") != std::string::npos);
+    const Result similar = optimize(fixed_study({1.0, 2.0, 0.5, 1.0, 5.0, 3.0, 0.0}));
+    CHECK(similar.reason.find("similar and, at the orientation of the pose, parallel") != std::string::npos);
+    const Result flat = optimize(fixed_study({1.0, 2.0, 1.5, 1.0, 5.0, 0.0, 0.0}));
+    CHECK(flat.reason.find("architecture") == std::string::npos);
+  }
+
   TEST_CASE("too few evaluations: stopped, with the best feasible design found") {
     const Result r = optimize(paper_study(), {.starts = 8, .max_evaluations = 3});
     CHECK(r.status == Status::stopped);

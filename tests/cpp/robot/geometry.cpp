@@ -109,18 +109,20 @@ TEST_SUITE("geometry") {
         Triple far = scaled(good, scale);
         for (Vec3& joint : far) joint += 1e3 * scale * Vec3(1, -2, 3);
         CHECK_NOTHROW(place.with(far));
-        // Collinear joints at any scale and in any direction.
+        // Collinear joints at any scale and in any direction: external ones are no reason to refuse.
         const Vec3 from = scale * Vec3(0.3, -0.7, 0.2), along = scale * Vec3(1, 2, -1);
-        CHECK(refuses(place.name, [&] { place.with({from, from + along, from + 2.5 * along}); }));
         CHECK(refuses(place.name, [&] { place.with({from, from, from}); }));
-        CHECK(refuses(place.name, [&] { place.with({from, from + along, from}); }));
+        for (const Triple& flat : {Triple{from, from + along, from + 2.5 * along}, Triple{from, from + along, from}}) {
+          if (place.name.ends_with("internal")) CHECK(refuses(place.name, [&] { place.with(flat); }));
+          else CHECK_NOTHROW(place.with(flat));
+        }
       }
       CHECK(refuses(place.name, [&] { place.with({Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}); }));
     }
   }
 
   TEST_CASE("collinear is a height below 1e-9 of the longest side, whichever joint is out of line") {
-    for (const Place& place : places)
+    for (const Place& place : {places[1], places[3]})
       for (std::size_t turn = 0; turn < 3; ++turn) {
         const auto flat = [&](double height) {
           Triple t{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.4, height, 0)};
@@ -130,6 +132,22 @@ TEST_SUITE("geometry") {
         CHECK_NOTHROW(flat(2e-9));
         CHECK(refuses(place.name, [&] { flat(0.5e-9); }));
         CHECK(message_of([&] { flat(0.5e-9); }).find("collinear") != std::string::npos);
+      }
+  }
+
+  TEST_CASE("two external legs coincide if both of their ends do, to 1e-9 of the longest sides") {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const double scale : {1e-6, 1.0, 1e6}) {
+        const auto with = [&](double base_apart, double platform_apart) {
+          Triple base = scaled(good, scale), platform = good;
+          base[(i + 1) % 3] = base[i] + Vec3(0, 0, base_apart * scale);
+          platform[(i + 1) % 3] = platform[i] + Vec3(0, platform_apart, 0);
+          return Geometry(base, good, platform, good);
+        };
+        CHECK_NOTHROW(with(0.0, 1e-8));
+        CHECK_NOTHROW(with(1e-8, 0.0));
+        CHECK(refuses("base_external, platform_external", [&] { with(0.0, 0.0); }));
+        CHECK(refuses("base_external, platform_external", [&] { with(1e-10, 1e-10); }));
       }
   }
 

@@ -45,6 +45,7 @@ def test_every_argument_is_taken_or_refused_by_name(name):
 # whatever takes it.
 RESULTS = {
     *(
+        "ArchitectureSingularity",
         "AssemblyModes",
         "Bounds",
         "Candidate",
@@ -133,6 +134,7 @@ RETURNING = (
         "best_internal_map",
     ),
     *("singularity", "singularity_margins", "distance_to_singularity", "nearest_singularity"),
+    "architecture_singularity",
     *("compare", "follow", "path_limits", "failure", "region_map", "sheet", "largest_payload", "sweep", "trace"),
     *("Study.evaluate", "check"),
     *("applicable_bounds", "WorkspaceMap.slice"),

@@ -33,7 +33,6 @@ NO_TRIPLES += [
     {},
     [[object()] * 3] * 3,
     [[1.0, 2.0, 3.0]] * 3,
-    np.diag([0, 0, 1.0]),
     *(x * ONE for x in (1e-160, 1e-101, 1.1e100, 1e158)),
 ]
 NO_ORBITS = [(0.0, 1.0, 0.0), (-1.0, 1.0, 0.0), (NAN, 1.0, 0.0), (1.0, NAN, 0.0), (1.0, 0.0, INF), (1.0, 0.0), "abc", 3]
@@ -72,6 +71,7 @@ KINDS = {  # values that are refused, arguments that have the kind
 }
 OTHER_KINDS = {  # of one call: a row, what is refused, its arguments
     "triple": ("Geometry", NO_TRIPLES, "base_external base_internal platform_external platform_internal"),
+    "triple on a line": ("Geometry", [np.diag([0, 0, 1.0])], "base_internal platform_internal"),
     "orbit": ("Geometry.symmetric", NO_ORBITS, "base_external base_internal platform_external platform_internal"),
     "side from 0": ("Geometry.hexagonal", [-1.0, -1e-300, [1.0]], "a1 a2 b1 b2"),
     "leg lengths": ("forward_position", [-np.ones(9), np.zeros(9), np.full(9, NAN), np.full(9, 1e120)], "leg_lengths"),

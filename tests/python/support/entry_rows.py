@@ -77,6 +77,7 @@ row("track", nan=("leg_lengths",))(
 )
 row("singularity_margins", loose=("out",))(lambda: {**robot(**THREADS)(), "out": np.zeros(3)})
 row("singularity")(robot(**THREADS))
+row("architecture_singularity")(lambda: {"geometry": it.g()})
 row("uncontrolled_motions")(robot(tolerance=1e-9))
 row("distance_to_singularity")(robot(direction=RATES, most=1.0, **THREADS))
 row("nearest_singularity")(

@@ -15,12 +15,14 @@ struct Orbit {
 
 /// The four joint triples r, r^ (base frame) and u, u~ (platform frame), in one length unit.
 ///
-/// Immutable. Every triple must be finite and span a triangle: with three coincident or collinear joints the platform
-/// or O can move while all legs are locked.
+/// Immutable, finite, and not singular at every pose (architecture_singularity.hpp): internal joints span triangles,
+/// external ones are not all in one point, and no two external legs have the same joints. External joints may be on a
+/// line.
 class Geometry {
  public:
-  /// Throws InvalidArgument naming the triple if it is not finite, has zero size, or is collinear
-  /// (height of the triangle below 1e-9 of its longest side).
+  /// Throws InvalidArgument naming the triples if one is not finite or has zero size, an internal one is collinear
+  /// (height of the triangle below 1e-9 of its longest side), or external legs coincide (ends apart by no more than 1e-9
+  /// of the longest sides).
   Geometry(const Triple& base_external, const Triple& base_internal, const Triple& platform_external,
            const Triple& platform_internal);
 

@@ -18,6 +18,7 @@ from ninedof.proof.machine_record import MachineCertificate, outward
 from ninedof.records.certificate import certificate_file, load_certificate, save_certificate
 from ninedof.records.load import load
 from ninedof.robot.leg_names import LEGS
+from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.arguments import finite
 from ninedof.support.command import ended_by_time, goes_on
 from ninedof.support.margins import margin_words
@@ -114,7 +115,7 @@ def certify(options: CertifyOptions) -> None:
             raise
         raise ValueError(f"{file}: {str(error).removeprefix('resume: ')}") from None
     data = certificate.to_dict() | {"left": []}
-    sentences = certificate.sentences()
+    sentences = certificate.sentences() + architecture_sentences(result, result.study.unit)
     if options.tolerance == LARGEST:
         sentences.append(_largest(certificate))
     answer = Answer([certificate_table(certificate), *sentences], data)

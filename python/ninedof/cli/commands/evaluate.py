@@ -33,6 +33,7 @@ from ninedof.records.design_file import indices
 from ninedof.sheet.comparison import compare
 from ninedof.sheet.sheet import sheet
 from ninedof.sheet.tables import limits_table, poses_table
+from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.units import unit_entry
 from ninedof.tables import RIGHT, Column, Line, Table
 
@@ -83,6 +84,7 @@ def evaluate(options: EvaluateOptions) -> Answer:
     parts: list[Any] = [_table(values, chosen)]
     if values["singular"]:
         parts.append("This configuration is singular: the platform or O can move with all legs locked.")
+    parts += architecture_sentences(chosen, chosen.unit)
     if not 0.0 < chosen.configuration.internal_point[2] < chosen.duty.zp(chosen.configuration):
         parts.append("O is not between base and platform: studies require 0 < zs < zp.")
     if chosen.result is not None:

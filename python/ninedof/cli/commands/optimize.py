@@ -27,6 +27,7 @@ from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
 from ninedof.sheet.sheet import sheet
 from ninedof.sheet.tables import limits_table
+from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
 from ninedof.support.command import ended_by_time
@@ -139,5 +140,6 @@ def _result_parts(result: Result) -> Iterator[Any]:
         *others, agreement = agreement_words(result)
         yield from (*others, *best_prices(result), agreement)
         yield from (bound.sentence for bound in applicable_bounds(result) if bound.name != "certificate")
+        yield from architecture_sentences(result, result.study.unit)
         if result.proof is not None:
             yield bold(*proof_words(result))
