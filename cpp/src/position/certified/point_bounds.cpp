@@ -35,11 +35,10 @@ PointBounds narrowed(const PointBounds& bounds, const Triple& centres, const Vec
 std::vector<SidedPointBounds> meeting_bounds(const Triple& centres, const Vec3& radii) {
   // As `meet`, in intervals.
   const PointBounds c1 = bounds_of(centres[0]), a = bounds_of(centres[1]) - c1, b = bounds_of(centres[2]) - c1;
-  const PointBounds normal = cross(a, b);
-  const auto norm = [](const PointBounds& v) { return sqrt(square(v.x) + square(v.y) + square(v.z)); };
-  const Interval one = 1.0, half = 0.5, length = norm(a), area = norm(normal);
-  const PointBounds e1 = (one / length) * a, e3 = (one / area) * normal, e2 = cross(e3, e1);
-  const Interval i = dot(a, b) / length, j = area / length, r1 = radii[0], r2 = radii[1], r3 = radii[2];
+  const Interval one = 1.0, half = 0.5, length = norm(a);
+  const PointBounds e1 = (one / length) * a, normal = cross(e1, b);
+  const Interval i = dot(e1, b), j = norm(normal), r1 = radii[0], r2 = radii[1], r3 = radii[2];
+  const PointBounds e3 = (one / j) * normal, e2 = cross(e3, e1);
   const Interval x = half * ((r1 - r2) * (r1 + r2) / length + length);
   const Interval y = half * ((r1 - r3) * (r1 + r3) + square(i) + square(j) - Interval(2.0) * x * i) / j;
   const Interval rho = sqrt(square(x) + square(y)), height2 = (r1 - rho) * (r1 + rho), height = sqrt(height2);

@@ -14,6 +14,10 @@ inline PointBounds bounds_of(const Vec3& v) {
   return {v[0], v[1], v[2]};
 }
 
+inline Interval norm(const PointBounds& v) {
+  return sqrt(square(v.x) + square(v.y) + square(v.z));
+}
+
 struct SidedPointBounds {
   PointBounds point;
   int side;  ///< of the plane of the centres, as in AssemblyMode; 0: this may hold both points, one or none

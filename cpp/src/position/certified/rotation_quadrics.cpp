@@ -10,7 +10,6 @@ constexpr double largest_cosine = 1e10;  // a bound beyond it says that O may li
 RotationQuadrics::RotationQuadrics(const Geometry& g, const PointBounds& s, const PointBounds& o,
                                    const Vec3& external_lengths) {
   const Interval one = 1.0, half = 0.5;
-  const auto norm = [](const PointBounds& v) { return sqrt(square(v.x) + square(v.y) + square(v.z)); };
   for (std::size_t leg = 0; leg < 3; ++leg) {
     const Interval l = external_lengths[static_cast<Eigen::Index>(leg)];
     const PointBounds d = bounds_of(g.base_external()[leg]) - s, w = bounds_of(g.platform_external()[leg]) - o;
