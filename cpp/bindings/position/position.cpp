@@ -87,10 +87,8 @@ py::tuple forward_position_stack(const Geometry& g, const Array& leg_lengths, bo
       const Vec9 row = lengths[i];
       CertifiedModes& to = found[static_cast<std::size_t>(i)];
       if (row.hasNaN()) continue;
-      if (certify)
-        to = certified_modes(g, row);
-      else
-        to.modes = forward_position(g, row);
+      if (certify) to = certified_modes(g, row);
+      else to.modes = forward_position(g, row);
     }
   });
   Rows all;

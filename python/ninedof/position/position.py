@@ -7,7 +7,7 @@ from enum import StrEnum
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.position.certificate import certificate_of, with_gaps
@@ -185,7 +185,6 @@ def forward_position(
     counts, certain, flat, separation, sides = (np.concatenate([c[k] for c in chunks]) for k in (0, 3, 4, 5, 6))
     status = [PositionStatus(word or "no_data") for c in chunks for word in c[1]]
     reason = [OBSTACLES.get(word, "") for c in chunks for word in c[2]]
-    proofs = [c[7] for c in chunks if c[7] is not None]
     shape = lengths.shape[:-1]
     full = (*shape, int(counts.max(initial=0)))
 
@@ -203,8 +202,8 @@ def forward_position(
         separation=with_gaps(counts, separation, 1, np.nan).reshape(full),
         base_side=base_side,
         platform_side=platform_side,
-        certificate=certificate_of(shape, counts, ~np.isnan(rows).any(axis=1), tuple(map(np.concatenate, zip(*proofs))))
-        if proofs
+        certificate=certificate_of(shape, counts, ~np.isnan(rows).any(axis=1), [c[7] for c in chunks])
+        if certify
         else None,
     )
 

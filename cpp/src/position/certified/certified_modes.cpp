@@ -80,35 +80,41 @@ Listed listed_in(const AssemblyModes& modes, int count, const BranchBounds& at) 
 }
 
 /// Gives its radius to a mode in the list; one that is missing there is added.
-void add_proved(CertifiedModes& out, const QuaternionBounds& z, const BranchBounds& at, std::optional<std::size_t> number,
-                const Geometry& g, const Vec3& external_lengths) {
+void add_proved(CertifiedModes& out, const QuaternionBounds& z, const BranchBounds& at,
+                std::optional<std::size_t> number, const Geometry& g, const Vec3& external_lengths) {
   ++out.proved;
   AssemblyModes& modes = out.modes;
   if (!number) {
     if (at_index(modes.count) == modes.mode.size()) return;
     number = at_index(modes.count++);
     const Configuration c = middle_of(z, at);
-    const ScaledRotationProblem problem = rotation_problem(g, {c.internal_point, middle_of(at.o.point)}, external_lengths);
+    const ScaledRotationProblem problem =
+        rotation_problem(g, {c.internal_point, middle_of(at.o.point)}, external_lengths);
     const double separation = 1.0 / RotationResidual(problem.unit, c.rotation).inverse_norm();
     modes.mode[*number] = {c, at.s.side, at.o.side, separation};
   }
   out.radius[*number] = error_of(modes.mode[*number].configuration, z, at);
 }
 
-/// Once all is proved, the list holds the proved modes alone.
-void keep_proved(CertifiedModes& out, PositionObstacle obstacle) {
+/// Makes list and status agree with what is proved. Once all is, the list holds the proved modes alone.
+void settle(CertifiedModes& out, PositionObstacle obstacle) {
   AssemblyModes& modes = out.modes;
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < at_index(modes.count); ++k) {
-    if (!std::isfinite(out.radius[k])) continue;
-    modes.mode[kept] = modes.mode[k];
-    out.radius[kept++] = out.radius[k];
+  if (!out.complete()) {
+    if (modes.status == PositionStatus::self_motion) modes.count = 0;
+    if (modes.status == PositionStatus::infeasible && modes.count > 0) modes.status = PositionStatus::found;
+  } else {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < at_index(modes.count); ++k) {
+      if (!std::isfinite(out.radius[k])) continue;
+      modes.mode[kept] = modes.mode[k];
+      out.radius[kept++] = out.radius[k];
+    }
+    modes.count = static_cast<int>(kept);
+    modes.certain = true;
+    modes.status = kept > 0 ? PositionStatus::found : PositionStatus::infeasible;
+    if (modes.obstacle == PositionObstacle::none) modes.obstacle = obstacle;
   }
-  modes.count = static_cast<int>(kept);
-  modes.certain = true;
-  modes.status = kept > 0 ? PositionStatus::found : PositionStatus::infeasible;
-  if (kept > 0) modes.obstacle = PositionObstacle::none;
-  else if (modes.obstacle == PositionObstacle::none) modes.obstacle = obstacle;
+  if (modes.status != PositionStatus::infeasible) modes.obstacle = PositionObstacle::none;
 }
 
 }  // namespace
@@ -140,14 +146,12 @@ CertifiedModes certified_modes(const Geometry& g, const Vec9& leg_lengths) {
         const bool is_listed = rotation.guess < listed.number.size();
         if (at.one_point())
           add_proved(out, z, at, is_listed ? std::optional(listed.number[rotation.guess]) : std::nullopt, g, external);
-        else
-          add_undecided(out, z, at);
+        else add_undecided(out, z, at);
       }
     }
-  if (out.complete())
-    keep_proved(out, base.empty()       ? PositionObstacle::lower_legs
-                     : platform.empty() ? PositionObstacle::upper_legs
-                                        : PositionObstacle::external_legs);
+  settle(out, base.empty()       ? PositionObstacle::lower_legs
+              : platform.empty() ? PositionObstacle::upper_legs
+                                 : PositionObstacle::external_legs);
   return out;
 }
 

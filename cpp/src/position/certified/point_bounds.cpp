@@ -44,7 +44,8 @@ std::vector<SidedPointBounds> meeting_bounds(const Triple& centres, const Vec3& 
   const Interval rho = sqrt(square(x) + square(y)), height2 = (r1 - rho) * (r1 + rho), height = sqrt(height2);
   if (height2.hi < 0.0) return {};
   const PointBounds foot = c1 + x * e1 + y * e2;
-  if (height2.lo > 0.0) return {{narrowed(foot + height * e3, centres, radii), 1}, {narrowed(foot - height * e3, centres, radii), -1}};
+  if (height2.lo > 0.0)
+    return {{narrowed(foot + height * e3, centres, radii), 1}, {narrowed(foot - height * e3, centres, radii), -1}};
   return {{foot + Interval(-height.hi, height.hi) * e3, 0}};
 }
 
