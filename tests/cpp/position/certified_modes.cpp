@@ -203,6 +203,34 @@ TEST_SUITE("certified_modes") {
     CHECK(!tangent.complete());
     CHECK(tangent.proved == 0);
     CHECK(tangent.undecided.front().base_side == 0);
+    // Shorter by some units in the last place the spheres do not meet. Without a proof they touch.
+    Vec9 shorter = leg_lengths(g, {Vec3(0, 0, 4), Mat3::Identity(), Vec3::Zero()});
+    shorter.tail<3>() *= 1.0 - 4e-15;
+    REQUIRE(forward_position(g, shorter).count > 0);
+    const CertifiedModes none = certified_modes(g, shorter);
+    CHECK(none.complete());
+    CHECK(none.modes.count == 0);
+    CHECK(none.modes.status == PositionStatus::infeasible);
+    CHECK(none.modes.obstacle == PositionObstacle::lower_legs);
+  }
+
+  TEST_CASE("a family of modes: what was not examined is undecided") {
+    Random random(56);
+    for (int n = 0; n < 10; ++n) {
+      const Vec3 s(0.1, 0.2, 1.5), o(0.05, -0.1, -1.2);
+      Triple base = random_triple(random, 1.0), platform = random_triple(random, 1.0);
+      base[1] = s + 1.7 * (base[0] - s);  // two legs with O on their lines
+      platform[1] = o + 0.6 * (platform[0] - o);
+      const Geometry g(base, random_triple(random, 1.0), platform, random_triple(random, 1.0));
+      const Configuration c{s - o, Mat3::Identity(), s};
+      const Vec9 lengths = leg_lengths(g, c);
+      const CertifiedModes certified = certified_modes(g, lengths);
+      CHECK(!certified.complete());
+      bool among = false;
+      for (const UndecidedModes& box : certified.undecided)
+        among |= distance(box.middle, c, lengths.maxCoeff()) <= box.radius + 1e-8;
+      CHECK(among);
+    }
   }
 
   TEST_CASE("lengths that cannot be assembled: proved, with the legs named") {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr long most_boxes = 30000;  // of a search: forty times the usual number; a family of solutions has no end
 constexpr double least_width = 0x1p-24;  // of a box: where two solutions meet, rounding hides more than half the digits
-constexpr double farthest_apart = 0.5;  // from the middle of a proof: solutions beyond it have one of their own
+constexpr double widest_proof = 0.5;  // half-width of a cube in which a solution is alone
 constexpr int polish_steps = 4;
 constexpr double enough = 0.6;  // of the width: a box that shrinks to less is looked at again before it is cut
 
@@ -68,8 +68,7 @@ std::optional<ProvedRotation> prove_from(const RotationQuadrics& quadrics, Centr
       const KrawczykBounds a = krawczyk_bounds(*f);
       const double value = most(a.value), change = most(a.change), linear = 1.0 - most(a.error);
       const double root = linear + std::sqrt(linear * linear - 4.0 * change * value);
-      const double far = std::min(0.99 * 0.5 * root / change, farthest_apart),
-                   near = 1.01 * 2.0 * value / root + 1e-300;
+      const double far = std::min(0.99 * 0.5 * root / change, widest_proof), near = 1.01 * 2.0 * value / root + 1e-300;
       if (!proves(a, far) || !proves(a, near)) return {};
       return ProvedRotation{cube(centre, chart, far, true), cube(centre, chart, near), 0};
     }
