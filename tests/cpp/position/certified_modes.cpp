@@ -192,9 +192,10 @@ TEST_SUITE("certified_modes") {
       CHECK(std::isinf(certified.undecided.front().radius));
     }
     // Exactly in the plane: centres and radii are small integers.
-    const Geometry g(
-        Triple{Vec3(3, 4, 0), Vec3(-4, 3, 0), Vec3(0, -5, 0)}, Triple{Vec3(3, 4, 0), Vec3(-4, 3, 0), Vec3(0, -5, 0)},
-        Triple{Vec3(1, 0, 1), Vec3(0, 1, 2), Vec3(-1, 0, 1)}, Triple{Vec3(2, 0, 0), Vec3(0, 2, 0), Vec3(-1, -1, 0)});
+    const Geometry g(Triple{Vec3(-4, -3, 0), Vec3(4, -3, 0), Vec3(-4, 3, 0)},
+                     Triple{Vec3(-4, -3, 0), Vec3(4, -3, 0), Vec3(-4, 3, 0)},
+                     Triple{Vec3(1, 0, 1), Vec3(0, 1, 2), Vec3(-1, 0, 1)},
+                     Triple{Vec3(2, 0, 0), Vec3(0, 2, 0), Vec3(-1, -1, 0)});
     const auto points = ninedof::meeting_bounds(g.base_internal(), Vec3(5, 5, 5));
     REQUIRE(points.size() == 1);
     CHECK(points[0].side == 0);
