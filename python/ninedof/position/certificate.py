@@ -47,9 +47,7 @@ def with_gaps(counts: NDArray[Any], values: NDArray[Any], width: int, gap: float
     return out
 
 
-def certificate_of(
-    shape: tuple[int, ...], counts: NDArray[Any], data: Any, chunks: list[Any]
-) -> ModesCertificate:
+def certificate_of(shape: tuple[int, ...], counts: NDArray[Any], data: Any, chunks: list[Any]) -> ModesCertificate:
     """Build the certificate from what the core returns for chunks of rows; `data` says which rows have lengths."""
     proved, undecided, boxes, radius, places, place_radius = (np.concatenate([c[k] for c in chunks]) for k in range(6))
 
