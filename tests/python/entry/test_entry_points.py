@@ -56,10 +56,9 @@ RESULTS = {
     ),
     *("ErrorBounds", "Followed", "Front", "InternalPoint", "InternalPointMap", "InverseDynamics"),
     *("LegForces", "LimitBreak", "LimitProof", "Payload", "Comparison", "Failure", "AdmissibleSet", "RegionMap"),
-    *("LowerBound", "MachineCertificate", "MapAudit", "ModesCertificate", "NearestSingularity", "OptimumProof"),
-    *("PathLimits", "Result"),
+    *("LowerBound", "MachineCertificate", "MapAudit", "NearestSingularity", "OptimumProof", "PathLimits", "Result"),
     *("Sheet", "Singularity", "SingularityDistance", "SingularityMargins", "SweepResult", "Trace", "Tracked"),
-    *("VelocityMatrices", "WorkspaceCells", "WorkspaceMap", "WorkspaceSlice"),
+    *("ModesCertificate", "VelocityMatrices", "WorkspaceCells", "WorkspaceMap", "WorkspaceSlice"),
 }
 
 
