@@ -58,6 +58,7 @@ from ninedof.optimize.region_map import RegionMap, region_map
 from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.paper.sweeps import sweep_figure
 from ninedof.pareto import Front, pareto
+from ninedof.position.certificate import ModesCertificate
 from ninedof.position.position import AssemblyModes, PositionStatus, Tracked, TrackStatus, forward_position, track
 from ninedof.proof.admissible import AdmissibleSet, admissible
 from ninedof.proof.admissible_rows import AdmissibleRow, AdmissibleRows, admissible_actuators
@@ -173,6 +174,7 @@ __all__ = [
     "MapAudit",
     "Masses",
     "Mechanism",
+    "ModesCertificate",
     "NearestSingularity",
     "Objective",
     "OptimumProof",

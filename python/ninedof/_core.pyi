@@ -67,8 +67,17 @@ def jacobian(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Float
 def velocity_matrices(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
 def forward_velocity(g: Geometry, c: _Poses, rates: _Floats, threads: int, /) -> _Floats: ...
 def forward_position(
-    g: Geometry, leg_lengths: _Floats, threads: int, /
-) -> tuple[NDArray[intc], list[str], list[str], NDArray[uint8], _Floats, _Floats, NDArray[intc]]: ...
+    g: Geometry, leg_lengths: _Floats, certify: bool, threads: int, /
+) -> tuple[
+    NDArray[intc],
+    list[str],
+    list[str],
+    NDArray[uint8],
+    _Floats,
+    _Floats,
+    NDArray[intc],
+    tuple[NDArray[intc], NDArray[intc], NDArray[int64], _Floats, _Floats, _Floats] | None,
+]: ...
 def track(
     g: Geometry, leg_lengths: _Floats, path: int, c: _Poses, threads: int, /
 ) -> tuple[_Floats, NDArray[uint8]]: ...

@@ -5,6 +5,7 @@
 
 #include "bytes.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
+#include "ninedof/position/certified_modes.hpp"
 #include "ninedof/position/forward_position.hpp"
 #include "ninedof/position/tracking.hpp"
 #include "ninedof/robot/legs.hpp"
@@ -66,6 +67,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const double unit = std::max(lengths.maxCoeff(), largest_coordinate(r->geometry));
   const auto method = static_cast<RotationMethod>(choice / 2U % 3U);
   const AssemblyModes modes = modes_of(r->geometry, lengths, method, unit);
+  if (choice / 8U % 8U == 0U) {  // takes long where it ends undecided
+    // A proof never contradicts a number that is sure.
+    const CertifiedModes proof = certified_modes(r->geometry, lengths);
+    if (proof.complete()) EXPECT(proof.proved == proof.modes.count && (!modes.certain || modes.count == proof.proved));
+  }
   if (changed) return 0;
 
   const bool regular = condition_number(r->geometry, r->pose, unit) < 1e4;

@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 
+#include "ninedof/position/certified_modes.hpp"
 #include "ninedof/position/forward_position.hpp"
 #include "ninedof/position/tracking.hpp"
 #include "ninedof/robot/legs.hpp"
@@ -66,6 +67,28 @@ Figure all_modes(bool hexagonal, double target) {
   return f;
 }
 
+/// With the proof that there is no other.
+Figure certified_modes(bool hexagonal) {
+  const Data data = random_lengths(hexagonal);
+  for (std::size_t k = 0; k < block_size; ++k) {
+    const Lengths& x = (*data)[k];
+    const ninedof::CertifiedModes a = ninedof::certified_modes(x.geometry, x.lengths);
+    const AssemblyModes b = ninedof::forward_position(x.geometry, x.lengths);
+    require(!a.complete() || !b.certain || a.proved == b.count, "certified modes: another number without the proof");
+  }
+  const auto ours = [](const Lengths& x) { return ninedof::certified_modes(x.geometry, x.lengths).proved; };
+  const auto quick = [](const Lengths& x) { return ninedof::forward_position(x.geometry, x.lengths).count; };
+  return {hexagonal ? "all assembly modes with proof, hexagonal" : "all assembly modes with proof, non-planar",
+          "the modes without proof",
+          2,
+          block_size,
+          each_in_block(data, ours),
+          each_in_block(data, quick),
+          {"1 ms", [](const Times& t) { return t.ours_median <= 1e6; }},
+          true,
+          5};
+}
+
 /// The usual method: Newton's method on all nine coordinates.
 Configuration plain_newton(const Geometry& g, const Vec9& lengths, Configuration c) {
   for (int k = 0; k < 20; ++k) {
@@ -115,7 +138,8 @@ Figure tracking() {
 }  // namespace
 
 Figures position() {
-  return {{all_modes(true, 8e3), all_modes(false, 16e3), tracking()}, {}};
+  return {{all_modes(true, 8e3), all_modes(false, 16e3), certified_modes(true), certified_modes(false), tracking()},
+          {}};
 }
 
 }  // namespace bench

@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "ninedof/position/certified_modes.hpp"
 #include "ninedof/position/forward_position.hpp"
 #include "ninedof/position/tracking.hpp"
 #include "support/configurations.hpp"
@@ -42,40 +43,75 @@ void write(const Configuration& c, double* to) {
   Eigen::Map<Vec3>{to + 12} = c.internal_point;
 }
 
-/// The modes of all rows one after the other; number of modes, status and certainty for each row. Rows with NaN have no
-/// mode and the status "".
-py::tuple forward_position_stack(const Geometry& g, const Array& leg_lengths, int threads) {
+/// Results of rows one after the other.
+struct Rows {
+  std::vector<int> counts;
+  std::vector<double> configurations;
+
+  void add(const Configuration& c) {
+    configurations.resize(configurations.size() + configuration_size);
+    write(c, configurations.data() + configurations.size() - configuration_size);
+  }
+};
+
+/// Number of modes proved, of undecided boxes and of boxes examined for each row; the radii of all modes; the undecided
+/// boxes.
+py::tuple certificates(const std::vector<CertifiedModes>& found) {
+  std::vector<int> proved;
+  std::vector<long> boxes;
+  std::vector<double> radii, undecided_radii;
+  Rows undecided;
+  for (const CertifiedModes& c : found) {
+    proved.push_back(c.proved);
+    boxes.push_back(c.boxes);
+    radii.insert(radii.end(), c.radius.begin(), c.radius.begin() + c.modes.count);
+    undecided.counts.push_back(static_cast<int>(c.undecided.size()));
+    for (const UndecidedModes& box : c.undecided) {
+      undecided.add(box.middle);
+      undecided_radii.push_back(box.radius);
+    }
+  }
+  return py::make_tuple(array_of(proved), array_of(undecided.counts), array_of(boxes), array_of(radii),
+                        array_of(undecided.configurations), array_of(undecided_radii));
+}
+
+/// The modes of all rows one after the other; number of modes, status and certainty for each row; the certificates, or
+/// None. Rows with NaN have no mode and the status "".
+py::tuple forward_position_stack(const Geometry& g, const Array& leg_lengths, bool certify, int threads) {
   const LengthStack lengths(leg_lengths);
+  if (certify) require_sound_arithmetic();  // also for an empty stack
   const auto rows = static_cast<std::size_t>(lengths.count());
-  std::vector<AssemblyModes> found(rows);
-  in_slices(lengths.count(), 64, threads, [&](long first, long last) {
+  std::vector<CertifiedModes> found(rows);
+  in_slices(lengths.count(), certify ? 1 : 64, threads, [&](long first, long last) {
     for (long i = first; i < last; ++i) {
       const Vec9 row = lengths[i];
-      if (!row.hasNaN()) found[static_cast<std::size_t>(i)] = forward_position(g, row);
+      CertifiedModes& to = found[static_cast<std::size_t>(i)];
+      if (row.hasNaN()) continue;
+      if (certify) to = certified_modes(g, row);
+      else to.modes = forward_position(g, row);
     }
   });
-  std::vector<int> counts(rows), sides;
+  Rows all;
+  std::vector<int> sides;
   std::vector<std::uint8_t> certain(rows);
-  std::vector<double> configurations, separations;
+  std::vector<double> separations;
   py::list status, obstacle;
   for (std::size_t i = 0; i < rows; ++i) {
-    const AssemblyModes& m = found[i];
+    const AssemblyModes& m = found[i].modes;
     const bool missing = lengths[static_cast<long>(i)].hasNaN();
-    counts[i] = m.count;
+    all.counts.push_back(m.count);
     certain[i] = !missing && m.certain;
     status.append(missing ? "" : to_string(m.status));
     obstacle.append(missing ? "" : to_string(m.obstacle));
     for (const AssemblyMode& mode : m) {
-      std::array<double, configuration_size> c;
-      write(mode.configuration, c.data());
-      configurations.insert(configurations.end(), c.begin(), c.end());
+      all.add(mode.configuration);
       separations.push_back(mode.separation);
       sides.push_back(mode.base_side);
       sides.push_back(mode.platform_side);
     }
   }
-  return py::make_tuple(array_of(counts), status, obstacle, array_of(certain), array_of(configurations),
-                        array_of(separations), array_of(sides));
+  return py::make_tuple(array_of(all.counts), status, obstacle, array_of(certain), array_of(all.configurations),
+                        array_of(separations), array_of(sides), certify ? py::object(certificates(found)) : py::none());
 }
 
 /// Number of doubles of a tracked step: configuration, certificate, alone_within, separation, steps, reached.

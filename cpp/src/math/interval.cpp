@@ -2,6 +2,8 @@
 
 #include <cfenv>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 #include "ninedof/math/error.hpp"
 
@@ -63,6 +65,11 @@ const char* arithmetic_fault() {
   volatile double up = one + less, down = -one - less;
   if (up != one || down != -one) return "numbers are not rounded to nearest";
   return nullptr;
+}
+
+void require_sound_arithmetic() {
+  if (const char* fault = arithmetic_fault())
+    throw std::runtime_error(std::string("the arithmetic of this process is unfit for proofs: ") + fault);
 }
 
 Interval exp(const Interval& x) {

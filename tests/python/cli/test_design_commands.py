@@ -112,6 +112,20 @@ def test_the_numbers_of_each_command_are_those_of_its_function(run):
     assert data["now"] == pytest.approx([nd.condition_number(g, turned, 2.0)], rel=1e-9)
     data = data_of(run, f"modes design.toml {held}")
     assert data["count"] == nd.forward_position(g, nd.leg_lengths(g, turned)).count
+    proof = data_of(run, f"modes design.toml --certify {held}")["certificate"]
+    assert (proof["complete"], proof["proved"], proof["undecided"]) == (True, data["count"], 0)
+
+
+def test_modes_say_what_is_proved(run, tmp_path):
+    _, text, _ = run("modes design.toml --certify")
+    assert re.search(r"proved: exactly \d+ modes, each to \d\.?\d*e-1\d of the longest leg \(\d+ boxes\)", text)
+    similar = nd.Design(nd.Geometry.hexagonal(0.0, 4.0, 0.0, 3.0), nd.Configuration.neutral(3.0, 2.0))  # singular
+    nd.save(similar, tmp_path / "similar.toml")
+    status, text, _ = run(f"modes {tmp_path / 'similar.toml'} --certify")
+    assert status == 0
+    assert re.search(r"proved: 16 modes; \d+ boxes are undecided and may hold others \(\d+ boxes\)", text)
+    proof = data_of(run, f"modes {tmp_path / 'similar.toml'} --certify")["certificate"]
+    assert len(proof["places"]) == len(proof["place_radius"]) == proof["undecided"]
 
 
 def test_places_of_the_internal_point(run):

@@ -60,7 +60,7 @@ RESULTS = {
     *("AdmissibleRow", "AdmissibleRows", "AdmissibleSet"),
     *("LowerBound", "MachineCertificate", "MapAudit", "NearestSingularity", "OptimumProof", "PathLimits", "Result"),
     *("Sheet", "Singularity", "SingularityDistance", "SingularityMargins", "SweepResult", "Trace", "Tracked"),
-    *("VelocityMatrices", "WorkspaceCells", "WorkspaceMap", "WorkspaceSlice"),
+    *("ModesCertificate", "VelocityMatrices", "WorkspaceCells", "WorkspaceMap", "WorkspaceSlice"),
 }
 
 

@@ -49,6 +49,7 @@ def shown(published):
         "Configuration": STACK,
         "Tracked": nd.track(published, nd.leg_lengths(published, STACK), STACK[0]),
         "AssemblyModes": nd.forward_position(published, nd.leg_lengths(published, HOME)),
+        "ModesCertificate": nd.forward_position(published, nd.leg_lengths(published, HOME), certify=True).certificate,
         "InternalPoint of a path": nd.best_internal_path(published, path),
         "InternalPoint": nd.best_internal_point(published, [0.8, 0.0, 4.0]),
         "InternalPointMap": nd.best_internal_map(published, path),

@@ -43,7 +43,7 @@ LINES = {
     "forces": ["{design} --load 0,0,0,0,0,1 --position 0,0,4 --rotation-deg 0,0,0 --internal-point 0,0,2"],
     "payload": ["{design} --force 5 --pull 5 --centre 0,0,0.1 --load 0,0,0,0,0,1"],
     "modes": [
-        "{design} --lengths 5,5,5,3,3,3,4,4,4",
+        "{design} --lengths 5,5,5,3,3,3,4,4,4 --certify",
         "{design} --position 0,0,4 --rotation-deg 0,0,0 --internal-point 0,0,2",
     ],
     "singularity": [

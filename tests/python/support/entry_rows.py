@@ -71,7 +71,7 @@ row("hexagonal_condition_number", loose=("out",), **OVERFLOW)(lambda: {**DESIGN,
 row("hexagonal_condition_number", of="hexagonal_condition_number: stacks", **OVERFLOW)(
     lambda: {**{name: np.full(2, value) for name, value in DESIGN.items()}, "threads": 1, "out": None}
 )
-row("forward_position")(lambda: {"geometry": it.g(), "leg_lengths": it.lengths(), **THREADS})
+row("forward_position")(lambda: {"geometry": it.g(), "leg_lengths": it.lengths(), "certify": True, **THREADS})
 row("track", nan=("leg_lengths",))(
     lambda: {"geometry": it.g(), "leg_lengths": np.stack([it.lengths()] * 2), "start": it.c(), **THREADS}
 )

@@ -43,6 +43,9 @@ struct Interval {
 /// null if nothing is. Code built with -ffast-math changes it for the whole process that loads it.
 const char* arithmetic_fault();
 
+/// Throws std::runtime_error naming what is wrong with the arithmetic of this thread, if anything is.
+void require_sound_arithmetic();
+
 namespace detail {
 
 inline constexpr double nudge = 0x1p-53 * (1.0 + 0x1p-52);

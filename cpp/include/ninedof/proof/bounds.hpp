@@ -21,9 +21,6 @@
 
 namespace ninedof {
 
-/// Throws std::runtime_error naming what is wrong with the arithmetic of this thread, if anything is.
-void require_sound_arithmetic();
-
 /// l1 l2 l3 q1 q2 q3 r1 r2 r3, the order of eq. (35b).
 std::array<Interval, 9> leg_length_bounds(const Geometry& g, const Configuration& c);
 

@@ -80,11 +80,6 @@ std::array<Interval, 6> inverse_singular_value_bounds(const Geometry& g, const C
 
 }  // namespace
 
-void require_sound_arithmetic() {
-  if (const char* fault = arithmetic_fault())
-    throw std::runtime_error(std::string("the arithmetic of this process is unfit for proofs: ") + fault);
-}
-
 std::array<Interval, 9> leg_length_bounds(const Geometry& g, const Configuration& c) {
   require_sound_arithmetic();
   const LegBounds k = leg_bounds(g, c);

@@ -13,7 +13,9 @@ from ninedof.cli.posed import DesignAtPoses, PoseOptions, length_at_home, poses_
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.position.certificate import ModesCertificate
 from ninedof.position.position import AssemblyModes, forward_position
+from ninedof.proof.machine_record import outward
 from ninedof.robot.configuration import Configuration
 from ninedof.sheet.pose_words import decimals_of, fixed, turn_deg
 from ninedof.support.arrays import Floats
@@ -27,6 +29,8 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof modes runs/20260101-120000 --position 10 0 350 --rotation-deg 0 5 0
 
+  ninedof modes design.toml --certify                with a proof that there are no others
+
   ninedof modes design.toml --lengths "5 5 5 3 3 3 4 4 4" --json | jq .count"""
 
 SAME = 1e-6  # of Q, and of p and O over the longest leg
@@ -39,6 +43,9 @@ class ModesOptions(PoseOptions):
     lengths: Annotated[
         str | None, typer.Option(help='Nine leg lengths "l1 l2 l3 q1 q2 q3 r1 r2 r3", in place of those of a pose.')
     ] = None
+    certify: Annotated[
+        bool, typer.Option("--certify", help="Also prove how many there are, and enclose each of them.")
+    ] = False
 
 
 def modes(options: ModesOptions) -> Answer:
@@ -50,12 +57,13 @@ def modes(options: ModesOptions) -> Answer:
     lengths = leg_lengths(g, at.c)[0]
     if options.lengths is not None:
         lengths = np.array(several("--lengths", options.lengths, "l1 l2 l3 q1 q2 q3 r1 r2 r3"))
-    result = forward_position(g, lengths)
+    result = forward_position(g, lengths, certify=options.certify)
     kappa = condition_number(g, result, length_at_home(at.chosen)) if result.count else np.zeros(0)
     this = _this(result, float(lengths.max()), at.c) if options.lengths is None else -1
     certain = "" if result.certain else ", the count is not sure"
     parts: list[Any] = [f"{result.count} assembly modes: {result.status}{certain}"]
     parts += [result.reason] if result.reason else []
+    parts += [_proof(result.certificate)] if options.certify else []
     parts += [_table(result, kappa, this, at.chosen.configuration.rotation, unit)] if result.count else []
     parts += ["* the given pose"] if this >= 0 else []
     data = {
@@ -68,6 +76,8 @@ def modes(options: ModesOptions) -> Answer:
         "modes": poses_data(result),
         "condition_number": kappa,
     }
+    if options.certify:
+        data["certificate"] = result.certificate._asdict() | {"places": poses_data(result.certificate.places)}
     if options.lengths is None:
         parts = list(at.answer(parts, {}).parts)
     return Answer(parts, unit_entry(unit) | data, DONE if result.count else NO_RESULT)
@@ -79,6 +89,15 @@ def _this(result: AssemblyModes, size: float, c: Configuration) -> int:
     apart = (*moved, (result.rotation - c.rotation[0]).reshape(-1, 9))
     near = np.flatnonzero(np.abs(np.concatenate(apart, axis=1)).max(axis=1, initial=0.0) <= SAME)
     return int(near[0]) if len(near) == 1 else -1
+
+
+def _proof(proof: ModesCertificate) -> str:
+    """Return what is proved in a sentence."""
+    boxes = f"({proof.boxes} boxes)"
+    if proof.complete:
+        within = f", each to {outward(proof.radius.max(), True, 2)} of the longest leg" if proof.proved else ""
+        return f"proved: exactly {proof.proved} modes{within} {boxes}"
+    return f"proved: {proof.proved} modes; {proof.undecided} boxes are undecided and may hold others {boxes}"
 
 
 def _table(result: AssemblyModes, kappa: Floats, this: int, neutral: Floats, unit: str) -> Table:

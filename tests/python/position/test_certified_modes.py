@@ -1,0 +1,251 @@
+"""The number of assembly modes with its proof: against the methods without one, against 50 digits, at double modes.
+
+The reference solves the nine lengths in decimal arithmetic and shares no code with the package.
+"""
+
+import json
+from decimal import Decimal, getcontext
+
+import numpy as np
+import pytest
+from numpy.testing import assert_array_equal
+from reference_cases import REFERENCE, of_case, rotation
+from robots import any_pose, flat
+from scipy.spatial.transform import Rotation
+from sizes import size
+
+import ninedof as nd
+
+getcontext().prec = 60
+CASES = json.loads((REFERENCE / "forward.json").read_text(encoding="utf-8"))["cases"]
+
+
+def certified(g, lengths):
+    modes = nd.forward_position(g, lengths, certify=True)
+    return modes, modes.certificate
+
+
+def error(c, p, q, s, unit):
+    """As ModesCertificate.radius measures it."""
+    turned, moved, shifted = (
+        abs(exact(a) - b).max()
+        for a, b in ((c.rotation, exact(q)), (c.position, exact(p)), (c.internal_point, exact(s)))
+    )
+    return float(max(turned, max(moved, shifted) / Decimal(unit)))
+
+
+def exact(values):
+    return np.vectorize(Decimal, otypes=[object])(values)
+
+
+# --- 50 digits --------------------------------------------------------------------------------------------------------
+
+
+def turn(z):
+    """The rotation of a quaternion that need not have length 1."""
+    w, v = z[0], z[1:]
+    cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]], dtype=object)
+    return ((w * w - v @ v) * np.eye(3, dtype=int) + 2 * np.outer(v, v) + 2 * w * cross) / (z @ z)
+
+
+def in_digits(g, lengths, c):
+    """p, Q and s near a mode, to 50 digits: Newton's method with a derivative in doubles."""
+    r, rh, u, ut = (exact(t) for t in (g.base_external, g.base_internal, g.platform_external, g.platform_internal))
+    target = exact(lengths)
+
+    def residual(x):
+        p, z, s = x[:3], x[3:7], x[7:]
+        q = turn(z)
+        legs = np.concatenate([p + u @ q.T - r, p + ut @ q.T - s, s - rh])
+        return np.append((legs * legs).sum(axis=1) - target * target, z @ z - 1)
+
+    wxyz = np.roll(Rotation.from_matrix(c.rotation).as_quat(), 1)
+    x, step = exact(np.concatenate([c.position, wxyz, c.internal_point])), Decimal(10) ** -25
+    at = residual(x)
+    slopes = np.array([(residual(x + step * row) - at) / step for row in np.eye(10, dtype=int)], dtype=float).T
+    for _ in range(40):
+        change = np.linalg.solve(slopes, np.array(at, dtype=float))
+        x = x - exact(change)
+        at = residual(x)
+        if max(abs(at)) < Decimal(10) ** -50:
+            return x[:3], turn(x[3:7]), x[7:]
+    raise AssertionError("no convergence")
+
+
+@pytest.mark.parametrize("hexagonal", [True, False])
+def test_every_enclosure_holds_the_mode_in_fifty_digits(hexagonal):
+    rng = np.random.default_rng(31)
+    looked_at = 0
+    for _ in range(size(6, 60)):
+        g, c = any_pose(rng, hexagonal)
+        lengths = nd.leg_lengths(g, c)
+        modes, proof = certified(g, lengths)
+        for k in range(modes.count):
+            p, q, s = in_digits(g, lengths, modes[k])
+            off = error(modes[k], p, q, s, lengths.max())
+            assert off <= proof.radius[k] < 1e-7
+            looked_at += 1
+    assert looked_at > 20
+
+
+# --- The number -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("hexagonal", [True, False])
+def test_the_number_agrees_with_the_quick_one(hexagonal):
+    """Never another number where both are sure; in this many robots the proof always succeeds."""
+    rng = np.random.default_rng(32)
+    for _ in range(size(1500, 50_000)):
+        g, c = any_pose(rng, hexagonal)
+        lengths = nd.leg_lengths(g, c)
+        quick = nd.forward_position(g, lengths)
+        modes, proof = certified(g, lengths)
+        if proof.complete:
+            assert proof.proved == modes.count == quick.count or not quick.certain
+            assert np.isfinite(proof.radius).all()
+            assert modes.certain
+        else:
+            assert not quick.certain or quick.separation.min() < 1e-5
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda c: f"{c['id']}-{'-'.join(c['tags'])}".replace(" ", "_"))
+def test_reference_cases(case):
+    g, lengths = of_case(case)
+    modes, proof = certified(g, lengths)
+    if "degenerate" in case["tags"]:
+        assert not proof.complete
+        assert (proof.proved, proof.undecided > 0) == (0, True)
+        return
+    assert proof.complete
+    assert proof.proved == modes.count == case["count"]
+    assert repr(modes).startswith(f"<{case['count']} assembly modes: {modes.status}, proved")
+    for k in range(modes.count):
+        errors = [
+            error(modes[k], np.array(x["p"]), rotation(x["quat"]), np.array(x["s"]), lengths.max())
+            for x in case["solutions"]
+        ]
+        assert min(errors) < proof.radius[k] + case["tol"]
+
+
+@pytest.mark.parametrize("power", [-280, -60, 60, 280])
+def test_the_unit_does_not_matter(published, power):
+    lengths = nd.leg_lengths(published, nd.Configuration.neutral(3.9828, 2.4435))
+    unit = 2.0**power
+    sides = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0}
+    g = nd.Geometry.hexagonal(**{name: side * unit for name, side in sides.items()})
+    _, proof = certified(g, lengths * unit)
+    assert (proof.complete, proof.proved) == (True, 32)
+    assert proof.radius.max() < 1e-12
+
+
+@pytest.mark.parametrize(("legs", "factor"), [((6, 7, 8), 0.3), ((3, 4, 5), 0.3), ((0,), 5.0), ((2,), 1e-3)])
+def test_lengths_that_cannot_be_assembled(published, neutral, legs, factor):
+    lengths = nd.leg_lengths(published, neutral)
+    lengths[list(legs)] *= factor
+    modes, proof = certified(published, lengths)
+    assert (proof.complete, proof.proved, modes.count) == (True, 0, 0)
+    assert modes.reason == nd.forward_position(published, lengths).reason
+    assert "infeasible, proved, " in repr(modes)
+
+
+def test_each_leg_fits_but_not_all_is_proved():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=np.sqrt(2.0), b1=np.sqrt(2.0), b2=0.0)
+    lengths = nd.leg_lengths(g, nd.Configuration.neutral(zp=2.0 / np.sqrt(3.0), zs=1.0 / np.sqrt(3.0)))
+    lengths[:3] = np.sqrt(2.0 * (1.0 - np.array([0.99, 0.9, 0.0])))
+    _, proof = certified(g, lengths)
+    assert (proof.complete, proof.proved) == (True, 0)
+    assert proof.boxes > 0
+
+
+# --- Where nothing can be decided -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("sides", "proved"), [((0.0, 4.0, 0.0, 3.0), 16), ((1.0, 3.0, 1.0, 3.0), 28)])
+def test_a_double_mode_is_undecided_and_the_others_are_proved(sides, proved):
+    """Similar hexagons: the neutral pose is singular."""
+    g, c = nd.Geometry.hexagonal(*sides), nd.Configuration.neutral(*((3.0, 2.0) if proved == 16 else (4.0, 2.0)))
+    modes, proof = certified(g, nd.leg_lengths(g, c))
+    assert (proof.complete, proof.proved) == (False, proved)
+    assert np.isfinite(proof.radius).sum() == proved
+    assert proof.place_radius.max() < 1e-6
+    near = [error(proof.places[k], c.position, c.rotation, c.internal_point, 5.0) for k in range(proof.undecided)]
+    assert min(near) < 1e-7, "the double mode is in no undecided box"
+    assert not modes.certain
+
+
+@pytest.mark.parametrize("kind", ["lower plane", "upper plane", "leg through O"])
+def test_singular_to_the_last_bit(kind):
+    m = flat(kind)
+    g, c = nd.Geometry(m.r, m.rh, m.u, m.ut), nd.Configuration(m.p, m.Q, m.s)
+    _, proof = certified(g, nd.leg_lengths(g, c))
+    assert not proof.complete
+    near = [error(proof.places[k], m.p, m.Q, m.s, 5.0) for k in range(proof.undecided)]
+    inside = [off <= 1.01 * radius + 1e-7 for off, radius in zip(near, proof.place_radius, strict=True)]
+    assert any(inside)
+
+
+def test_a_family_of_modes_comes_to_an_end():
+    """Two legs on one line through O: each box of the family is undecided, and their number is bounded."""
+    rng = np.random.default_rng(5)
+    s, o = np.array([0.1, 0.2, 1.5]), np.array([0.05, -0.1, -1.2])
+    base, platform = rng.normal(size=(2, 3, 3))
+    base[1] = s + 1.7 * (base[0] - s)
+    platform[1] = o + 0.6 * (platform[0] - o)
+    g = nd.Geometry(base, rng.normal(size=(3, 3)), platform, rng.normal(size=(3, 3)))
+    modes, proof = certified(g, nd.leg_lengths(g, nd.Configuration(s - o, np.eye(3), s)))
+    assert modes.status == "self_motion"
+    assert not proof.complete
+    assert proof.undecided > 100
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_a_hair_beside_a_double_mode_is_decided_or_not_but_never_wrong(axis):
+    """The generating pose is a mode of nearly these lengths: a complete proof near it has two modes there, or none."""
+    g = nd.Geometry.hexagonal(0.0, 4.0, 0.0, 3.0)
+    for power in range(-9, -2):
+        turned = nd.Configuration.neutral(3.0, 2.0).moved(10.0**power * np.eye(9)[axis])
+        modes, proof = certified(g, nd.leg_lengths(g, turned))
+        assert proof.proved % 2 == 0
+        if proof.complete and power > -7:
+            off = [
+                error(modes[k], turned.position, turned.rotation, turned.internal_point, 5.0) for k in range(len(modes))
+            ]
+            assert min(off) < 1e-6
+
+
+# --- Stacks and arguments ---------------------------------------------------------------------------------------------
+
+
+def test_a_stack_has_the_certificates_of_its_rows(published):
+    rng = np.random.default_rng(2)
+    home = nd.Configuration.neutral(3.9828, 2.4)
+    lengths = nd.leg_lengths(published, home.moved(0.3 * rng.normal(size=(2, 3, 9))))
+    lengths[1, 1, 4] = np.nan
+    lengths[0, 2, 6:] *= 0.1
+    g = nd.Geometry.hexagonal(0.0, 4.0, 0.0, 3.0)
+    lengths[1, 2] = nd.leg_lengths(g, nd.Configuration.neutral(3.0, 2.0))
+    stack, proof = certified(g, lengths)
+    assert stack.shape == proof.radius.shape
+    assert proof.places.shape == proof.place_radius.shape == (2, 3, proof.undecided.max())
+    for k in np.ndindex(2, 3):
+        if k == (1, 1):
+            assert (proof.complete[k], proof.proved[k], proof.undecided[k]) == (False, 0, 0)
+            continue
+        alone, one = certified(g, lengths[k])
+        n, left = alone.count, one.undecided
+        values = (stack.count[k], proof.complete[k], proof.proved[k], proof.undecided[k], proof.boxes[k])
+        assert values == (n, one.complete, one.proved, left, one.boxes)
+        assert_array_equal(stack.position[k][:n], alone.position)
+        assert_array_equal(proof.radius[k][:n], one.radius)
+        assert np.isnan(proof.radius[k][n:]).all()
+        assert_array_equal(proof.places.position[k][:left], one.places.position)
+    assert not proof.complete[1, 2]
+
+
+def test_without_certify_there_is_no_certificate(published, neutral):
+    lengths = nd.leg_lengths(published, neutral)
+    assert nd.forward_position(published, lengths).certificate is None
+    with pytest.raises(ValueError, match="certify: got 1, expected True or False"):
+        nd.forward_position(published, lengths, certify=1)
+    none = nd.forward_position(published, np.zeros((0, 9)), certify=True)
+    assert none.certificate.complete.shape == (0,)
