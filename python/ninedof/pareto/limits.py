@@ -86,8 +86,8 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
         )
     hint = did_you_mean(against, [*labels, CONDITION_LIMIT, TOLERANCE, *indices]) if isinstance(against, str) else ""
     raise ValueError(
-        f"against: got {shown(against)}, expected a constraint with a max ({', '.join(names)}; at the neutral "
-        f'pose "{label(names[0], AT[1])}", in degrees "base_cone_deg"), '
+        f"against: got {shown(against)}, expected a constraint with a max ({', '.join(names)}; also "
+        f'"{label(names[0], AT[1])}", "base_cone_deg"), '
         f"{CONDITION_LIMIT}, {TOLERANCE} or another index{hint}"
     )
 
