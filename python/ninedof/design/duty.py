@@ -301,6 +301,13 @@ class Tolerances(Table):
         return self.joints > 0.0 or self.legs > 0.0
 
 
+def tolerances_like(shape: Tolerances, size: float) -> Tolerances:
+    """Return tolerances in the ratio of others, the larger one of a size; alike where the others are none."""
+    most = max(shape.joints, shape.legs)
+    joints, legs = (shape.joints / most, shape.legs / most) if most > 0.0 else (1.0, 1.0)
+    return Tolerances(size * joints, size * legs)
+
+
 DUTIES: dict[str, type[Table]] = {
     "about": About,
     "tool": Tool,

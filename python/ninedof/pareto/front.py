@@ -11,7 +11,7 @@ import numpy as np
 
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
-from ninedof.pareto.limits import unit_of, without_degrees
+from ninedof.pareto.limits import TOLERANCE, unit_of, without_degrees
 from ninedof.support.units import unit_entry, with_unit
 from ninedof.tables import RIGHT, Column, Table
 from ninedof.tables.html import notebook
@@ -27,7 +27,8 @@ class Front:
     study: Study
     """The given study, with the index that was minimized; the limit takes the values of `limits`."""
     against: str
-    """The limit: a constraint ("base_cone_deg", "base_cone at neutral"), whose max moves, or "condition_limit"."""
+    """The limit: a constraint ("base_cone_deg", "base_cone at neutral"), whose max moves, "condition_limit", or
+    "tolerance"."""
     limits: tuple[float, ...]
     """Radians for an angle, or degrees where the name in `against` ends in _deg."""
     results: tuple[Result, ...]
@@ -71,12 +72,29 @@ class Front:
         return unit_of(self.study, self.against)
 
     @property
+    def of_tolerances(self) -> bool:
+        """Whether the limit is the tolerance, which is harder to keep where it is larger."""
+        return self.against == TOLERANCE
+
+    @property
     def prices(self) -> tuple[float | None, ...]:
-        """Per cent by which the objective falls when the limit is relaxed by 1 %; None without an optimum."""
-        return tuple(
-            r.best.prices.get(self.limit_name, 0.0) if r.best is not None and r.status == Status.OPTIMAL else None
-            for r in self.results
-        )
+        """Per cent by which the objective falls when the limit is relaxed by 1 %; None without an optimum.
+
+        Of a tolerance, relaxed is smaller: its price is that of the reserve that the limits leave for it.
+        """
+        return tuple(self._price(result) for result in self.results)
+
+    def _price(self, result: Result) -> float | None:
+        if result.best is None or result.status != Status.OPTIMAL:
+            return None
+        prices = result.best.prices
+        if not self.of_tolerances:
+            return prices.get(self.limit_name, 0.0)
+        parts: dict[str, float] = {}  # of each limit, which a tolerance 1 % smaller relaxes by 1 % of its reserve
+        for side, share in ({} if result.reserve is None else result.reserve.shares).items():
+            name = side.rpartition(" ")[0]  # of "stroke_ratio max"
+            parts[name] = max(abs(1.0 - 1.0 / share), parts.get(name, 0.0))
+        return sum(prices.get(name, 0.0) * part for name, part in parts.items())
 
     @property
     def dominated(self) -> tuple[bool, ...]:
@@ -139,7 +157,7 @@ def front_table(front: Front) -> Table:
         Column(f"{limit}\n{with_unit('at most', 'deg' if front.unit == 'rad' else front.unit)}", "", RIGHT),
         Column("objective", "", ".6f"),
         Column("neutral\ncondition number", "", ".6f"),
-        Column("price\n% for 1 %", "", ".3f"),
+        Column("price\n% for 1 %", "", ".2g" if front.of_tolerances else ".3f"),
         Column("limits reached, or why there is no design"),
     ]
     rows = [
@@ -168,8 +186,8 @@ def _row_words(front: Front, row: Mapping[str, Any]) -> str:
         return f"{row['status']}: {row['reason']}"
     active = ", ".join(row["active"]) or "nothing"
     if row["dominated"]:
-        return f"{active} (no better than a tighter limit)"
-    return f"{active} ({front.limit_name} without effect)" if row["price"] == 0.0 else active
+        return f"{active} (no better than a {'larger tolerance' if front.of_tolerances else 'tighter limit'})"
+    return f"{active} ({front.limit_name} without effect)" if row["price"] == 0.0 < row["limit"] else active
 
 
 class Preferred(NamedTuple):

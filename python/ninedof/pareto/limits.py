@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from ninedof.design.duty import tolerances_like
 from ninedof.design.indices import objectives
 from ninedof.design.limits import AT, ROWS, Limit, label, names_with_max, split_label
+from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import did_you_mean, shown
 
 CONDITION_LIMIT = "condition_limit"
+TOLERANCE = "tolerance"
+"""The larger one of the study's two; both are scaled. It is tighter for the search where it is larger."""
 MOST_STEPS = 100  # two are enough where the value is not far from the limit that is tried
 SMALL = 1e-8  # margin from which one more step is exact
 EPS, LEAST = 2.0**-52, 1e-300  # rounding of a margin; a value below the least is zero
@@ -39,10 +43,15 @@ def with_degrees(against: str) -> str:
 def unit_of(study: Study, against: str) -> str:
     """Return the unit of the values of a limit: "deg", "rad", that of lengths, or "" for a ratio."""
     plain, degrees = without_degrees(against)
-    if plain == CONDITION_LIMIT:
-        return ""
+    if plain in (CONDITION_LIMIT, TOLERANCE):
+        return study.unit if plain == TOLERANCE else ""
     unit = _limit(study, plain).unit(study.unit)
     return "rad" if unit == "deg" and not degrees else unit
+
+
+def tightest_first(against: str, values: Iterable[float]) -> list[float]:
+    """Return values of a limit in the order of a front: a larger tolerance is harder to keep."""
+    return sorted(values, reverse=against == TOLERANCE)
 
 
 def resolve(study: Study, against: str) -> tuple[Study, str]:
@@ -56,6 +65,14 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
     labels = [label(name, at) for at in AT for name in names]
     if isinstance(against, str) and against in labels:
         return study, against
+    if against == TOLERANCE:
+        region = study.objective.region
+        if region is not None and not places_o(region):
+            raise ValueError(
+                'against: got "tolerance" for a study that places O anew at every pose, where the search leaves no '
+                "reserve for it, expected O shifted or held"
+            )
+        return study, TOLERANCE
     index = study.objective.index
     indices = objectives()
     if isinstance(against, str) and against in (CONDITION_LIMIT, *indices):
@@ -67,16 +84,18 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
             f"against: got {shown(against)} for a study of the index {index!r}, expected one of the two to be the "
             "condition number and the other another index"
         )
-    hint = did_you_mean(against, [*labels, CONDITION_LIMIT, *indices]) if isinstance(against, str) else ""
+    hint = did_you_mean(against, [*labels, CONDITION_LIMIT, TOLERANCE, *indices]) if isinstance(against, str) else ""
     raise ValueError(
-        f"against: got {shown(against)}, expected a constraint with a max ({', '.join(names)}; at the neutral "
-        f'pose "{label(names[0], AT[1])}", in degrees "base_cone_deg"), '
-        f"{CONDITION_LIMIT} or another index{hint}"
+        f"against: got {shown(against)}, expected a constraint with a max ({', '.join(names)}; also "
+        f'"{label(names[0], AT[1])}", "base_cone_deg"), '
+        f"{CONDITION_LIMIT}, {TOLERANCE} or another index{hint}"
     )
 
 
 def with_limit(study: Study, against: str, value: float | None) -> Study:
     """Return the study with another `max` of a limit, None for no max; its other options are kept."""
+    if against == TOLERANCE:
+        return replace(study, tolerances=tolerances_like(study.tolerances, value or 0.0))
     if against == CONDITION_LIMIT:
         return replace(study, objective=replace(study.objective, condition_limit=value))
     limit = replace(_limit(study, against), high=math.inf if value is None else value)

@@ -11,7 +11,7 @@ from ninedof.optimize.optimize import optimize
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import SAME, objective_of
-from ninedof.pareto.limits import unit_of, with_limit
+from ninedof.pareto.limits import tightest_first, unit_of, with_limit
 from ninedof.support.angles import degrees_of
 from ninedof.support.progress import Progress
 from ninedof.support.store import Store
@@ -74,7 +74,7 @@ class FrontSolver:
         return result
 
     def both_ways(self, limits: Sequence[float]) -> None:
-        """Solve from the loosest limit to the tightest and back; limits in increasing order.
+        """Solve from the loosest limit to the tightest and back; the tightest is given first.
 
         The pass to tighter limits starts from designs that violate the new limit slightly, the pass back from allowed
         designs, so that a looser limit does not have a worse result.
@@ -94,7 +94,7 @@ class FrontSolver:
     def repair(self) -> None:
         """Solve again, or take over the design of a tighter limit, where a looser limit has a worse design."""
         best: tuple[float, Result] | None = None
-        for limit in sorted(self.results):
+        for limit in tightest_first(self.against, self.results):
             if best is not None and self._is_worse(limit, best[1]):
                 self.solve(limit, [best[1]], few=True)
                 if self._is_worse(limit, best[1]):  # not an optimum of this limit

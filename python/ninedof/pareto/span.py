@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import objective_of
 from ninedof.pareto.limits import floor_of, own_value, value_at
 from ninedof.pareto.solving import FrontSolver
+from ninedof.proof.tolerance import FIRST, MOST, STEP
 
 MOST_OBJECTIVE = 3.0  # times the best objective: designs above it are ignored
 NEAR_LEAST = 1.002  # times the least condition number; at 1 only one design is left
-STEPS_DOWN = 12  # halvings
+STEPS_DOWN = 12  # halvings; fewer steps of a tolerance
 BISECTIONS, IN_REGIONS = 6, 4  # a study over a region takes seconds
 
 
@@ -33,7 +35,22 @@ def of_a_limit(solver: FrontSolver) -> tuple[float, float] | None:
         return None
     high = _loosest(solver, without)
     best = objective_of(solver.solve(high, [without]))
-    return None if math.isnan(best) else (_tightest(solver, high, best), high)
+    floor = min(floor_of(solver.study, solver.against), high)
+    return None if math.isnan(best) else (_tightest(solver, high, best, lambda good: max(0.5 * good, floor)), high)
+
+
+def of_tolerances(solver: FrontSolver) -> tuple[float, float]:
+    """Return the largest tolerance, to a tenth, that leaves a useful design, and 0: the machine as it is drawn."""
+    drawn = solver.solve(0.0)
+    if drawn.best is None or math.isnan(best := objective_of(drawn)):
+        return 0.0, 0.0
+    height = solver.study.zp(drawn.best.configuration)
+
+    def larger(good: float) -> float:
+        size = max(STEP * good, FIRST * height)
+        return size if size <= MOST * height else good
+
+    return _tightest(solver, 0.0, best, larger), 0.0
 
 
 def between_indices(solver: FrontSolver) -> tuple[float, float] | None:
@@ -68,18 +85,18 @@ def _loosest(solver: FrontSolver, without: Result) -> float:
     return 4.0 * own
 
 
-def _tightest(solver: FrontSolver, high: float, objective: float) -> float:
-    """Halve the limit until no useful design exists, then bisect for the last limit with one."""
+def _tightest(solver: FrontSolver, loose: float, objective: float, tighter: Callable[[float], float]) -> float:
+    """Tighten the limit until no useful design exists, then bisect for the last limit with one."""
     in_region = solver.study.objective.region is not None  # seconds each, and the limit is not one of the front
 
     def is_useful(limit: float, looser: float) -> bool:
         value = objective_of(solver.solve(limit, [solver.results[looser]], few=in_region))
         return value <= MOST_OBJECTIVE * objective  # False for NaN, which means no design
 
-    floor, good = floor_of(solver.study, solver.against), high
+    good = loose
     for _ in range(STEPS_DOWN):
-        bad = max(0.5 * good, floor)
-        if bad >= good:
+        bad = tighter(good)
+        if bad == good:
             return good
         if not is_useful(bad, good):
             break
@@ -87,6 +104,6 @@ def _tightest(solver: FrontSolver, high: float, objective: float) -> float:
     else:
         return good
     for _ in range(IN_REGIONS if in_region else BISECTIONS):
-        trial = math.sqrt(good * bad)
+        trial = math.sqrt(good * bad) or bad / STEP
         good, bad = (trial, bad) if is_useful(trial, good) else (good, trial)
     return good

@@ -15,9 +15,9 @@ import numpy as np
 from ninedof.design.study import Study
 from ninedof.optimize.result import Status
 from ninedof.pareto.front import Front, objective_of
-from ninedof.pareto.limits import CONDITION_LIMIT, resolve, with_degrees, without_degrees
+from ninedof.pareto.limits import CONDITION_LIMIT, TOLERANCE, resolve, tightest_first, with_degrees, without_degrees
 from ninedof.pareto.solving import FrontSolver
-from ninedof.pareto.span import BISECTIONS, between_indices, of_a_limit
+from ninedof.pareto.span import BISECTIONS, between_indices, of_a_limit, of_tolerances
 from ninedof.support.angles import degrees_of
 from ninedof.support.arguments import finite, instance, items, path_argument, shown, whole
 from ninedof.support.arrays import thread_argument
@@ -26,6 +26,7 @@ from ninedof.support.store import Store
 
 MOST_POINTS = 1000
 FIRST = 0.6  # share of the points that is evenly spaced; the others go where the front is steep
+SPANS = {CONDITION_LIMIT: between_indices, TOLERANCE: of_tolerances}
 
 
 def pareto(
@@ -52,12 +53,15 @@ def pareto(
         A constraint with a max ("radius_ratio", "leg_ratio", "height", "stroke", ...; "leg_ratio at neutral" for the
         limit at the neutral pose alone; "base_cone_deg" for an angle in degrees), or a second index: with
         "condition_limit" the study's own index is minimized under limits on the condition number at every pose; with
-        "speed" or "frobenius", for a study of the condition number, that index is minimized.
+        "speed" or "frobenius", for a study of the condition number, that index is minimized. "tolerance" is the price
+        of accuracy: every machine within the tolerances keeps the limits, the larger one of joints and legs takes the
+        values, and their ratio is that of the study's [tolerances] (alike where it has none).
     values : sequence of float, optional
         Limits to solve, in the unit of the constraint: radians for an angle, degrees with "base_cone_deg". The limits
         of the front are in the same unit. By default from the value of the best design without the limit down to the
         least limit with a design, evenly spaced in logarithms and closer together where the objective changes fast, and
-        the largest limit found to be infeasible.
+        the largest limit found to be infeasible. Of a tolerance from 0 to the largest with a design, evenly spaced, and
+        the least one found to be infeasible.
     points : int
         Number of limits with a design, if `values` is None; 13 by default.
     threads : int, optional
@@ -109,40 +113,43 @@ def pareto(
             solver.repair()
         except KeyboardInterrupt:
             interrupted = True
-    order = sorted(solver.results if limits is None else set(limits) & set(solver.results))
+    order = tightest_first(limit, solver.results if limits is None else set(limits) & set(solver.results))
     results = tuple(solver.results[value] for value in order)
     labels = tuple(degrees_of(value) if degrees else value for value in order)
     return Front(study, against if degrees else limit, labels, results, interrupted, perf_counter() - begin)
 
 
 def _values(values: Sequence[float], limit: str, degrees: bool) -> list[float]:
-    """Return the limits in increasing order, angles in radians."""
+    """Return the limits, the tightest first, angles in radians."""
     limits = {finite(f"values[{k}]", value) for k, value in enumerate(items("values", values, "a sequence of limits"))}
-    if not limits or min(limits) <= 0.0:
-        raise ValueError(f"values: got {shown(values)}, expected one or more limits above 0")
+    zero = limit == TOLERANCE  # the machine as it is drawn
+    if not limits or min(limits) < 0.0 or (0.0 in limits and not zero):
+        raise ValueError(
+            f"values: got {shown(values)}, expected one or more limits {'from 0 on' if zero else 'above 0'}"
+        )
     if not degrees and with_degrees(limit) != limit and max(limits) > math.pi:
         in_degrees = f'degrees are given with against="{with_degrees(limit)}"'
         raise ValueError(f"values: got {max(limits):g} radians, expected at most pi ({in_degrees})")
-    return sorted(math.radians(value) if degrees else value for value in limits)
+    return tightest_first(limit, (math.radians(value) if degrees else value for value in limits))
 
 
 def _trace(solver: FrontSolver, count: int) -> list[float]:
     """Find the range, solve evenly spaced limits, then halve the widest gaps."""
     solver.planned = 4 + BISECTIONS
-    ends = between_indices(solver) if solver.against == CONDITION_LIMIT else of_a_limit(solver)
+    ends = SPANS.get(solver.against, of_a_limit)(solver)
     if ends is None:  # one row with the reason: the study without the limit
         assert solver.open_ended is not None
         solver.results[math.inf] = solver.open_ended
         return [math.inf]
     low, high = ends
-    first = max(2, round(FIRST * count))
-    limits = [low, *np.geomspace(low, high, first)[1:-1].tolist(), high] if high > low * (1.0 + 1e-6) else [high]
+    even, first = (np.linspace, count) if high < low else (np.geomspace, max(2, round(FIRST * count)))  # down to 0
+    limits = [low, *even(low, high, first)[1:-1].tolist(), high] if abs(high - low) > 1e-6 * low else [high]
     solver.both_ways(limits)
     while 1 < len(limits) < count and (gap := _widest(solver, limits)) is not None:
         limits = sorted([*limits, solver.between(*gap)])
-    below = max((value for value in solver.results if value < low), default=None)
-    is_edge = below is not None and solver.results[below].status == Status.INFEASIBLE
-    return [below, *limits] if below is not None and is_edge else limits
+    order = tightest_first(solver.against, {*solver.results, low})
+    edge = order[: order.index(low)][-1:]  # the next one that is tighter
+    return [*edge, *limits] if edge and solver.results[edge[0]].status == Status.INFEASIBLE else limits
 
 
 def _widest(solver: FrontSolver, limits: Sequence[float]) -> tuple[float, float] | None:

@@ -76,9 +76,9 @@ def front(front: Front, sketches: int = 4, figure: Figure | None = None) -> Figu
         share = 1.8 / 6.1 if designs else 0.0
         upper = figure.add_axes((0.09, share + 0.44 * (1 - share), 0.895, 0.475 * (1 - share)))
         lower = figure.add_axes((0.09, share + 0.115 * (1 - share), 0.895, 0.225 * (1 - share)), sharex=upper)
-        _objective(upper, rows, front.study.words)
-        _prices(lower, rows)
-        lower.set_xlabel(style.with_unit(f"largest {front.limit_name.replace('_', ' ')} allowed", unit))
+        _objective(upper, rows, front)
+        _prices(lower, rows, front.of_tolerances)
+        lower.set_xlabel(style.with_unit(_axis_words(front), unit))
         _limits((upper, lower), rows)
         if designs:
             titles = [f"at {amount(f'{scale * front.limits[k]:.4g}', unit)}" for k in designs]
@@ -95,7 +95,19 @@ def _designs(front: Front, most: int) -> dict[int, Candidate]:
     return {k: good[k] for k in np.array(list(good), dtype=int)[picked].tolist()}
 
 
-def _objective(axes: Any, rows: Sequence[Row], objective: str) -> None:
+def _axis_words(front: Front) -> str:
+    """Return the name of the axis of limits."""
+    built = front.study.tolerances
+    if not front.of_tolerances:
+        return f"largest {front.limit_name.replace('_', ' ')} allowed"
+    if not built or built.joints == built.legs:
+        return "tolerance of joints and legs"
+    small, large = sorted(("joints", "legs"), key=lambda name: getattr(built, name))
+    return f"tolerance of {large}, that of {small} {getattr(built, small) / getattr(built, large):.3g} times it"
+
+
+def _objective(axes: Any, rows: Sequence[Row], front: Front) -> None:
+    objective, of_tolerances = front.study.words, front.of_tolerances
     solved_rows = [row for row in rows if row["objective"] is not None]
     x, y = (np.array([row[key] for row in solved_rows], dtype=np.float64) for key in ("limit", "objective"))
     axes.plot(x, y, color=style.SERIES[0], zorder=2)
@@ -105,7 +117,7 @@ def _objective(axes: Any, rows: Sequence[Row], objective: str) -> None:
         mark = FOUND[kind] | {"mfc": "white"} if row["dominated"] else FOUND[kind]
         axes.plot(row["limit"], row["objective"], **mark, ms=5, mew=1.1, zorder=4)
         used |= {kind} | ({list(FOUND)[1]} if row["dominated"] else set())
-    axes.set_title(fill(f"{objective}: the least for each limit", MOST_LETTERS))
+    axes.set_title(fill(f"{objective}: the least for each {'tolerance' if of_tolerances else 'limit'}", MOST_LETTERS))
     axes.set_ylabel(fill(objective if len(objective) < 70 else objective.split(" over ")[0], 34))
     if len(y):
         room = 0.08 * max(float(np.ptp(y)), 0.02 * float(y.max()))
@@ -114,26 +126,32 @@ def _objective(axes: Any, rows: Sequence[Row], objective: str) -> None:
         axes.set(ylim=(0.0, 1.0), yticks=[])
     bottom = axes.get_ylim()[0]
     axes.tick_params(labelbottom=False)
-    keys = [style.key(**mark, ls="", ms=5, mew=1.1, label=kind) for kind, mark in FOUND.items() if kind in used]
+    labels = {
+        kind: kind.replace("tighter limit", "larger tolerance") if of_tolerances else kind
+        for kind in FOUND
+        if kind in used
+    }
+    keys = [style.key(**FOUND[kind], ls="", ms=5, mew=1.1, label=words) for kind, words in labels.items()]
     for status, (marker, words) in NONE.items():
         without = [row["limit"] for row in rows if row["objective"] is None and row["status"] == status]
         cross: dict[str, Any] = {"color": style.ALARM, "marker": marker, "ls": "", "ms": 8, "mec": "white"}
         for limit in without:
             axes.plot(limit, bottom, **cross, clip_on=False, zorder=6)
         keys += [style.key(**cross, mew=0.8, label=words)] * bool(without)
-    axes.legend(handles=keys, loc="upper right")
+    axes.legend(handles=keys, loc="upper left" if of_tolerances else "upper right")  # where the front is low
 
 
-def _prices(axes: Any, rows: Sequence[Row]) -> None:
+def _prices(axes: Any, rows: Sequence[Row], is_tolerance: bool) -> None:
     priced = [(row["limit"], row["price"]) for row in rows if row["price"] is not None]
     if priced:
         x, y = np.array(priced, dtype=np.float64).T
         axes.vlines(x, 0.0, y, color=style.SERIES[2], lw=1.6)
         axes.plot(x, y, "o", ms=4, color=style.SERIES[2], mec="white", mew=0.8, zorder=3, clip_on=False)
-        axes.set_ylim(0.0, 1.25 * max(float(y.max()), 1e-3))
+        axes.set_ylim(0.0, 1.25 * max(float(y.max()), 1e-5))
     else:
         axes.set_yticks([])
-    axes.set_title("price: what a limit 1 % looser gains", size=style.TEXT_SIZE)
+    relaxed = "a tolerance 1 % smaller" if is_tolerance else "a limit 1 % looser"
+    axes.set_title(f"price: what {relaxed} gains", size=style.TEXT_SIZE)
     axes.set_ylabel("gain (%)")
 
 
@@ -150,11 +168,16 @@ def _limits(panels: Sequence[Any], rows: Sequence[Row]) -> None:
         margin = 0.035 * max(high - low, 0.1 * abs(high))
         view = (low - margin, high + margin)
     panels[0].set_xlim(view)
-    first = min((row["limit"] for row in rows if row["objective"] is not None), default=math.inf)
-    last = max((row["limit"] for row in rows if row["status"] == "infeasible"), default=math.inf)
-    if last < first:
-        for axes in panels:
-            axes.axvspan(view[0], last, color=style.GRID, lw=0, zorder=0)
+    with_design = [row["limit"] for row in rows if row["objective"] is not None]
+    without = [row["limit"] for row in rows if row["status"] == "infeasible"]
+    if without and max(without) < min(with_design, default=math.inf):
+        ground = view[0], max(without)
+    elif without and min(without) > max(with_design):  # of tolerances
+        ground = min(without), view[1]
+    else:
+        return
+    for axes in panels:
+        axes.axvspan(*ground, color=style.GRID, lw=0, zorder=0)
 
 
 def _sketches(

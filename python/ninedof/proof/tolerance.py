@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ninedof.design.duty import Tolerances
+from ninedof.design.duty import Tolerances, tolerances_like
 
 FIRST, LEAST, MOST = 1e-4, 1e-6, 0.05  # of the machine's height
 STEP, HALVINGS = 4.0, 5
@@ -23,11 +23,9 @@ def largest_tolerance(proved: Callable[[Tolerances], bool], shape: Tolerances, h
         Of the machine: tolerances are looked for from a millionth to a twentieth of it.
 
     """
-    most = max(shape.joints, shape.legs)
-    joints, legs = (shape.joints / most, shape.legs / most) if most > 0.0 else (1.0, 1.0)
 
     def of(size: float) -> Tolerances:
-        return Tolerances(size * height * joints, size * height * legs)
+        return tolerances_like(shape, size * height)
 
     low, high = 0.0, FIRST
     while high <= MOST and proved(of(high)):

@@ -35,6 +35,8 @@ def of_front(front: Front) -> Html:
     """Return the same of a front: each of its points is an optimization."""
     counts = {status: sum(r.status == status for r in front.results) for status in Status}
     proofs = [f"{count} of {len(front)} limits: {s}, {STATUS[s]}." for s, count in counts.items() if count]
+    kept = sum(r.reserve is not None and r.reserve.proved for r in front.results)
+    proofs += [f"{kept} of {len(front)} limits: proved of every machine within the tolerances."] * bool(kept)
     searched = [
         "Each point is a local optimum, the best that its starts and those from neighbouring limits found. That none "
         "is better is not proved.",

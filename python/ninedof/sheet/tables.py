@@ -24,6 +24,7 @@ MECHANISMS = {
     "det_c": "O in the plane of the upper internal joints",
     "det_n": "the platform turns about a line through O",
 }
+BESIDE = 4  # loads; a table of more has no room for another at its side
 ROUNDING = 1e-11  # of the largest number of a column
 
 
@@ -34,8 +35,8 @@ def sheet_parts(sheet: Any) -> Iterator[Part]:
     if sheet.motion.twist is not None:
         yield _twist(sheet)
     if len(sheet.loads):
-        yield _forces(sheet)
-        yield _powers(sheet)
+        tables = _forces(sheet), _powers(sheet)
+        yield from [tables] if len(sheet.loads) <= BESIDE else tables
     yield worst_table(sheet)
     if sheet.limits:
         yield limits_table(sheet)

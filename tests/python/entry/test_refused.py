@@ -257,6 +257,12 @@ APART = [  # a row, entries that are refused because of what they are together o
     ("pareto", {"against": "base_cone_deg", "values": [200]}, ".*200 degrees"),
     ("pareto", {"against": "radius_ratio_deg"}, "against: got 'radius_ratio_deg'"),
     ("pareto", {"against": "base_cones_deg"}, "against: got 'base_cones_deg'.*did you mean 'base_cone'"),
+    ("pareto", {"against": "tolerances"}, r"against: got 'tolerances'.*did you mean 'tolerance'"),
+    (
+        "pareto",
+        {"against": "tolerance", "values": [0.1, -1.0]},
+        "values: got .*, expected one or more limits from 0 on",
+    ),
     ("pareto", {"values": []}, r"values: got \[\], expected one or more limits above 0"),
     ("pareto", {"values": [2.0, -1.0]}, r"values: got \[2.0, -1.0\], expected one or more limits above 0"),
     ("pareto", {"values": [2.0, NAN]}, r"values\[1\]: got nan, expected a finite number"),

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from figure_table import front, made, row
+from figure_table import ACCURACY, front, made, row
 from matplotlib.colors import to_hex
 from matplotlib.patches import Polygon
 
@@ -109,6 +109,19 @@ def test_a_front_against_an_angle_is_drawn_in_degrees():
     assert figure.axes[1].get_xlabel() == "largest base cone allowed (deg)"
     assert [axes.get_title() for axes in figure.axes[2:]] == ["at 28.65 deg", "at 38.05 deg"]
     assert figure.axes[0].lines[0].get_xdata() == pytest.approx([math.degrees(0.5), 38.05])
+
+
+def test_a_front_of_tolerances_rises_to_where_no_design_is():
+    upper, lower = made("front of tolerances").axes[:2]
+    assert lower.get_xlabel() == "tolerance of joints, that of legs 0.5 times it (mm)"
+    (ground,) = [patch for patch in upper.patches if to_hex(patch.get_facecolor()) == style.GRID.lower()]
+    left, right = ground.get_extents().transformed(upper.transData.inverted()).intervalx
+    assert left == pytest.approx(2.0)
+    assert right >= upper.get_xlim()[1] * (1.0 - 1e-9)
+    assert lower.get_ylim()[1] == pytest.approx(1.25 * 3e-4)
+    assert "no better than a larger tolerance" in [text.get_text() for text in upper.get_legend().get_texts()]
+    same = plot.front(front(ACCURACY, "tolerance", "mm", tolerances=nd.Tolerances()), sketches=0)
+    assert same.axes[1].get_xlabel() == "tolerance of joints and legs (mm)"
 
 
 def test_a_front_without_a_finite_limit_is_refused():

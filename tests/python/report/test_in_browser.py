@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 
 import chromium
 import pytest
@@ -124,14 +125,35 @@ ORDINARY = nd.Study(
 )
 
 
-def test_an_ordinary_report_has_at_most_four_pages_without_a_torn_table(browser, tmp_path):
-    result = nd.optimize(ORDINARY)
+LOADED = replace(
+    ORDINARY,
+    constraints={**ORDINARY.constraints, "force": (None, 600.0), "rate": (None, 400.0)},
+    loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -500.0]]},
+    speeds={"linear": 200.0, "angular_deg": 30.0},
+    tool={"position": [0.0, 0.0, -100.0]},
+    masses={"platform": 12.0, "centre": [0.0, 0.0, -30.0]},
+)
+THREE_DESIGNS = """(() => {
+  for (const row of document.querySelectorAll("#answer tr")) {
+    row.lastChild.textContent ||= "best";
+    if (row.innerText.startsWith("limits reached")) row.lastChild.textContent = "leg ratio, base cone, platform cone";
+    row.append(row.lastChild.cloneNode(true), row.lastChild.cloneNode(true));
+  }
+})()"""
+OVERLAP = """[...document.querySelectorAll(".beside > div")].filter((e) => e.scrollWidth > e.clientWidth + 1).length"""
+
+
+@pytest.mark.parametrize("study", [ORDINARY, LOADED], ids=["ordinary", "loads and limits of them"])
+def test_a_report_has_at_most_four_pages_without_a_torn_table(browser, tmp_path, study):
+    result = nd.optimize(study)
     write_run(result, tmp_path, figures_of(result, lambda _: None))
     browser.open(nd.report(tmp_path), PAPER, 1000, media="print")
     assert browser.run(TORN) == []
     assert browser.run("getComputedStyle(document.querySelector('.of-mechanism')).display") == "none"  # shown already
     browser.pdf(tmp_path / "it.pdf")
     assert len(re.findall(rb"/Type\s*/Page\b", (tmp_path / "it.pdf").read_bytes())) <= 4
+    browser.run(THREE_DESIGNS)
+    assert browser.run(OVERLAP) == 0
 
 
 def test_no_third_of_the_page_is_empty(browser, pages):

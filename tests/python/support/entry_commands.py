@@ -8,6 +8,7 @@ LINES = {
     "pareto": [
         "{study} --against radius_ratio --value 1.9 --starts 1 --threads 1 --out {out} --no-report",
         "{study} --against radius_ratio --points 2 --starts 1 --out {out} --no-report",
+        "{study} --against tolerance --value 0 --value 0.001 --starts 1 --out {out} --no-report",
     ],
     "evaluate": [
         "{design} --lc 1.0",

@@ -53,19 +53,26 @@ ROWS = [
 ]
 
 
-def front(rows, name="leg_ratio", unit="", words="condition number"):
+def front(rows, name="leg_ratio", unit="", words="condition number", tolerances=None):
     """What a figure reads of a front with these rows."""
     designs = [(APART, 0.0), (nd.Geometry.hexagonal(0.0, 6.0, 3.0, 0.0), 0.2)]
     best = [SimpleNamespace(geometry=g, configuration=nd.Configuration.neutral(4.0, 2.0, t)) for g, t in designs]
     return SimpleNamespace(
         table=lambda: rows,
         limit_name=name,
+        of_tolerances=name == "tolerance",
         unit=unit,
-        study=SimpleNamespace(words=words, unit="" if unit == "rad" else unit),
+        study=SimpleNamespace(words=words, unit="" if unit == "rad" else unit, tolerances=tolerances),
         limits=[one["limit"] for one in rows],
         objectives=[math.nan if one["objective"] is None else one["objective"] for one in rows],
         results=[SimpleNamespace(best=best[k > 3]) for k in range(len(rows))],
     )
+
+
+ACCURACY = [  # the tightest first: the largest tolerance
+    row(2.0, "infeasible"),
+    *(row(0.5 * k, "optimal", 4.0 + 0.2 * k, 1e-4 * k, dominated=k == 1) for k in (3, 2, 1, 0)),
+]
 
 
 def followed(kappa=None, lengths=LENGTHS, time=TIME, high=np.inf, unit="", forces=None):
@@ -187,6 +194,7 @@ FIGURES = {
     "wide front": lambda: plot.front(
         front([row(10.0**k, "optimal", 9.0 - k, 0.1) for k in range(-2, 4)], "footprint", "mm"), sketches=0
     ),
+    "front of tolerances": lambda: plot.front(front(ACCURACY, "tolerance", "mm", tolerances=nd.Tolerances(0.2, 0.1))),
     "curve": lambda: sweep(x_p=(-1, 1, 21)),
     "legs": lambda: sweep("leg_lengths", x_p=(-1, 1, 21)),
     "map": lambda: sweep(x_p=(-1, 1, 9), y_p=(-1, 1, 9)),

@@ -20,7 +20,7 @@ from ninedof.optimize.result import Result
 from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
 from ninedof.pareto.front import front_table
-from ninedof.pareto.limits import with_degrees
+from ninedof.pareto.limits import TOLERANCE, with_degrees
 from ninedof.records.folder import run_folder
 from ninedof.records.load import split
 from ninedof.records.record import write_run
@@ -34,6 +34,8 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4
 
   ninedof pareto study.toml --against base_cone_deg --value 30 --value 35
+
+  ninedof pareto study.toml --against tolerance    what accuracy costs: joints and legs off by so much
 
   ninedof pareto runs/20260101-120000 --points 7   the study of a run, against the limit of greatest price
 
@@ -51,8 +53,9 @@ class ParetoOptions(JobOptions):
     against: Annotated[
         str | None,
         typer.Option(
-            help='The limit that is swept: a constraint ("leg_ratio", "leg_ratio at neutral", "base_cone_deg"), or '
-            "condition_limit. By default radius_ratio, of a run the limit of greatest price."
+            help='The limit that is swept: a constraint ("leg_ratio", "leg_ratio at neutral", "base_cone_deg"), '
+            "condition_limit, or tolerance: what accuracy costs. By default radius_ratio, of a run the limit of "
+            "greatest price."
         ),
     ] = None
     value: Annotated[
@@ -70,9 +73,12 @@ def pareto(options: ParetoOptions) -> None:
     """Compute the least condition number for each value of a limit."""
     screen = Screen(options.json)
     thread_argument(options.threads)
+    least = 0.0 if options.against == TOLERANCE else math.ulp(0.0)  # 0 is the machine as it is drawn
     for limit in options.value or ():
-        if not 0.0 < limit < math.inf:
-            raise ValueError(f"--value: got {limit:g}, expected a finite number above 0")
+        if not least <= limit < math.inf:
+            raise ValueError(
+                f"--value: got {limit:g}, expected a finite number {'from 0 on' if not least else 'above 0'}"
+            )
     file = options.study
     study, run = _study_of(file)
     study = study.with_solver(options.starts)
