@@ -74,7 +74,8 @@ from ninedof.proof.bounds import (
     singular_value_bounds,
 )
 from ninedof.proof.machine_record import LimitProof, MachineCertificate
-from ninedof.proof.optimum import OptimumProof, check_certificate, prove_optimum
+from ninedof.proof.optimum import check_certificate, prove_optimum
+from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.records.certificate import load_certificate
 from ninedof.records.design_file import Design
 from ninedof.records.load import load, save

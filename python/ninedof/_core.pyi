@@ -487,7 +487,7 @@ def any_admissible(
     seconds: float,
     resolution: float,
     progress: _Progress | None = ...,
-) -> tuple[str, list[float], float, int, bool]: ...
+) -> tuple[str, list[float], int, int, bool]: ...
 def design_certificate(
     question: DesignQuestion,
     pieces: Mapping[str, Any],

@@ -128,7 +128,7 @@ void bind_admissible(py::module_& m) {
             [](DesignExistence& one) { return one.interrupted = true; });
         constexpr std::array words{"exists", "none", "undecided"};
         const std::vector<double> design(found.design.begin(), found.design.begin() + std::ssize(question.varied));
-        return py::make_tuple(words[static_cast<std::size_t>(found.state)], design, found.undecided, found.looked_at,
+        return py::make_tuple(words[static_cast<std::size_t>(found.state)], design, found.looked_at, found.open,
                               found.interrupted);
       },
       py::arg("question"), py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("resolution"),

@@ -14,7 +14,7 @@ import numpy as np
 
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status, result_from
-from ninedof.proof.optimum import OptimumProof
+from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.files import Arrays, from_json_array, json_array
 from ninedof.support.store import Store
 

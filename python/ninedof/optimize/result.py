@@ -26,7 +26,7 @@ from ninedof.optimize.tables import candidates_table
 from ninedof.optimize.words import agreement_sentence, price_words, reached_words
 from ninedof.proof.machine import certify, machine_digest, open_limits
 from ninedof.proof.machine_record import MachineCertificate
-from ninedof.proof.optimum import OptimumProof
+from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.proof.point_rule import PointRule, rule_of
 from ninedof.proof.tolerance import largest_tolerance
 from ninedof.redundancy.redundancy import best_internal_point

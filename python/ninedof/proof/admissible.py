@@ -393,43 +393,17 @@ def admissible(
     seconds = LONGEST if chosen["time_limit"] is None else finite("time_limit", chosen["time_limit"], 0.0)
     resolution = finite("resolution", chosen["resolution"], 0.0, 1.0)
     threads = whole("threads", chosen["threads"], 0, MOST_THREADS)
-    resume, progress = chosen["resume"], progress_argument(chosen["progress"])
+    resume, begin = chosen["resume"], perf_counter()
     if resume is not None and instance("resume", resume, AdmissibleSet).of.digest != asked.digest:
         raise ValueError("resume: got the designs of another question, expected those of this one")
-    limits = SearchLimits(seconds, resolution, threads)
-    return divided(asked, limits, resume=resume, progress=progress)
-
-
-class SearchLimits(NamedTuple):
-    """What ends a search for admissible designs."""
-
-    seconds: float
-    resolution: float
-    threads: int
-    undecided: float = ENOUGH
-    """It ends where no more of the volume is left."""
-    first: bool = False
-    """And where a design is inside."""
-
-
-def divided(
-    asked: DesignRange,
-    limits: SearchLimits,
-    *,
-    resume: AdmissibleSet | None = None,
-    progress: Progress | None = None,
-) -> AdmissibleSet:
-    """Divide the designs that are asked about until a limit of the search ends it."""
-    begin = perf_counter()
     found = _core.admissible_designs(
         asked.for_core(),
-        threads=limits.threads,
-        seconds=min(limits.seconds, LONGEST),
-        resolution=limits.resolution,
-        undecided=limits.undecided,
-        first=limits.first,
+        threads=threads,
+        seconds=min(seconds, LONGEST),
+        resolution=resolution,
+        undecided=ENOUGH,
         earlier=None if resume is None else resume.for_core(),
-        progress=progress,
+        progress=progress_argument(chosen["progress"]),
     )
     return AdmissibleSet(
         asked,

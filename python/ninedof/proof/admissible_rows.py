@@ -9,12 +9,11 @@ from typing import Any
 
 from ninedof.design.actuators import LEG_KINDS, Actuator
 from ninedof.design.study import Study
-from ninedof.proof.admissible import LONGEST, AdmissibleSet, SearchLimits, design_range, divided
+from ninedof.proof.admissible import LONGEST, design_range
+from ninedof.proof.existence import existence
 from ninedof.support.arguments import finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS
 from ninedof.support.progress import Progress, part_of, progress_argument
-
-EXISTS, NONE, UNDECIDED = "exists", "none", "undecided"
 
 
 @dataclass(frozen=True)
@@ -27,19 +26,12 @@ class AdmissibleRow:
     state: str
     """ "exists" or "none", both proved, or "undecided"."""
     design: Mapping[str, float] | None
-    """A design in the middle of a box that is proved inside: the variables that vary. None without one."""
-    excluded: Mapping[str, float]
-    """The share of the box that each limit excluded until the answer was there, as `AdmissibleSet.excluded`."""
+    """A design that is proved: the variables that vary. None without one."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values, as JSON has them; angles in radians."""
-        return {
-            "legs": self.kind,
-            "actuator": self.row.name,
-            "state": self.state,
-            "design": None if self.design is None else dict(self.design),
-            "excluded": dict(self.excluded),
-        }
+        design = None if self.design is None else dict(self.design)
+        return {"legs": self.kind, "actuator": self.row.name, "state": self.state, "design": design}
 
 
 @dataclass(frozen=True)
@@ -98,15 +90,8 @@ def admissible_actuators(
     for n, (kind, row) in enumerate(asked):
         question = design_range(study.with_actuators(dict.fromkeys(kinds[kind], row)), vary, at)
         seconds = 0.0 if interrupted else max(end - perf_counter(), 0.0) / (len(asked) - n)
-        limits = SearchLimits(seconds, resolution, threads, undecided=0.0, first=True)
-        found = divided(question, limits, progress=part_of(progress, f"{row.name} for {kind} legs"))
-        out.append(AdmissibleRow(kind, row, *_state(found), found.excluded))
+        words = part_of(progress, f"{row.name} for {kind} legs")
+        found = existence(question, seconds=seconds, resolution=resolution, threads=threads, progress=words)
+        out.append(AdmissibleRow(kind, row, found.state, found.design))
         interrupted = interrupted or found.interrupted
     return AdmissibleRows(tuple(out), interrupted)
-
-
-def _state(found: AdmissibleSet) -> tuple[str, dict[str, float] | None]:
-    if len(found.inside):
-        middle = found.inside[0].mean(axis=1).tolist()
-        return EXISTS, dict(zip(found.vary, middle, strict=True))
-    return UNDECIDED if len(found.undecided) else NONE, None

@@ -3,90 +3,23 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
+from dataclasses import dataclass
 
 from ninedof import _core
 from ninedof.design.study import Study
+from ninedof.proof.existence import existence
+from ninedof.proof.optimum_over_poses import GAP, prove_over_poses, range_to_prove, reaches
+from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.arguments import finite, instance, path_argument
 from ninedof.support.arrays import thread_argument
-from ninedof.support.files import write_whole
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.short import short_repr
-from ninedof.support.structs import entries_of, from_core
+from ninedof.support.structs import from_core
 
-FILE = "optimum.certificate"
 GAPS = {"hexagonal": 1e-12, "symmetric": 1e-6}
 """Relative gaps to prove: of hexagons five numbers matter, of other symmetric designs seven."""
+LONGEST = 1e9  # seconds
 MOST_BOXES = 100_000_000  # a gigabyte of tree, some five minutes
-PLAIN = ("lower_bound", "target", "complete", "boxes", "open", "seconds", "better", "interrupted")
-
-
-@short_repr
-@dataclass(frozen=True)
-class OptimumProof:
-    """A lower bound of the condition number of every design of a study, proved."""
-
-    lower_bound: float
-    """No design of the study has a condition number below it, at the neutral pose."""
-    target: float
-    """The bound to be proved; `lower_bound` if the search came to its end."""
-    complete: bool
-    boxes: int
-    """Boxes of designs examined."""
-    open: int
-    """Boxes left for which less than the target is proved."""
-    seconds: float
-    better: float | None = None
-    """Upper bound of the condition number of a design below the target, where the search met one in its domain and
-    ended; None if it met none. Perhaps no design of the study: the proof takes the radii and the twist of hexagons as
-    independent within their ranges, and leaves limits out."""
-    left_out: tuple[str, ...] = ()
-    """Limits of the study that the proof does without: the bound holds for more designs than the study allows."""
-    interrupted: bool = False
-    """Whether Ctrl-C ended the search."""
-    certificate: bytes = field(default=b"", repr=False, compare=False)
-    """A file that `ninedof check` and the program ninedof_check read; empty if the search did not come to its end."""
-
-    @property
-    def words(self) -> str:
-        """The bound as a sentence."""
-        from decimal import ROUND_FLOOR, Context, Decimal  # when it is needed, as it takes time to load
-
-        digits = Context(prec=400)  # of any double
-        bound = Decimal(self.lower_bound).quantize(Decimal("1e-11"), ROUND_FLOOR, digits)  # never more than was proved
-        sentence = f"Proved: no machine of this class has a condition number below {bound.normalize(digits):f}"
-        if not self.left_out:
-            return f"{sentence}."
-        return f"{sentence}. The proof does without {', '.join(self.left_out)}: with them it holds all the more."
-
-    def gap(self, condition_number: float) -> float:
-        """Return what is left open below a condition number, as a fraction of it."""
-        return max(0.0, 1.0 - self.lower_bound / finite("condition_number", condition_number, 1.0))
-
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the certificate.
-
-        Raises
-        ------
-        ValueError
-            If there is none: the search was ended before all was proved.
-
-        """
-        if not self.certificate:
-            raise ValueError("certificate: got a proof that did not come to its end, expected a complete one")
-        return write_whole(path_argument("path", path), self.certificate)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return every field but the certificate as plain values."""
-        return {name: getattr(self, name) for name in PLAIN} | {"left_out": list(self.left_out)}
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> OptimumProof:
-        """Return the proof of a mapping as `to_dict` makes it, without its certificate."""
-        return cls(**entries_of(cls, data, "proof", skipped=["certificate"]))
 
 
 def prove_optimum(
@@ -101,21 +34,24 @@ def prove_optimum(
     """Prove that no design of a study is better than a known one by more than a given gap.
 
     Branch and bound over all designs, in interval arithmetic: boxes of designs are cut until each is proved to hold
-    none below the target. A design counts through the five numbers (hexagons) or seven (other planar symmetric
-    designs) on which its singular values depend, so that the paper's problem takes a second or two. Ctrl-C and the time
-    limit return what is proved so far.
+    none below the target. Of a planar class at the neutral pose a design counts through the five numbers (hexagons) or
+    seven (other symmetric designs) on which its singular values depend, so that the paper's problem takes a second or
+    two. Over a region, at listed poses, with a tool, for other families and for limits that the first proof does not
+    know, boxes of one to four free variables break a limit, or have a greater condition number, at a pose that is met:
+    smaller and smaller gaps are proved. Ctrl-C and the time limit return what is proved so far.
 
     Parameters
     ----------
     study : Study
-        Of the family "hexagonal" or "symmetric", at the neutral pose, with a characteristic length that is a number.
-        Its bounds and the limits radius_ratio, leg_ratio (max) and zs_fraction are part of the proof. Others are left
-        out, see `OptimumProof.left_out`.
+        With a characteristic length that is a number, and the worst condition number as its objective. Of the family
+        "hexagonal" or "symmetric" at the neutral pose any number of variables may be free; of the limits radius_ratio,
+        leg_ratio (max) and zs_fraction are part of that proof, others are left out (`OptimumProof.left_out`) where more
+        than four variables are free. Elsewhere at most four are free, between finite ends, and O is shifted or held.
     condition_number : float
         Of the best design known.
     gap : float, optional
-        To be proved: no condition number below (1 - gap) condition_number. By default 1e-12 for hexagons and 1e-6 for
-        other symmetric designs, which is the work of minutes.
+        To be proved: no condition number below (1 - gap) condition_number. By default 1e-12 for hexagons, 1e-6 for
+        other symmetric designs, which is the work of minutes, and 1e-3 over poses.
     time_limit : float, optional
         Seconds; none by default.
     threads : int, optional
@@ -148,32 +84,51 @@ def prove_optimum(
 
     """
     best = finite("condition_number", condition_number)
-    problem = _problem(study)
-    aim = GAPS.get(study.family, 0.0) if gap is None else finite("gap", gap, least=0.0, most=1.0)
+    over_poses = _is_over_poses(study)
+    aim = gap_of(study) if gap is None else finite("gap", gap, least=0.0, most=1.0)
     limit = 0.0 if time_limit is None else finite("time_limit", time_limit, least=0.0)
     progress_argument(progress)
-    target = best * (1.0 - aim)
-    if not target > 1.0:
+    if not best * (1.0 - aim) > 1.0:
         raise ValueError(f"condition_number: got {best:g} and a gap of {aim:g}, expected more than 1 to be proved")
+    count = thread_argument(threads)
+    if over_poses:
+        return prove_over_poses(study, best, gap=aim, time_limit=limit or LONGEST, threads=count, progress=progress)
     settings = _core.OptimumSettings(
-        target=target, threads=thread_argument(threads), box_limit=MOST_BOXES, time_limit=limit, keep_tree=True
+        target=best * (1.0 - aim), threads=count, box_limit=MOST_BOXES, time_limit=limit, keep_tree=True
     )
-    return from_core(OptimumProof, _core.prove_optimum(problem, settings, progress), target=target)
+    proof = _core.prove_optimum(study.problem(), settings, progress)
+    return from_core(OptimumProof, proof, target=best * (1.0 - aim), where="")
 
 
 def left_out_of(study: Study) -> tuple[str, ...]:
     """Return the limits of a study that a proof leaves out; raise ValueError if the theory does not reach the study."""
+    if _is_over_poses(study):
+        existence(range_to_prove(study), seconds=0.0)  # raises where a limit has no bounds over boxes of designs
+        return ()
+    return _left_out_of_class(study)
+
+
+def gap_of(study: Study) -> float:
+    """Return the gap that is proved by default."""
+    return GAP if _is_over_poses(study) else GAPS[study.family]
+
+
+def _is_over_poses(study: Study) -> bool:
+    """Whether the proof is that over poses with every limit, and not that of a class of plates at the neutral pose."""
+    if instance("study", study, Study).tool or study.objective.region is not None or study.objective.poses:
+        return range_to_prove(study) is not None  # raises
+    if not reaches(study):
+        _left_out_of_class(study)  # raises
+        return False
+    try:
+        return bool(_left_out_of_class(study))
+    except ValueError:
+        return True
+
+
+def _left_out_of_class(study: Study) -> tuple[str, ...]:
     settings = _core.OptimumSettings(target=2.0, threads=1, box_limit=0)  # looks at the study and at no box
-    return _core.prove_optimum(_problem(study), settings, None).left_out
-
-
-def _problem(study: Study) -> _core.Problem:
-    instance("study", study, Study)
-    if study.objective.region is not None:
-        raise ValueError("objective: got a region of poses, expected the neutral pose alone for a proof")
-    if study.tool:
-        raise ValueError("tool: got [tool], expected none: the proof of an optimum is of plates without a tool")
-    return study.problem()
+    return _core.prove_optimum(study.problem(), settings, None).left_out
 
 
 @short_repr

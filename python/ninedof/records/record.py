@@ -23,7 +23,7 @@ from ninedof.optimize.result import Result, result_from
 from ninedof.paper.comparison import Comparison
 from ninedof.pareto import Front
 from ninedof.pareto.limits import with_limit, without_degrees
-from ninedof.proof.optimum import FILE as CERTIFICATE
+from ninedof.proof.optimum_proof import FILE as CERTIFICATE
 from ninedof.support.command import command_line
 from ninedof.support.extras import versions
 from ninedof.support.files import json_bytes, read_json, write_whole

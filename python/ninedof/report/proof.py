@@ -91,7 +91,7 @@ def _checked(result: Result) -> Iterator[str]:
 
 def _best_of_all(result: Result) -> bool:
     """Whether it is proved that no design is better by more than rounding shows."""
-    return result.proof is not None and result.proof.gap(float(result.neutral_condition_number or 0.0)) < ROUNDING
+    return result.proof is not None and result.proof.gap(float(result.condition_number or 0.0)) < ROUNDING
 
 
 def _searched(result: Result, between: bool) -> Iterator[str]:

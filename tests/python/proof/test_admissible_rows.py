@@ -53,7 +53,6 @@ def test_where_none_exists_no_design_drawn_at_random_keeps_the_limits(found):
     for one in found.rows:
         if one.state == "none":
             assert one.design is None
-            assert one.excluded
             for a2, b1 in zip(rng.uniform(2.0, 10.0, 30), rng.uniform(1.0, 5.0, 30), strict=True):
                 assert least_margin(one, {"a2": a2, "b1": b1}, 300, rng) < 1e-3, (one, a2, b1)
 
@@ -62,12 +61,11 @@ def test_one_row_for_all_legs():
     study = replace(STUDY, actuators_for="all", actuators=[nd.Actuator("any", 0.1, 50.0), nd.Actuator("no", 0.1, 0.5)])
     rows = nd.admissible_actuators(study, VARY).rows
     assert [(one.kind, one.state) for one in rows] == [("all", "exists"), ("all", "none")]
-    assert next(iter(rows[1].excluded)) == "external_length"
 
 
 def test_without_time_all_is_undecided_and_ctrl_c_keeps_what_was_found():
     assert {one.state for one in nd.admissible_actuators(STUDY, VARY, time_limit=0.0).rows} == {"undecided"}
-    with interrupted_on_entry("admissible_designs"):
+    with interrupted_on_entry("any_admissible"):
         found = nd.admissible_actuators(STUDY, VARY)
     assert found.interrupted
     assert len(found.rows) == 9

@@ -15,7 +15,7 @@ from sizes import LONG
 
 import ninedof as nd
 from ninedof.cli.app import main
-from ninedof.proof.optimum import FILE, OptimumProof
+from ninedof.proof.optimum_proof import FILE, OptimumProof
 from ninedof.report.proof import of_result as report_proof
 
 BEST = 3.7626590785960471961  # by a solution of the optimality conditions in 50 digits

@@ -71,7 +71,7 @@ DesignSet admissible_designs(const DesignQuestion& question, const DesignSetting
 struct DesignExistence {
   enum class State { exists, none, undecided } state = State::undecided;  ///< the first two are proved
   std::array<double, most_varied> design{};  ///< that is inside, in the order of `varied`
-  double undecided = 1.0;  ///< share of the volume that is left
+  long open = 0;  ///< boxes of designs that are left
   long looked_at = 0;  ///< boxes of designs
   bool interrupted = false;
 };

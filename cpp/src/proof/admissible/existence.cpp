@@ -120,7 +120,7 @@ DesignExistence any_admissible(const DesignQuestion& question, const DesignSetti
   };
   std::vector<Unrefuted> waiting{search.whole()};
   const double whole = waiting.front().volume;
-  double left = whole, too_small = 0.0;
+  double left = whole;
   while (!waiting.empty() && waiting.size() < most_waiting && !stopped()) {
     std::vector<Unrefuted> now;
     while (!waiting.empty() && now.size() < boxes_of_round) {
@@ -150,7 +150,7 @@ DesignExistence any_admissible(const DesignQuestion& question, const DesignSetti
       for (Unrefuted& rest : found[n].rests) {
         left += rest.volume;
         if (!search.divisible(rest.box, settings.resolution)) {
-          too_small += rest.volume;
+          ++out.open;
           continue;
         }
         waiting.push_back(std::move(rest));
@@ -160,8 +160,8 @@ DesignExistence any_admissible(const DesignQuestion& question, const DesignSetti
     if (control.progress) control.progress(out.looked_at, 0, left / whole);
   }
   out.interrupted = control.stop.stop_requested();
-  out.undecided = waiting.empty() && !(too_small > 0.0) ? 0.0 : left / whole;
-  if (waiting.empty() && !(too_small > 0.0)) out.state = DesignExistence::State::none;
+  out.open += std::ssize(waiting);
+  if (out.open == 0) out.state = DesignExistence::State::none;
   return out;
 }
 

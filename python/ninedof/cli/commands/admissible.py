@@ -134,10 +134,7 @@ def _rows(screen: Screen, study: Study, options: AdmissibleOptions, vary: Ranges
 
 
 def _example(one: AdmissibleRow, study: Study) -> str:
-    """Return a design in words, or what excludes most designs."""
-    if one.design is None:
-        return f"most break {next(iter(one.excluded)).replace('_', ' ')}" if one.excluded else ""
-    values = ((name, f"{name} = {study.shown(name, value):.5g}") for name, value in one.design.items())
+    values = ((name, f"{name} = {study.shown(name, value):.5g}") for name, value in (one.design or {}).items())
     return ", ".join(amount(words, study.unit_of(name)) for name, words in values)
 
 

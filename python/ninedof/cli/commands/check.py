@@ -11,7 +11,8 @@ import typer
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import Options
 from ninedof.cli.screen import DONE, NO_RESULT, REFUSED, Screen, bold
-from ninedof.proof.optimum import FILE, check_certificate
+from ninedof.proof.optimum import check_certificate
+from ninedof.proof.optimum_proof import FILE
 
 PLACE = 4
 EXAMPLES = f"""[bold]Examples[/bold]

@@ -1,0 +1,40 @@
+"""Whether any design of a range keeps every limit: asked for actuators, and of optima over poses."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ninedof import _core
+from ninedof.proof.admissible import LONGEST, DesignRange
+from ninedof.support.progress import Progress
+
+EXISTS, NONE, UNDECIDED = "exists", "none", "undecided"
+
+
+class Existence(NamedTuple):
+    """An answer, proved but for "undecided"."""
+
+    state: str
+    design: dict[str, float] | None
+    """One that exists: the variables that vary."""
+    designs: int
+    """Boxes of designs that were looked at."""
+    left: int
+    """Boxes that are not decided."""
+    interrupted: bool
+
+
+def existence(
+    of: DesignRange,
+    *,
+    seconds: float = LONGEST,
+    resolution: float = 0.0,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> Existence:
+    """Say whether any design of the range keeps every limit at every pose."""
+    state, x, designs, left, interrupted = _core.any_admissible(
+        of.for_core(), threads=threads, seconds=min(seconds, LONGEST), resolution=resolution, progress=progress
+    )
+    design = dict(zip(of.vary, x, strict=True)) if state == EXISTS else None
+    return Existence(state, design, designs, left, interrupted)
