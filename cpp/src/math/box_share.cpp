@@ -10,7 +10,7 @@ namespace {
 /// them divided, rounding would be larger than what is lost so.
 constexpr double worth_a_division = 1e-3;
 
-/// More than a sum of three or four products of slopes and coordinates loses in rounding, relative to what `reach`
+/// More than a sum of up to six products of slopes and coordinates loses in rounding, relative to what `reach`
 /// gives.
 constexpr double plane_rounding = 0x1p-48;
 
@@ -100,8 +100,8 @@ std::vector<Slope<N>> hull_above(const Slope<N>& slope, double level) {
 }
 
 template double reach(const Slope<3>&);
-template double reach(const Slope<4>&);
+template double reach(const Slope<6>&);
 template std::vector<Slope<3>> hull_above(const Slope<3>&, double);
-template std::vector<Slope<4>> hull_above(const Slope<4>&, double);
+template std::vector<Slope<6>> hull_above(const Slope<6>&, double);
 
 }  // namespace ninedof::forms

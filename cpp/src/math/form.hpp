@@ -223,7 +223,7 @@ struct Form {
 using PoseForm = Form<6>;
 using CurvedForm = Form<6, 2>;
 
-/// Over a box of poses and a box of designs, whose coordinates are the last four.
-using DesignForm = Form<10>;
+/// Over a box of poses and a box of designs, whose coordinates are the last six.
+using DesignForm = Form<12>;
 
 }  // namespace ninedof

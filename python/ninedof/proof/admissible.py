@@ -426,16 +426,17 @@ def design_range(
     vary: Collection[str] | Mapping[str, tuple[float, float] | None],
     at: Mapping[str, float | str] | None = None,
     condition_number: float | None = None,
+    most: int = MOST_VARIED,
 ) -> DesignRange:
-    """Return what `admissible` is asked for, checked; it says what the arguments mean."""
+    """Return what `admissible` is asked for, checked; it says what the arguments mean. `most` variables may vary."""
     study, values = _asked(of, at)
-    expected = f"names of one to {MOST_VARIED} variables"
+    expected = f"names of one to {most} variables"
     given = (
         {_name(name): ends for name, ends in vary.items()}
         if isinstance(vary, Mapping)
         else dict.fromkeys(map(_name, items("vary", vary, expected)))
     )
-    if not 1 <= len(given) <= MOST_VARIED:
+    if not 1 <= len(given) <= most:
         raise ValueError(f"vary: got {shown(vary)}, expected {expected}")
     ends = angles_in_radians(study, {name: two for name, two in given.items() if two is not None}, _ends)
     names = tuple(dict.fromkeys(map(plain_name, given)))

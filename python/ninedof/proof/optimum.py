@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.proof.existence import existence
-from ninedof.proof.optimum_over_poses import GAP, prove_over_poses, range_to_prove, reaches
+from ninedof.proof.optimum_over_poses import GAP, ends_soon, prove_over_poses, range_to_prove
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.arguments import finite, instance, path_argument
 from ninedof.support.arrays import thread_argument
@@ -37,7 +37,7 @@ def prove_optimum(
     none below the target. Of a planar class at the neutral pose a design counts through the five numbers (hexagons) or
     seven (other symmetric designs) on which its singular values depend, so that the paper's problem takes a second or
     two. Over a region, at listed poses, with a tool, for other families and for limits that the first proof does not
-    know, boxes of one to four free variables break a limit, or have a greater condition number, at a pose that is met:
+    know, boxes of one to six free variables break a limit, or have a greater condition number, at a pose that is met:
     smaller and smaller gaps are proved. Ctrl-C and the time limit return what is proved so far.
 
     Parameters
@@ -46,7 +46,7 @@ def prove_optimum(
         With a characteristic length that is a number, and the worst condition number as its objective. Of the family
         "hexagonal" or "symmetric" at the neutral pose any number of variables may be free; of the limits radius_ratio,
         leg_ratio (max) and zs_fraction are part of that proof, others are left out (`OptimumProof.left_out`) where more
-        than four variables are free. Elsewhere at most four are free, between finite ends, and O is shifted or held.
+        than six variables are free. Elsewhere at most six are free, between finite ends, and O is shifted or held.
     condition_number : float
         Of the best design known.
     gap : float, optional
@@ -117,7 +117,7 @@ def _is_over_poses(study: Study) -> bool:
     """Whether the proof is that over poses with every limit, and not that of a class of plates at the neutral pose."""
     if instance("study", study, Study).tool or study.objective.region is not None or study.objective.poses:
         return range_to_prove(study) is not None  # raises
-    if not reaches(study):
+    if not ends_soon(study):
         _left_out_of_class(study)  # raises
         return False
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from time import perf_counter
 
 from ninedof.design.study import Study
-from ninedof.proof.admissible import MOST_VARIED, DesignRange, design_range
+from ninedof.proof.admissible import DesignRange, design_range
 from ninedof.proof.existence import EXISTS, NONE, existence
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.progress import Progress, phase
@@ -13,18 +13,20 @@ from ninedof.support.progress import Progress, phase
 GAP = 1e-3
 """Relative gap to prove: the poses that rule at an optimum meet there, and the last of it is the dearest."""
 STEPS = (0.1, 0.02, 5e-3)  # gaps that are proved before: a bound that is there when time ends
+COARSE = (0.5, 0.3)  # before these where many variables are free
+MOST_FREE, FEW = 6, 4
 
 
-def reaches(study: Study) -> bool:
-    """Whether this proof is known for a study: few free variables between ends, a worst condition number."""
-    return not _missing(study)
+def ends_soon(study: Study) -> bool:
+    """Whether this proof is known for a study, and comes to its end in seconds or minutes: few free variables."""
+    return not _missing(study) and len(_free(study)) <= FEW
 
 
 def range_to_prove(study: Study, condition_number: float | None = None) -> DesignRange:
     """Return all designs of a study that keep its limits, and a condition number; raise where no proof is known."""
     if missing := _missing(study):
         raise ValueError(missing)
-    return design_range(study, _free(study), None, condition_number)
+    return design_range(study, _free(study), None, condition_number, MOST_FREE)
 
 
 def prove_over_poses(
@@ -44,7 +46,8 @@ def prove_over_poses(
     begin, boxes, bound = perf_counter(), 0, 1.0
     where = "over the region" if study.objective.region is not None else "at its poses" if study.objective.poses else ""
     better, left, interrupted, aim = None, 0, False, condition_number * (1.0 - gap)
-    for one in (*(step for step in STEPS if step > gap), gap):
+    steps = STEPS if len(_free(study)) <= FEW else (*COARSE, *STEPS)
+    for one in (*(step for step in steps if step > gap), gap):
         target = condition_number * (1.0 - one)
         if not target > 1.0:
             continue
@@ -82,6 +85,6 @@ def _missing(study: Study) -> str:
         return "characteristic_length: got one that depends on the design, expected a number for a proof over poses"
     if objective.region is not None and objective.region.internal_point == "best":
         return 'internal_point: got "best", expected "shifted" or "held" for a proof'
-    if not 1 <= len(free) <= MOST_VARIED:
-        return f"variables: got {len(free)} that are free, expected one to {MOST_VARIED} for a proof over poses"
+    if not 1 <= len(free) <= MOST_FREE:
+        return f"variables: got {len(free)} that are free, expected one to {MOST_FREE} for a proof over poses"
     return ""

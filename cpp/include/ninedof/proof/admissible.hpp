@@ -15,14 +15,14 @@
 
 namespace ninedof {
 
-inline constexpr std::size_t most_varied = 4;
+inline constexpr std::size_t most_varied = 6;
 
 /// Which designs, and what they have to keep.
 struct DesignQuestion {
   Problem problem;  ///< its limits, and those of the condition number, at its poses or over the region
   std::vector<Region> region = {};  ///< none or one
   std::vector<double> at = {};      ///< a value for each variable of the family
-  std::vector<int> varied = {};     ///< indices of the variables that vary, one to four
+  std::vector<int> varied = {};     ///< indices of the variables that vary, one to six
   std::vector<double> low = {}, high = {};  ///< of each
   double condition = std::numeric_limits<double>::infinity();  ///< greatest condition number besides those of the study
 

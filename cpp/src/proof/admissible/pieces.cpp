@@ -8,7 +8,7 @@ namespace ninedof::admissible {
 namespace {
 
 /// Halvings below a box, by its number of coordinates.
-constexpr std::array<int, most_varied + 1> most_halvings{0, 7, 10, 10, 10};
+constexpr std::array<int, most_varied + 1> most_halvings{0, 7, 10, 10, 10, 10, 10};
 
 /// A part of a box in its coordinates t, and its halves if it was divided.
 struct Node {

@@ -16,7 +16,7 @@ void DesignQuestion::validate() const {
   if (at.size() != variables.size())
     throw InvalidArgument("at", std::to_string(at.size()) + " values", std::to_string(variables.size()));
   if (varied.empty() || varied.size() > most_varied)
-    throw InvalidArgument("vary", std::to_string(varied.size()) + " variables", "one to four");
+    throw InvalidArgument("vary", std::to_string(varied.size()) + " variables", "one to six");
   if (low.size() != varied.size() || high.size() != varied.size())
     throw InvalidArgument("low, high", "other sizes", "an end for each variable that varies");
   for (std::size_t k = 0; k < varied.size(); ++k) {

@@ -1,0 +1,143 @@
+"""Bounds of optima over poses, held against designs drawn at random and evaluated in numpy, and hidden better ones."""
+
+import itertools
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from limit_oracle import limits_of, margins, robot_of
+from region_oracle import index_at, random_poses
+
+import ninedof as nd
+from ninedof.optimize.region_report import posed
+from ninedof.proof.optimum import left_out_of
+
+SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0}
+LIMITS = {"base_cone": {"max_deg": 55, "axis": (0, 0, 1)}, "stroke_ratio": (None, 1.5)}
+REGION = nd.Study(variables=SIZES, constraints=LIMITS, objective={"region": {"ball": 0.4, "tilt": 0.1}}, starts=8)
+STUDIES = {
+    "region": REGION,
+    "tool, held": replace(
+        REGION,
+        tool={"position": (0.1, 0.0, -0.5)},
+        objective={"region": {"box": (0.3, 0.2, 0.2), "yaw": 0.1, "internal_point": "held"}},
+    ),
+    "poses": replace(REGION, objective={"poses": [{"position": (0.2, 0.0, 0.1)}, {"rotation": (0.1, 0.0, 0.05)}]}),
+    "non-planar": nd.Study(
+        "symmetric_nonplanar",
+        variables={
+            "base_external_radius": (2.0, 6.0),
+            "base_internal_radius": 2.0,
+            "base_internal_angle": 0.9,
+            "platform_external_radius": (1.0, 4.0),
+            "platform_external_angle": 0.5,
+            "platform_internal_radius": 2.0,
+            "platform_internal_angle": -0.4,
+            "zp": (3.0, 7.0),
+            "zs": 2.6,
+            "base_external_height": 0.1,
+            "base_internal_height": (-0.5, 0.5),
+            "platform_external_height": 0.0,
+            "platform_internal_height": 0.2,
+        },
+        constraints={"leg_ratio": (None, 2.6)},
+        starts=8,
+    ),
+}
+
+
+@pytest.fixture(scope="module", params=list(STUDIES))
+def result(request):
+    return nd.optimize(STUDIES[request.param], certify=True)
+
+
+def corners(region):
+    """The poses at the corners of a box with yaws, which are hardly drawn; none of other regions."""
+    ends = [(-size, size) for size in (*(region.box or ()), region.yaw)]
+    held = region.internal_point == "held"
+    return [
+        nd.Pose((x, y, z), (0.0, 0.0, yaw), (0.0, 0.0, 0.0) if held else (x, y, z), region.unit)
+        for x, y, z, yaw in (itertools.product(*ends) if region.box else ())
+    ]
+
+
+def worst_index(study, variables, count, rng):
+    """The worst condition number and the least margin of a design at poses drawn at random."""
+    region = study.objective.region
+    there = study if region is None else posed(study, (*random_poses(region, count, rng), *corners(region)))
+    robot = robot_of(there, variables)
+    least = min((margins(limit, robot).min() for limit in limits_of(there)), default=math.inf)
+    return index_at(there, robot).max(), least
+
+
+def test_the_best_design_is_within_the_gap(result):
+    proof = result.proof
+    assert proof.complete
+    assert proof.left_out == ()
+    assert result.condition_number * (1.0 - 1e-3) == pytest.approx(proof.lower_bound, rel=1e-12)
+    assert proof.gap(result.condition_number) == pytest.approx(1e-3, rel=1e-6)
+    assert proof.lower_bound < result.condition_number
+    assert nd.OptimumProof.from_dict(proof.to_dict()) == proof
+
+
+def test_no_design_drawn_at_random_that_keeps_the_limits_is_below_the_bound(result):
+    rng, study, kept = np.random.default_rng(1), result.study, 0
+    free = {name: ends for name, ends in study.variables.items() if isinstance(ends, tuple)}
+    for n in range(300):
+        near = 0.03 if n % 2 else 1.0  # half of them near the best design
+        x = {}
+        for name, (low, high) in free.items():
+            middle, half = (result.variables[name], near * (high - low)) if n % 2 else (0.5 * (low + high), high - low)
+            x[name] = float(np.clip(middle + 0.5 * half * rng.uniform(-1.0, 1.0), low, high))
+        index, least = worst_index(study, dict(result.variables) | x, 300, rng)
+        kept += least > 0.0
+        # The worst pose is hardly drawn: of an index, and of a limit that is only just kept.
+        assert least <= 0.003 or index >= 0.998 * result.lower_bound, x
+    assert kept > 20
+
+
+def test_where_a_better_design_is_hidden_only_less_than_it_is_proved():
+    best = nd.optimize(REGION).condition_number
+    proof = nd.prove_optimum(REGION, 1.1 * best, time_limit=3.0)
+    assert not proof.complete
+    assert 1.0 < proof.lower_bound < best
+    study = STUDIES["poses"]  # at a few poses the better design itself is proved
+    best = nd.optimize(study).condition_number
+    proof = nd.prove_optimum(study, 1.1 * best, time_limit=60.0)
+    assert best < proof.better < 1.1 * best
+    assert proof.lower_bound < best
+
+
+def test_all_limits_count():
+    """Without one of them there is a better design: the bound of both is above it."""
+    free = replace(REGION, constraints={})
+    assert nd.optimize(free).condition_number < 0.99 * nd.optimize(REGION, certify=True).lower_bound
+
+
+def test_without_time_nothing_is_proved():
+    proof = nd.prove_optimum(REGION, 4.0, time_limit=1e-9)
+    assert (proof.lower_bound, proof.complete, proof.better) == (1.0, False, None)
+    assert proof.open > 0
+
+
+def test_threads_do_not_change_it():
+    one, two = (nd.prove_optimum(REGION, 3.6, threads=count) for count in (1, 2))
+    assert replace(one, seconds=0.0) == replace(two, seconds=0.0)
+
+
+@pytest.mark.parametrize(
+    ("study", "words"),
+    [
+        (replace(REGION, objective={"region": {"ball": 0.4, "internal_point": "best"}}), "internal_point"),
+        (replace(REGION, objective={"region": {"ball": 0.4}, "aggregate": "mean_inverse"}), "objective"),
+        (replace(REGION, objective={"region": {"ball": 0.4}, "index": "speed"}), "objective"),
+        (replace(REGION, characteristic_length="optimal"), "characteristic_length"),
+        (replace(REGION, variables=dict.fromkeys(SIZES, (1.0, 2.0)) | {"theta_z": (0.0, 0.1)}), "variables: got 7"),
+        (replace(STUDIES["poses"], constraints={"singularity_free": (0.01, None)}), "singularity_free"),
+    ],
+)
+def test_what_has_no_proof_is_refused_before_the_work(study, words):
+    for call in (left_out_of, lambda one: nd.optimize(one, certify=True)):
+        with pytest.raises(ValueError, match=words):
+            call(study)
