@@ -3,6 +3,7 @@
 import itertools
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -141,3 +142,11 @@ def test_what_has_no_proof_is_refused_before_the_work(study, words):
     for call in (left_out_of, lambda one: nd.optimize(one, certify=True)):
         with pytest.raises(ValueError, match=words):
             call(study)
+
+
+@pytest.mark.slow
+def test_the_machine_of_the_requirement_is_within_a_thousandth():
+    study = nd.Study.load(Path(__file__).parents[3] / "examples" / "18_requirement.toml")
+    proof = nd.prove_optimum(study, 4.023420)
+    assert proof.complete
+    assert proof.lower_bound == pytest.approx(4.0194, abs=1e-4)
