@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/linear/jacobi_svd.hpp"
+#include "robot/triangle.hpp"
 
 namespace ninedof {
 namespace {
@@ -14,8 +15,7 @@ namespace {
 struct TriangleSides {
   explicit TriangleSides(const Triple& t) : side{(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()} {
     std::ranges::sort(side);
-    // Divided first: the cross product of very short or very long sides would underflow or overflow.
-    height = side[2] * ((t[1] - t[0]) / side[2]).cross((t[2] - t[0]) / side[2]).norm();
+    height = side[2] * relative_height(t, side[2]);
   }
   /// The radius of the least circle about the triangle: half the longest side, or the circumradius.
   double radius() const {

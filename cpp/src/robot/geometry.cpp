@@ -10,6 +10,7 @@
 #include "ninedof/math/length_range.hpp"
 #include "ninedof/math/rotation.hpp"
 #include "ninedof/robot/hexagon.hpp"
+#include "robot/triangle.hpp"
 
 namespace ninedof {
 namespace {
@@ -32,8 +33,7 @@ double longest_side(const std::string& name, const Triple& t, const std::string&
 
 void require_triangle(const std::string& name, const Triple& t, const std::string& lost) {
   const double longest = longest_side(name, t, lost);
-  // Divided first: the cross product of very short or very long sides would underflow or overflow.
-  const double height = ((t[1] - t[0]) / longest).cross((t[2] - t[0]) / longest).norm();
+  const double height = relative_height(t, longest);
   if (!(height > tolerance))
     throw InvalidArgument(name, "collinear joints (height / longest side = " + format_number(height) + "): " + lost,
                           "joints that span a triangle");

@@ -212,7 +212,8 @@ def _proved(result: Result, threads: int, progress: Progress | None, pieces: Pie
     Where the proof leaves limits out, the optimum of the study without them is what it can come up to. After Ctrl-C the
     result is `interrupted`.
     """
-    study, best = result.study, float(result.condition_number)  # type: ignore[arg-type]
+    study, best = result.study, result.condition_number
+    assert best is not None, "a proof is asked for where there is a design"
     left_out = {label.removesuffix(" at neutral").removesuffix(".min") for label in left_out_of(study)}
     if left_out:
         others = {name: limit for name, limit in study.constraints.items() if name not in left_out}

@@ -1,5 +1,5 @@
-/// The number of assembly modes with its proof: against the two methods that have none, from wrong guesses and none, and
-/// where a proof is impossible.
+/// The number of assembly modes with its proof: against the two methods that have none, from wrong guesses and none,
+/// and where a proof is impossible.
 
 #include "ninedof/position/certified_modes.hpp"
 
@@ -25,15 +25,6 @@ using ninedof::RotationMethod;
 using ninedof::UndecidedModes;
 
 namespace {
-
-Robot any_robot(Random& random, bool hexagonal) {
-  Robot r = random_robot(random);
-  if (hexagonal)
-    r.geometry = Geometry::hexagonal(random.uniform(0.1, 3.0), random.uniform(0.1, 3.0), random.uniform(0.1, 2.0),
-                                     random.uniform(0.1, 2.0));
-  r.configuration.rotation = random.rotation();
-  return r;
-}
 
 double distance(const Configuration& a, const Configuration& b, double unit) {
   return std::max({(a.position - b.position).lpNorm<Eigen::Infinity>() / unit,
@@ -111,7 +102,8 @@ TEST_SUITE("certified_modes") {
     Random random(53);
     for (int n = 0; n < cases(500); ++n) {
       const auto [g, c] = any_robot(random, false);
-      // Lengths have rounding errors, so the pose is no exact solution; the bounds of O must be nearly as narrow as them.
+      // Lengths have rounding errors, so the pose is no exact solution; the bounds of O must be nearly as narrow as
+      // them.
       const Vec9 lengths = leg_lengths(g, c);
       int near = 0;
       for (const auto& s : ninedof::meeting_bounds(g.base_internal(), lengths.tail<3>())) {

@@ -21,15 +21,6 @@ using ninedof::RotationMethod;
 
 namespace {
 
-Robot any_robot(Random& random, bool hexagonal) {
-  Robot r = random_robot(random);
-  if (hexagonal)
-    r.geometry = Geometry::hexagonal(random.uniform(0.1, 3.0), random.uniform(0.1, 3.0), random.uniform(0.1, 2.0),
-                                     random.uniform(0.1, 2.0));
-  r.configuration.rotation = random.rotation();
-  return r;
-}
-
 double distance(const Configuration& a, const Configuration& b) {
   return std::max({(a.position - b.position).norm(), (a.internal_point - b.internal_point).norm(),
                    (a.rotation - b.rotation).norm()});

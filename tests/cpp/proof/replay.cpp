@@ -1,5 +1,5 @@
-/// The checker of sets of designs: its numbers over boxes hold those of the library at designs and poses drawn from them,
-/// which share nothing with it; and what becomes of changed files.
+/// The checker of sets of designs: its numbers over boxes hold those of the library at designs and poses drawn from
+/// them, which share nothing with it; and what becomes of changed files.
 
 #include "proof/checker/replay.hpp"
 

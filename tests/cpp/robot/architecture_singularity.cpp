@@ -1,4 +1,5 @@
-/// architecture_singularity.hpp: distances of triangles known by hand, moves along them, and similar triangles at random.
+/// architecture_singularity.hpp: distances of triangles known by hand, moves along them, and similar triangles at
+/// random.
 
 #include "ninedof/robot/architecture_singularity.hpp"
 

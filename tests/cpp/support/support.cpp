@@ -56,6 +56,15 @@ Robot random_robot(Random& random) {
   return {geometry, c};
 }
 
+Robot any_robot(Random& random, bool hexagonal) {
+  Robot r = random_robot(random);
+  if (hexagonal)
+    r.geometry = Geometry::hexagonal(random.uniform(0.1, 3.0), random.uniform(0.1, 3.0), random.uniform(0.1, 2.0),
+                                     random.uniform(0.1, 2.0));
+  r.configuration.rotation = random.rotation();
+  return r;
+}
+
 Orbit random_orbit(Random& random) {
   return {random.uniform(0.3, 4.0), random.uniform(-pi, pi), random.uniform(-1.0, 1.0)};
 }

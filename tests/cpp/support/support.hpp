@@ -88,6 +88,9 @@ Triple random_triple(Random& random, double size);
 /// A robot with no symmetry: joints off every plane, platform shifted and tilted (up to 0.5 rad), O between the plates.
 Robot random_robot(Random& random);
 
+/// The same turned in any way, or hexagonal plates there.
+Robot any_robot(Random& random, bool hexagonal);
+
 Orbit random_orbit(Random& random);
 
 /// A robot with threefold symmetry about z, its triples in no plane in particular.

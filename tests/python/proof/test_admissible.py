@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from limit_oracle import limits_of, margins, robot_of
 from region_oracle import SPREADS, condition_margins, index_at, random_poses
+from robots import NONPLANAR
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
@@ -15,21 +16,6 @@ ROUNDING = 1e-9
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": (2.0, 8.0), "zs": (1.0, 6.0)}
 BOX = {"box": (0.4, 0.4, 0.3), "tilt": 0.12}
 BOX_REGION = nd.Region(**BOX)
-SYMMETRIC = {
-    "base_external_radius": (2.0, 6.0),
-    "base_internal_radius": (1.0, 5.0),
-    "base_internal_angle": 0.9,
-    "platform_external_radius": (1.0, 4.0),
-    "platform_external_angle": 0.5,
-    "platform_internal_radius": 2.0,
-    "platform_internal_angle": -0.4,
-    "zp": (3.0, 7.0),
-    "zs": 2.6,
-    "base_external_height": 0.1,
-    "base_internal_height": (-0.5, 0.5),
-    "platform_external_height": 0.0,
-    "platform_internal_height": 0.2,
-}
 ALL_LIMITS = {
     "radius_ratio": (1.2, 3.0),
     "stroke_ratio": (None, 1.55),
@@ -67,7 +53,7 @@ CASES = {
     "non-planar": (
         nd.Study(
             "symmetric_nonplanar",
-            variables=SYMMETRIC,
+            variables=NONPLANAR,
             constraints={
                 "leg_ratio": (None, 2.6),
                 "joint_spacing": {"min": 0.3, "of": "radius"},

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from limit_oracle import limits_of, margins, robot_of
 from region_oracle import index_at, random_poses
+from robots import NONPLANAR
 
 import ninedof as nd
 from ninedof.optimize.region_report import posed
@@ -27,21 +28,7 @@ STUDIES = {
     "poses": replace(REGION, objective={"poses": [{"position": (0.2, 0.0, 0.1)}, {"rotation": (0.1, 0.0, 0.05)}]}),
     "non-planar": nd.Study(
         "symmetric_nonplanar",
-        variables={
-            "base_external_radius": (2.0, 6.0),
-            "base_internal_radius": 2.0,
-            "base_internal_angle": 0.9,
-            "platform_external_radius": (1.0, 4.0),
-            "platform_external_angle": 0.5,
-            "platform_internal_radius": 2.0,
-            "platform_internal_angle": -0.4,
-            "zp": (3.0, 7.0),
-            "zs": 2.6,
-            "base_external_height": 0.1,
-            "base_internal_height": (-0.5, 0.5),
-            "platform_external_height": 0.0,
-            "platform_internal_height": 0.2,
-        },
+        variables=NONPLANAR | {"base_internal_radius": 2.0},
         constraints={"leg_ratio": (None, 2.6)},
         starts=8,
     ),

@@ -11,6 +11,22 @@ import ninedof as nd
 
 SINGULAR = ("lower plane", "upper plane", "leg through O")
 """det B = 0, det C = 0, det N = 0."""
+NONPLANAR = {
+    "base_external_radius": (2.0, 6.0),
+    "base_internal_radius": (1.0, 5.0),
+    "base_internal_angle": 0.9,
+    "platform_external_radius": (1.0, 4.0),
+    "platform_external_angle": 0.5,
+    "platform_internal_radius": 2.0,
+    "platform_internal_angle": -0.4,
+    "zp": (3.0, 7.0),
+    "zs": 2.6,
+    "base_external_height": 0.1,
+    "base_internal_height": (-0.5, 0.5),
+    "platform_external_height": 0.0,
+    "platform_internal_height": 0.2,
+}
+"""Variables of a study of the family "symmetric_nonplanar", some of them free."""
 
 
 def regular(seed):

@@ -30,9 +30,9 @@ struct CertifiedModes {
 };
 
 /// Every assembly mode, enclosed, and a proof that there is no other (docs/theory/position.md): for exactly these
-/// joints and lengths, by interval arithmetic and Krawczyk's operator. A double mode is undecided, as is O in a plane of
-/// internal joints. Half a millisecond, a hundred times
-/// the time of forward_position; tens of milliseconds where nothing can be decided.
+/// joints and lengths, by interval arithmetic and Krawczyk's operator. A double mode is undecided, as is O in a plane
+/// of internal joints. Half a millisecond, a hundred times the time of forward_position; tens of milliseconds where
+/// nothing can be decided.
 ///
 /// Throws as forward_position does, and std::runtime_error as require_sound_arithmetic does.
 CertifiedModes certified_modes(const Geometry& g, const Vec9& leg_lengths);

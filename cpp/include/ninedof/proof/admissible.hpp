@@ -75,8 +75,8 @@ struct DesignExistence {
   long looked_at = 0;  ///< boxes of designs
   bool interrupted = false;
 };
-/// Poses are not covered but met: of each box those where designs near it broke a limit. Where a middle breaks none, its
-/// own worst poses join them, and where there are none, the middle is a design that is inside. Of the settings
+/// Poses are not covered but met: of each box those where designs near it broke a limit. Where a middle breaks none,
+/// its own worst poses join them, and where there are none, the middle is a design that is inside. Of the settings
 /// `undecided` has no meaning.
 DesignExistence any_admissible(const DesignQuestion& question, const DesignSettings& settings,
                                const Control& control = {});

@@ -25,8 +25,8 @@ struct ArchitectureSingularity {
 /// circle about them to a point. Legs: half the larger distance of their ends.
 ArchitectureSingularity nearest_architecture_singularity(const Geometry& g);
 
-/// How far the external triangles are from similar and parallel at an orientation, 0 to 1: the least |r - c - l Q u| over
-/// centres c and factors l, root mean square over that of r about its centre. At 0 all positions are singular
+/// How far the external triangles are from similar and parallel at an orientation, 0 to 1: the least |r - c - l Q u|
+/// over centres c and factors l, root mean square over that of r about its centre. At 0 all positions are singular
 /// (det N = 0), wherever O is.
 double homothety_residual(const Geometry& g, const Mat3& rotation);
 

@@ -21,8 +21,8 @@ struct Orbit {
 class Geometry {
  public:
   /// Throws InvalidArgument naming the triples if one is not finite or has zero size, an internal one is collinear
-  /// (height of the triangle below 1e-9 of its longest side), or external legs coincide (ends apart by no more than 1e-9
-  /// of the longest sides).
+  /// (height of the triangle below 1e-9 of its longest side), or external legs coincide (ends apart by no more than
+  /// 1e-9 of the longest sides).
   Geometry(const Triple& base_external, const Triple& base_internal, const Triple& platform_external,
            const Triple& platform_internal);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Three quadratic functions of three coordinates with bounds of every coefficient: spheres about joints, rotations that
-/// fit legs.
+/// Three quadratic functions of three coordinates with bounds of every coefficient: spheres about joints, rotations
+/// that fit legs.
 
 #include <optional>
 

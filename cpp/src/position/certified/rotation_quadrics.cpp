@@ -17,8 +17,8 @@ RotationQuadrics::RotationQuadrics(const Geometry& g, const PointBounds& s, cons
     const Interval c = one + half * (difference - l) * (difference + l) / (d_norm * w_norm);
     if (c.lo > 1.0 || c.hi < -1.0) impossible_ = true;
     if (!(magnitude(c) < largest_cosine)) known_ = false;
-    // Over the lengths of d and w, nearly. A diagonal entry is d . R w - |d||w| c = (l^2 - |d - R w|^2) / 2, R a half turn
-    // about an axis, or none: a narrower bound than that of the difference.
+    // Over the lengths of d and w, nearly. A diagonal entry is d . R w - |d||w| c = (l^2 - |d - R w|^2) / 2, R a half
+    // turn about an axis, or none: a narrower bound than that of the difference.
     const double over_d = 1.0 / middle(d_norm), over_w = 1.0 / middle(w_norm);
     const auto diagonal = [&](double x, double y, double z) {
       const Interval n = norm(d - PointBounds{times(x, w.x), times(y, w.y), times(z, w.z)});

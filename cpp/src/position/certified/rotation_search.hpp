@@ -29,8 +29,8 @@ struct ProvedRotations {
 /// Whether all points of a box lie in another one, whatever their charts.
 bool inside(const ChartBox& box, const ChartBox& outer);
 
-/// `guesses` are approximate solutions, unit quaternions. They are tried first, to know which of them a solution is; what is
-/// proved does not depend on them.
+/// `guesses` are approximate solutions, unit quaternions. They are tried first, to know which of them a solution is;
+/// what is proved does not depend on them.
 ProvedRotations proved_rotations(const RotationQuadrics& quadrics, const std::vector<Eigen::Vector4d>& guesses);
 
 }  // namespace ninedof

@@ -1,5 +1,6 @@
 #include "proof/admissible/designs.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "ninedof/families/general_family.hpp"
@@ -62,6 +63,19 @@ DesignVector times(const Mat3& m, const DesignVector& v) {
 }
 
 }  // namespace
+
+DesignBox range_of(const DesignQuestion& question) {
+  DesignBox out;
+  std::ranges::copy(question.low, out.low.begin());
+  std::ranges::copy(question.high, out.high.begin());
+  return out;
+}
+
+DesignBox middle_of(const DesignBox& box, std::size_t dimensions) {
+  DesignBox out = box;
+  for (std::size_t k = 0; k < dimensions; ++k) out.low[k] = out.high[k] = 0.5 * (box.low[k] + box.high[k]);
+  return out;
+}
 
 DesignForms design_forms(const DesignQuestion& question, const DesignBox& box) {
   std::vector<DesignForm> x(question.at.begin(), question.at.end());

@@ -16,6 +16,10 @@ struct DesignBox {
   std::array<double, most_varied> low{}, high{};
 };
 
+DesignBox range_of(const DesignQuestion& question);
+/// The design in the middle, as a box of no width.
+DesignBox middle_of(const DesignBox& box, std::size_t dimensions);
+
 struct DesignForms {
   JointsOf<DesignForm> plates;  ///< in the frames of the plates
   JointsOf<DesignForm> joints;  ///< platform joints in the tool's frame

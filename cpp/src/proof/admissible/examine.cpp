@@ -46,10 +46,7 @@ MetAt Examiner::met_at(const Box& point, const DesignBox& designs) const {
     out.pose = -1 - point.piece;
     return out;
   }
-  DesignBox middle = designs;
-  for (std::size_t k = 0; k < question_.varied.size(); ++k)
-    middle.low[k] = middle.high[k] = 0.5 * (designs.low[k] + designs.high[k]);
-  const DesignForms forms = design_forms(question_, middle);
+  const DesignForms forms = design_forms(question_, middle_of(designs, question_.varied.size()));
   out.shift = centre(poses_.pose(point, forms).p) - centre(forms.home.p);
   out.tilt = Vec3(point.low[3], point.low[4], 0.0);
   out.yaw = point.low[5];
@@ -81,15 +78,17 @@ bool Examiner::breaks(const DesignBox& box, const std::vector<Loss>& witnesses, 
   if (!designs.known()) return false;
   const Stop never = [] { return false; };
   const Spreads spreads(designs, never);
-  for (const int k : some) {
-    Loss loss = witnesses[static_cast<std::size_t>(k)];
-    const Met met = meet(designs, spreads, loss);
-    if (!met.known || least_of(met.most) >= 0.0) continue;
-    loss.most = met.most;
-    known.losses.push_back(loss);
-    if (most_of(met.most) < 0.0) return true;
-  }
+  for (const int k : some)
+    if (is_lost(designs, spreads, witnesses[static_cast<std::size_t>(k)], known)) return true;
   return false;
+}
+
+bool Examiner::is_lost(const DesignsAt& designs, const Spreads& spreads, const Loss& witness, Knowledge& known) const {
+  const Met met = meet(designs, spreads, witness);
+  if (!met.known || least_of(met.most) >= 0.0) return false;
+  known.losses.push_back(witness);
+  known.losses.back().most = met.most;
+  return most_of(met.most) < 0.0;
 }
 
 std::vector<int> Examiner::worst_of(const DesignBox& design, const std::vector<Loss>& witnesses) const {
@@ -142,13 +141,9 @@ Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
     }
     if (!designs.known()) return;
     Spreads spreads(designs, stop);
-    for (Loss loss : asked.near) {
-      const Met met = meet(designs, spreads, loss);
+    for (const Loss& loss : asked.near) {
       ++out.boxes;
-      if (!met.known || least_of(met.most) >= 0.0) continue;
-      loss.most = met.most;
-      known.losses.push_back(loss);
-      if (most_of(met.most) < 0.0) return;
+      if (is_lost(designs, spreads, loss, known)) return;
     }
     for (const Spread& spread : demands_.spreads) {
       if (kept[n] == 0 && took(n, spreads.look_at(spread))) return;

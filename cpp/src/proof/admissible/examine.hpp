@@ -42,6 +42,8 @@ class Examiner {
 
  private:
   Met meet(const DesignsAt& designs, const Spreads& spreads, const Loss& loss) const;
+  /// Whether no design is inside, by where another broke a demand; the plane of those that are not goes to `known`.
+  bool is_lost(const DesignsAt& designs, const Spreads& spreads, const Loss& witness, Knowledge& known) const;
   std::vector<Box> roots_of(const Item& item) const;
   MetAt met_at(const Box& point, const DesignBox& designs) const;
 

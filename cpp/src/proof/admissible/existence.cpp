@@ -1,10 +1,10 @@
 /// Whether any design of a box is inside. Declared in ninedof/proof/admissible.hpp.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
+#include "math/time_limit.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "proof/admissible/examine.hpp"
 
@@ -33,21 +33,13 @@ struct Refutation {
 
 class Existence {
  public:
-  explicit Existence(const DesignQuestion& question) : examiner_(question), dimensions_(question.varied.size()) {
-    std::copy(question.low.begin(), question.low.end(), range_.low.begin());
-    std::copy(question.high.begin(), question.high.end(), range_.high.begin());
-  }
+  explicit Existence(const DesignQuestion& question)
+      : examiner_(question), dimensions_(question.varied.size()), range_(range_of(question)) {}
   Unrefuted whole() const { return {range_, volume_of(range_, dimensions_)}; }
   bool divisible(const DesignBox& box, double resolution) const {
-    for (std::size_t k = 0; k < dimensions_; ++k)
-      if (box.high[k] - box.low[k] > std::max(resolution, 1e-9) * (range_.high[k] - range_.low[k])) return true;
-    return false;
+    return is_divisible(box, dimensions_, range_, resolution);
   }
-  DesignBox middle(const DesignBox& box) const {
-    DesignBox out = box;
-    for (std::size_t k = 0; k < dimensions_; ++k) out.low[k] = out.high[k] = 0.5 * (box.low[k] + box.high[k]);
-    return out;
-  }
+  DesignBox middle(const DesignBox& box) const { return middle_of(box, dimensions_); }
   Refutation look(const Unrefuted& one, const Witnesses& witnesses, const Stop& stop) const {
     Refutation out;
     Knowledge known;
@@ -104,13 +96,9 @@ class Existence {
 
 DesignExistence any_admissible(const DesignQuestion& question, const DesignSettings& settings, const Control& control) {
   using namespace admissible;
-  using Clock = std::chrono::steady_clock;
   question.validate();
-  const Clock::time_point start = Clock::now();
-  const auto stopped = [&] {
-    return control.stop.stop_requested() ||
-           std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
-  };
+  const TimeLimit limit(settings.seconds, control.stop);
+  const auto stopped = [stop = limit.stop()] { return stop.stop_requested(); };
   const Existence search(question);
   DesignExistence out;
   Witnesses witnesses;

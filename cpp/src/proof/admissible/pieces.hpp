@@ -37,5 +37,7 @@ struct Divided {
 Divided divided(const DesignBox& box, std::size_t dimensions, const DesignBox& range, const Knowledge& known);
 
 double volume_of(const DesignBox& box, std::size_t dimensions);
+/// Whether a side is longer than this part of the range.
+bool is_divisible(const DesignBox& box, std::size_t dimensions, const DesignBox& range, double resolution);
 
 }  // namespace ninedof::admissible

@@ -1,17 +1,15 @@
 /// The box of designs, the largest undecided part next. Declared in ninedof/proof/admissible.hpp.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "math/time_limit.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "proof/admissible/examine.hpp"
 
 namespace ninedof {
 namespace admissible {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t boxes_at_once = 64;  // of a round: the result does not depend on the number of threads
 
@@ -32,10 +30,8 @@ struct LookedAt {
 
 class Search {
  public:
-  explicit Search(const DesignQuestion& question) : examiner_(question), dimensions_(question.varied.size()) {
-    std::copy(question.low.begin(), question.low.end(), range_.low.begin());
-    std::copy(question.high.begin(), question.high.end(), range_.high.begin());
-  }
+  explicit Search(const DesignQuestion& question)
+      : examiner_(question), dimensions_(question.varied.size()), range_(range_of(question)) {}
   const std::vector<Demand>& names() const { return examiner_.names(); }
   double volume() const { return volume_of(range_, dimensions_); }
   Waiting whole() const { return again({range_.low, range_.high, Membership::undecided, -1, {}, {}}); }
@@ -44,12 +40,7 @@ class Search {
     return {{box, {}, {}, {}}, volume_of(box, dimensions_), {piece}};
   }
   bool divisible(const Waiting& one, double resolution) const {
-    bool wide = false;
-    for (std::size_t k = 0; k < dimensions_; ++k) {
-      const double width = one.asked.box.high[k] - one.asked.box.low[k], range = range_.high[k] - range_.low[k];
-      wide = wide || width > std::max(resolution, 1e-9) * range;
-    }
-    return wide;
+    return is_divisible(one.asked.box, dimensions_, range_, resolution);
   }
   LookedAt look(const Waiting& one, const Stop& stop) const {
     LookedAt out;
@@ -80,11 +71,8 @@ DesignSet admissible_designs(const DesignQuestion& question, const DesignSetting
                              const std::vector<DesignPiece>& from, const Control& control) {
   using namespace admissible;
   question.validate();
-  const Clock::time_point start = Clock::now();
-  const auto stopped = [&] {
-    return control.stop.stop_requested() ||
-           std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
-  };
+  const TimeLimit limit(settings.seconds, control.stop);
+  const auto stopped = [stop = limit.stop()] { return stop.stop_requested(); };
   const Search search(question);
   DesignSet out;
   out.demands = search.names();

@@ -1,0 +1,16 @@
+#pragma once
+/// The shape of three joints.
+
+#include <Eigen/Geometry>
+
+#include "ninedof/robot/geometry.hpp"
+
+namespace ninedof {
+
+/// The least height over the longest side. Divided first: the cross product of very short or very long sides would
+/// underflow or overflow.
+inline double relative_height(const Triple& t, double longest) {
+  return ((t[1] - t[0]) / longest).cross((t[2] - t[0]) / longest).norm();
+}
+
+}  // namespace ninedof
