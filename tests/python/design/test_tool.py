@@ -237,10 +237,17 @@ def test_what_a_tool_does_not_go_with_names_it():
     beside = {"position": (1.0, 0.0, 0.0)}
     with pytest.raises(ValueError, match=r'"six_legged" and a tool beside .*\[tool\] position = \[0, 0, z\]'):
         nd.Study(objective={"index": "six_legged"}, tool=beside)
-    with pytest.raises(ValueError, match=r"tool: got \[tool\], expected none"):
-        nd.prove_optimum(nd.Study(tool=beside), 4.0)
     with pytest.raises(ValueError, match=r"tool\.position"):
         nd.Study(tool={"position": (0.0, 0.0, 1e200)})
+
+
+def test_a_bound_of_the_optimum_is_that_of_the_study_with_the_tool():
+    free = {"a1": 0.0, "b2": 0.0, "a2": (4.0, 8.0), "b1": (2.0, 4.0), "zp": 5.0, "zs": 3.0}
+    plain, tool = (nd.Study(variables=free, tool=one) for one in ({}, {"position": (1.0, 0.0, 0.0)}))
+    best = nd.optimize(tool, certify=True)
+    assert best.proof.complete
+    assert best.proof.gap(best.condition_number) < 1.1e-3
+    assert abs(best.lower_bound - nd.optimize(plain).condition_number) > 0.01
 
 
 def test_six_legs_with_a_tool_on_the_axis_are_those_of_the_twin():

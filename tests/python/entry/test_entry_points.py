@@ -161,7 +161,7 @@ def read(thing, seen):
 def test_every_property_of_every_result_can_be_read():
     seen = {}
     things = [it.result(), it.region_result(), it.certificate(), it.proof(), it.front(), it.workspace(), it.certified()]
-    things.append(it.admissible_set())
+    things += [it.admissible_set(), it.admissible_rows()]
     things += [it.design(), nd.follow(it.g(), it.trajectory(), it.c(), limits=(np.zeros(9), np.full(9, 2.0)))]
     for thing in (*things, *(ROWS[name].call(**ROWS[name].arguments()) for name in RETURNING)):
         read(thing, seen)

@@ -128,6 +128,7 @@ POINT = {"a2": 5.0, "b1": 3.0, "zp": 4.0, "zs": 2.0, "theta_z": 0.0}
 BAD_POINT = {"a2": NAN, "zp": INF, "zs": None, "b1": "1", "theta_z": True}
 ORIENTATION = {"archetype": "orientation", "box": None, "position": [0, 0, 4]}
 HOME = it.on_axis()
+MANY_FREE = nd.Study(variables={"theta_z": (0.0, 0.1)}, objective={"region": {"ball": 0.1}})
 NO_DESIGN = dataclasses.replace(it.result(), candidates=())
 AT_JOINT = nd.Configuration(HOME.position, ONE, HOME.position + it.g().platform_internal[0])
 APART = [  # a row, entries that are refused because of what they are together or where they stand, words of the error
@@ -268,12 +269,16 @@ APART = [  # a row, entries that are refused because of what they are together o
     ("pareto", {"values": [2.0, NAN]}, r"values\[1\]: got nan, expected a finite number"),
     ("pareto", {"values": 2.0}, "values: got 2.0, expected a sequence of limits"),
     ("pareto", {"values": None, "points": 1}, "points: got 1, expected a whole number from 2"),
-    ("prove_optimum", {"study": nd.Study("general")}, "family: got general"),
+    ("prove_optimum", {"study": MANY_FREE}, "variables: got 7 that are free, expected one to 6"),
     ("prove_optimum", {"study": nd.Study(characteristic_length="mean_leg")}, "characteristic_length: got no number"),
-    ("prove_optimum", {"study": nd.Study(objective={"poses": [{"position": [0.1, 0, 0]}]})}, "objective: got 1 poses"),
+    (
+        "prove_optimum",
+        {"study": nd.Study(objective={"poses": [{"position": [0.1, 0, 0], "internal_point": "best"}]})},
+        "poses: got O chosen at a pose",
+    ),
     ("prove_optimum", {"study": nd.Study(variables={"zp": (0.0, 5.0)})}, r"zp: got \[0, 5\]"),
     ("prove_optimum", {"study": nd.Study(objective={"index": "speed"})}, "objective: got another index"),
-    ("optimize", {"study": nd.Study("general"), "certify": True, "warm": None}, "family: got general"),
+    ("optimize", {"study": MANY_FREE, "certify": True, "warm": None}, "variables: got 7 that are free"),
     ("prove_optimum", {"condition_number": 3.0, "gap": 1.0}, ".*more than 1 to be proved"),
     ("Result.certify", {"gap": 0.0}, "gap: got 0.0, expected a finite number at least 1e-09"),
     ("Result.certify", {"condition_number": 0.5}, "condition_number: got 0.5"),

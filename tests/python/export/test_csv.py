@@ -104,7 +104,10 @@ BAD = {
     "a length of zero": (BY_HAND + "setting,value\ncharacteristic_length,0\n", "expected a positive number"),
     "an unknown kind": (BY_HAND + "setting,value\ncharacteristic_length,best\n", "got 'best'"),
     "an unknown setting": (BY_HAND + "setting,value\nlc,1\n", "got 'lc'"),
-    "joints on a line": (BY_HAND.replace("-3.5,2,0", "0,2,0").replace("3.5,2,0", "0,3,0"), "base_external"),
+    "joints on a line": (
+        BY_HAND.replace("-3.5,2,0", "0,2,0").replace("3.5,2,0", "0,3,0"),
+        "base_internal: got collinear joints",
+    ),
 }
 
 

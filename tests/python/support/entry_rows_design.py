@@ -412,7 +412,7 @@ row("admissible_actuators", few=3, words={"vary": ("vary",)})(
         "progress": None,
     }
 )
-row("AdmissibleRow.to_dict", lambda: it.admissible_row().to_dict())(dict)
+row("AdmissibleRow.to_dict", lambda: it.admissible_rows().rows[0].to_dict())(dict)
 row("AdmissibleSet.state_of", lambda **a: it.admissible_set().state_of(**a))(lambda: {"designs": [[5.0, 3.0]]})
 row("AdmissibleSet.around", lambda **a: it.admissible_set().around(**a), few=3)(
     lambda: {"design": {"a2": 5.0, "b1": 3.0}, "proportions": {"a2": 2.0, "b1": 1.0}}

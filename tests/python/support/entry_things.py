@@ -88,9 +88,9 @@ def study_with_actuators():
 
 
 @functools.cache
-def admissible_row():
-    place = {"zp": 4.0, "zs": 2.4, "theta_z": 0.0}
-    return nd.admissible_actuators(study_with_actuators(), {"a2": (4.0, 8.0)}, at={**place, "b1": 3.0}).rows[0]
+def admissible_rows():
+    place = {"zp": 4.0, "zs": 2.4, "theta_z": 0.0, "b1": 3.0}
+    return nd.admissible_actuators(study_with_actuators(), {"a2": (4.0, 8.0)}, at=place)
 
 
 @functools.cache
