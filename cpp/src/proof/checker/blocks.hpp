@@ -1,6 +1,7 @@
 #pragma once
 /// Why no design of a box has a condition number below the target.
 
+#include "proof/checker/curves.hpp"
 #include "proof/checker/designs.hpp"
 
 namespace ninedof::checker {

@@ -92,7 +92,7 @@ class Walk {
     std::size_t widest = 0;
     double width = -1.0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d_.dimension); ++k) {
-      const double w = std::log(box[k].b / box[k].a);
+      const double w = box[k].b / box[k].a;
       if (w > width) width = w, widest = k;
     }
     const auto [low, high] = halves(box, widest, d_.dimension);

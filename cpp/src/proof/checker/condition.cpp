@@ -74,9 +74,10 @@ void diagonalize(Square<double, six>& s, Square<double, six>& v) {
   for (int sweep = 0; sweep < 12; ++sweep)
     for (std::size_t p = 0; p < six; ++p)
       for (std::size_t q = p + 1; q < six; ++q) {
-        if (!(std::abs(s[p][q]) > 0.0)) continue;
-        const double theta = 0.5 * std::atan2(2.0 * s[p][q], s[p][p] - s[q][q]);
-        const double c = std::cos(theta), d = std::sin(theta);
+        if (!(s[p][q] * s[p][q] > 0.0)) continue;  // the square is divided by
+        const double half = 0.5 * (s[p][p] - s[q][q]), most = std::sqrt(half * half + s[p][q] * s[p][q]);
+        const double tangent = s[p][q] / (half + (half < 0.0 ? -most : most));
+        const double c = 1.0 / std::sqrt(1.0 + tangent * tangent), d = tangent * c;
         const auto turn = [&](double& x, double& y) {
           const double old = x;
           x = c * old + d * y;

@@ -1,5 +1,7 @@
 #include "proof/checker/designs.hpp"
 
+#include "proof/checker/curves.hpp"
+
 namespace ninedof::checker {
 namespace {
 
@@ -7,18 +9,13 @@ constexpr double pi = 3.14159265358979323846;
 /// Of what a certificate may have: squares and most products stay among the doubles.
 constexpr double smallest_number = 1e-100, largest_number = 1e100;
 
-/// A little more than rounding can do to an angle of a few radians.
-Range blurred(double a, double b) {
-  return {a - 1e-14, b + 1e-14};
-}
-
 /// Radius of a hexagon with sides s1 and s2, and the angle of its first joint below the x axis.
 Range radius(Range s1, Range s2) {
   return root((square(s1) + s1 * s2 + square(s2)) / 3.0);
 }
 Range below_x(Range s1, Range s2) {
-  const auto angle = [](double a, double b) { return std::atan2(std::sqrt(3.0) * (a + 2.0 * b), 3.0 * a); };
-  return blurred(s1.b > 0.0 ? angle(s1.b, s2.a) : pi / 2.0, s2.b > 0.0 ? angle(s1.a, s2.b) : pi / 6.0);
+  const auto angle = [](Range a, Range b) { return angle_of(3.0 * a, root(3.0) * (a + 2.0 * b)); };
+  return {s1.b > 0.0 ? angle(s1.b, s2.a).a : down(pi / 2.0), s2.b > 0.0 ? angle(s1.a, s2.b).b : up(pi / 6.0)};
 }
 
 /// tan(theta/2), theta folded into [0, pi]: an angle counts modulo 2 pi and without its sign.
@@ -30,10 +27,14 @@ Range half_tangent(Range theta) {
   const auto meets = [&](double angle) {
     return std::floor((wide.b - angle) / turn) != std::floor((wide.a - angle) / turn);
   };
-  const double a = std::abs(std::remainder(theta.a, turn)), b = std::abs(std::remainder(theta.b, turn));
+  const auto folded = [](double x) { return std::abs(x - turn * std::floor(x / turn + 0.5)); };
+  const double a = folded(theta.a), b = folded(theta.b);
   const double near = meets(0.0) ? 0.0 : std::min(a, b) - blur, far = meets(pi) ? pi : std::max(a, b) + blur;
-  return {std::max(std::tan(std::max(near, 0.0) / 2.0) * (1.0 - 1e-14), 0.0),
-          far < pi - 1e-9 ? std::tan(far / 2.0) * (1.0 + 1e-14) : inf};
+  const auto tangent = [](double x) {
+    const OnCircle at = sine_cosine(x);
+    return at.sine / at.cosine;
+  };
+  return {std::max(tangent(std::max(near, 0.0) / 2.0).a, 0.0), far < pi - 1e-9 ? tangent(far / 2.0).b : inf};
 }
 
 bool disjoint(Range x, Range y) {

@@ -1,12 +1,10 @@
 #pragma once
 /// The checker's numbers over a box of designs and poses: c + sum of a_k t_k, off by at most r, for all t_k from -1 to 1.
 /// Every error of rounding is in r. A number of which nothing is known has r = NaN, and passes no test.
-///
-/// Sine and cosine of the C library are taken to be right to three units in the last place.
 
 #include <array>
 
-#include "proof/checker/ranges.hpp"
+#include "proof/checker/curves.hpp"
 
 namespace ninedof::checker {
 
@@ -114,11 +112,20 @@ inline Linear square_root(const Linear& x) {
   const double y = std::sqrt(x.c);
   return bent(x, y, 0.5 / y, {-0.25 / (low * std::sqrt(low)) * grain::up, 0.0});
 }
+/// The same with a value and a slope that are known up to their ranges.
+inline Linear waved(const Linear& x, Range value, Range slope) {
+  Linear out = bent(x, 0.5 * (value.a + value.b), 0.5 * (slope.a + slope.b), {-1.0, 1.0});
+  const double h = (swing(x) + x.r) * grain::up;
+  out.r = (out.r + (value.b - value.a) + (slope.b - slope.a) * h) * grain::up;
+  return out;
+}
 inline Linear sine(const Linear& x) {
-  return bent(x, std::sin(x.c), std::cos(x.c), {-1.0, 1.0});
+  const OnCircle at = sine_cosine(x.c);
+  return waved(x, at.sine, at.cosine);
 }
 inline Linear cosine(const Linear& x) {
-  return bent(x, std::cos(x.c), -std::sin(x.c), {-1.0, 1.0});
+  const OnCircle at = sine_cosine(x.c);
+  return waved(x, at.cosine, -at.sine);
 }
 
 /// sin(v)/v (shift 1) and (1 - cos v)/v^2 (shift 2) of u = v^2, by their series sum of (-u)^n / (2n + shift)!. Their

@@ -55,10 +55,6 @@ inline Range square(Range x) {
 inline Range root(Range x) {
   return {x.a > 0.0 ? std::max(down(std::sqrt(x.a)), 0.0) : 0.0, up(std::sqrt(std::max(x.b, 0.0)))};
 }
-/// The logarithm of the C library is taken to be right to three units in the last place.
-inline Range logarithm(Range x) {
-  return {x.a > 0.0 ? down(down(down(std::log(x.a)))) : -inf, up(up(up(std::log(x.b))))};
-}
 inline Range meet(Range x, Range y) {
   return {std::max(x.a, y.a), std::min(x.b, y.b)};
 }

@@ -57,7 +57,7 @@ class DesignsReplay {
     // Of the place of one in the middle of the designs: a cube may be so large that any distance is small beside it.
     const auto together = [&](std::size_t i, std::size_t j) {
       const Arrow &one = m.plate[i], apart = one - m.plate[j];
-      const double size = std::hypot(one.x.c, one.y.c, one.z.c);
+      const double size = std::max({std::abs(one.x.c), std::abs(one.y.c), std::abs(one.z.c)});
       const auto nowhere = [size](const Linear& x) { return std::abs(x.c) + swing(x) + x.r <= 1e-12 * size; };
       return nowhere(apart.x) && nowhere(apart.y) && nowhere(apart.z);
     };

@@ -149,7 +149,7 @@ Linear Weigher::number(const Want& want, const Posed& at, Weighed& out) const {
   }
   if (want.platform) axis = carried(at.stand, axis);
   add_moves(square_root(dot(v, v)) * axis, false, out);
-  return dot(Linear(sense) * unit(v), axis) - Linear(std::cos(bound(want)), 0x1p-48);
+  return dot(Linear(sense) * unit(v), axis) - cosine(bound(want));
 }
 
 /// The legs are at least the least of four products along a unit vector n apart: those of n with the ways from the ends of
