@@ -22,6 +22,7 @@ const std::map<std::string, Operation>& operations() {
       {"square", [](I a, I) { return square(a); }}, {"sqrt", [](I a, I) { return sqrt(a); }},
       {"exp", [](I a, I) { return exp(a); }},       {"log", [](I a, I) { return log(a); }},
       {"sin", [](I a, I) { return sin(a); }},       {"cos", [](I a, I) { return cos(a); }},
+      {"atan", [](I a, I) { return atan(a); }},     {"acos", [](I a, I) { return acos(a); }},
   };
   return table;
 }

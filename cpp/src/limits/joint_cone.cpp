@@ -47,11 +47,7 @@ struct JointCone {
     const double sine = std::sin(angle);
     return sine > 1e-12 ? -1.0 / sine : 0.0;
   }
-  /// acos of the C library is within two units in the last place.
-  static Interval read(const Interval& cosine) {
-    const double most = std::clamp(cosine.hi, -1.0, 1.0), least = std::clamp(cosine.lo, -1.0, 1.0);
-    return {std::max(std::acos(most) * (1.0 - 0x1p-50), 0.0), std::acos(least) * (1.0 + 0x1p-50)};
-  }
+  static Interval read(const Interval& cosine) { return acos(cosine); }
   static Interval smooth(const Interval& angle) { return cos(angle); }
   template <class Look>
   static void moves(const Look& look, int item, Moves& out) {

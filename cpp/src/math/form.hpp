@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/elementary.hpp"
 #include "ninedof/math/interval.hpp"
 
 namespace ninedof {
@@ -154,14 +155,16 @@ struct Form {
   }
   /// The second derivative of sines is at most 1.
   friend Form sin(const Form& x) {
-    if constexpr (curved) return sine(x, std::sin(x.c), std::cos(x.c));
+    const auto at = elementary::sine_cosine(x.c);
+    if constexpr (curved) return sine(x, at.sine, at.cosine);
     const double w = radius(x), rest = 0.5 * w * w;
-    return linear(x, std::sin(x.c), std::cos(x.c), -rest, rest);
+    return linear(x, at.sine, at.cosine, -rest, rest);
   }
   friend Form cos(const Form& x) {
-    if constexpr (curved) return sine(x, std::cos(x.c), -std::sin(x.c));
+    const auto at = elementary::sine_cosine(x.c);
+    if constexpr (curved) return sine(x, at.cosine, -at.sine);
     const double w = radius(x), rest = 0.5 * w * w;
-    return linear(x, std::cos(x.c), -std::sin(x.c), -rest, rest);
+    return linear(x, at.cosine, -at.sine, -rest, rest);
   }
   /// sin(theta) / theta of u = theta^2, the mean of cos(t theta) over t from 0 to 1: |second derivative| <= 1/60.
   friend Form sine_over(const Form& u) { return of_squared_angle(u, 1, 1.0 / 60.0); }

@@ -1,10 +1,10 @@
 #include "ninedof/math/interval.hpp"
 
 #include <cfenv>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "math/elementary.hpp"
 #include "ninedof/math/error.hpp"
 
 namespace ninedof {
@@ -13,40 +13,27 @@ namespace {
 
 using detail::above, detail::below;
 
-/// x is a value of the C library, at most two units in the last place from the exact one.
-double library_below(double x) {
+/// The numbers that are within 2 u of the modulus of x, and within half of the least double (u = 2^-53): two neighbours
+/// of x are at least that far (docs/theory/elementary.md).
+double twice_below(double x) {
   return below(below(x));
 }
-double library_above(double x) {
+double twice_above(double x) {
   return above(above(x));
 }
 
-/// The integers k with k pi/2 in x lie in first .. last; none if first > last.
-struct QuarterTurns {
-  double first, last;
-};
+using Wave = double (*)(const elementary::SineCosine&);
 
-/// Counted too generously where rounding leaves a doubt: an extreme value that is not attained only widens.
-QuarterTurns quarter_turns(const Interval& x) {
-  // pi/2 to 2^-54; dividing by an interval about it gives every k in question.
-  const Interval half_pi = {below(std::numbers::pi / 2.0), above(std::numbers::pi / 2.0)};
-  const Interval turns = x / half_pi;
-  return {std::ceil(turns.lo), std::floor(turns.hi)};
-}
-
-/// Whether an integer from first to last is `wanted` modulo 4.
-bool has(const QuarterTurns& turns, double wanted) {
-  const double k = turns.first + std::fmod(std::fmod(wanted - turns.first, 4.0) + 4.0, 4.0);
-  return k <= turns.last;
-}
-
-/// The range of a sine or cosine: its values at the ends, and the extreme values where their angles lie within.
-Interval wave(const Interval& x, double at_lo, double at_hi, double top, double bottom) {
-  constexpr double reduced_exactly = 0x1p30;  // beyond, quarter turns are not told apart with certainty
-  if (!(magnitude(x) < reduced_exactly)) return {-1.0, 1.0};
-  const QuarterTurns turns = quarter_turns(x);
-  const double lo = has(turns, bottom) ? -1.0 : library_below(std::min(at_lo, at_hi));
-  const double hi = has(turns, top) ? 1.0 : library_above(std::max(at_lo, at_hi));
+/// The range of a sine or cosine: its values at the ends, and the extreme values at quarter turns within; `top` and
+/// `bottom` are those of 1 and -1, modulo 4.
+Interval wave(const Interval& x, Wave value, int top, int bottom) {
+  if (!(magnitude(x) < elementary::most_radians)) return {-1.0, 1.0};
+  const auto from = elementary::quarter_turns(x.lo), to = elementary::quarter_turns(x.hi);
+  const long first = static_cast<long>(from.quarters) + (from.high > 0.0 ? 1 : 0),
+             last = static_cast<long>(to.quarters) - (to.high < 0.0 ? 1 : 0);
+  const auto has = [&](long wanted) { return first + ((wanted - first) & 3) <= last; };
+  const double a = value(elementary::sine_cosine(from)), b = value(elementary::sine_cosine(to));
+  const double lo = has(bottom) ? -1.0 : twice_below(std::min(a, b)), hi = has(top) ? 1.0 : twice_above(std::max(a, b));
   return {std::max(lo, -1.0), std::min(hi, 1.0)};
 }
 
@@ -73,20 +60,35 @@ void require_sound_arithmetic() {
 }
 
 Interval exp(const Interval& x) {
-  return {std::max(library_below(std::exp(x.lo)), 0.0), library_above(std::exp(x.hi))};
+  return {std::max(twice_below(elementary::exp(x.lo)), 0.0), twice_above(elementary::exp(x.hi))};
 }
 
 Interval log(const Interval& x) {
   if (!(x.hi > 0.0)) return Interval::whole();
-  return {x.lo > 0.0 ? library_below(std::log(x.lo)) : -detail::no_bound, library_above(std::log(x.hi))};
+  return {x.lo > 0.0 ? twice_below(elementary::log(x.lo)) : -detail::no_bound, twice_above(elementary::log(x.hi))};
 }
 
 Interval sin(const Interval& x) {
-  return wave(x, std::sin(x.lo), std::sin(x.hi), 1.0, 3.0);
+  return wave(x, [](const elementary::SineCosine& at) { return at.sine; }, 1, 3);
 }
 
 Interval cos(const Interval& x) {
-  return wave(x, std::cos(x.lo), std::cos(x.hi), 0.0, 2.0);
+  return wave(x, [](const elementary::SineCosine& at) { return at.cosine; }, 0, 2);
+}
+
+Interval atan(const Interval& x) {
+  constexpr double wider = 0x1.cp-51;  // 7 u: 5 of the arc tangent, 1 of the difference
+  const double lo = elementary::atan(x.lo), hi = elementary::atan(x.hi);
+  return {lo - (wider * std::abs(lo) + detail::least_double), hi + (wider * std::abs(hi) + detail::least_double)};
+}
+
+Interval acos(const Interval& x) {
+  constexpr double wider = 0x1.4p-50;  // 10 u: 5 of the arc tangent, 2.5 of its argument, 1 of the product
+  const auto angle = [](double c) {
+    c = std::clamp(c, -1.0, 1.0);
+    return 2.0 * elementary::atan(std::sqrt((1.0 - c) / (1.0 + c)));
+  };
+  return {angle(x.hi) * (1.0 - wider), angle(x.lo) * (1.0 + wider)};
 }
 
 }  // namespace ninedof

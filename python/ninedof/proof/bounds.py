@@ -81,10 +81,9 @@ def condition_number_bounds(
 
     Notes
     -----
-    Assumed are IEEE 754 doubles rounded to nearest, and fma, sqrt and ldexp of the C library rounded correctly. The
-    approximate singular vectors need not be trusted: they are verified. `axis_condition_number_bounds` and
-    `hexagonal_condition_number_bounds` are the same by the closed form, faster and narrower. Theory of proof, certified
-    numbers.
+    Assumed are IEEE 754 doubles rounded to nearest, square roots too. The approximate singular vectors need not be
+    trusted: they are verified. `axis_condition_number_bounds` and `hexagonal_condition_number_bounds` are the same by
+    the closed form, faster and narrower. Theory of proof, certified numbers.
 
     Examples
     --------

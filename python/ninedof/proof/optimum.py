@@ -72,8 +72,7 @@ def prove_optimum(
 
     Notes
     -----
-    docs/theory/proof.md has the lemmas. Assumed: IEEE 754 arithmetic, and a logarithm, exponential, sine and cosine of
-    the C library that are right within two units in the last place.
+    docs/theory/proof.md has the lemmas. Assumed: IEEE 754 arithmetic.
 
     Examples
     --------

@@ -50,7 +50,7 @@ TEST_SUITE("interval") {
     for (const Interval& a : {zero, all, positive, huge, -huge, Interval(-1.0, 1.0), Interval(least)})
       for (const Interval& b : {zero, all, positive, huge, -huge, Interval(-1.0, 1.0), Interval(least)})
         for (const Interval& r :
-             {a + b, a - b, a * b, a / b, square(a), sqrt(a), abs(a), exp(a), log(a), sin(a), cos(a)})
+             {a + b, a - b, a * b, a / b, square(a), sqrt(a), abs(a), exp(a), log(a), sin(a), cos(a), atan(a), acos(a)})
           CHECK(r.lo <= r.hi);  // false for NaN
     CHECK(inside(zero * all, zero));
     CHECK((1.0 / Interval(-1.0, 1.0)).hi == inf);
@@ -67,6 +67,14 @@ TEST_SUITE("interval") {
     CHECK(cos(Interval(6.2, 6.4)).hi == 1.0);
     CHECK(cos(Interval(0.1, 3.0)).hi < 1.0);
     CHECK(sin(Interval(1e300)).lo == -1.0);
+  }
+
+  TEST_CASE("angles keep their ends") {
+    CHECK(contains(atan(Interval(-1.0, inf)), -0.785398163397448));
+    CHECK(atan(Interval(-1.0, inf)).hi == doctest::Approx(1.5707963267948966));
+    CHECK(acos(Interval(-2.0, 2.0)).lo == 0.0);
+    CHECK(acos(Interval(-2.0, 2.0)).hi > 3.141592653589793);
+    CHECK(acos(Interval(0.0)).hi - acos(Interval(0.0)).lo < 1e-14);
   }
 
   TEST_CASE("the closed form over intervals encloses its values and gradients over a box") {

@@ -7,8 +7,7 @@
 /// safe on any thread, the same bits on every processor.
 ///
 /// Assumed: IEEE 754 doubles rounded to nearest, with gradual underflow and without fused operations
-/// (-ffp-contract=off); log, exp, sin and cos of the C library within two units in the last place. `arithmetic_fault`
-/// looks whether the first holds in this process.
+/// (-ffp-contract=off). `arithmetic_fault` looks whether that holds in this process. Nothing is assumed of the C library.
 ///
 /// Sources of values and gradients that are templates over the number type take an Interval, or a dual number of
 /// intervals, as they take a double.
@@ -149,12 +148,16 @@ inline Interval sqrt(const Interval& x) {
   return {x.lo > 0.0 ? std::max(detail::below(std::sqrt(x.lo)), 0.0) : 0.0, detail::above(std::sqrt(x.hi))};
 }
 
-// Of the C library: two units in the last place on either side. In interval.cpp.
+// By math/elementary.hpp: two units in the last place on either side. In interval.cpp.
 Interval exp(const Interval& x);
 /// The logarithms of what is positive in x; all numbers if nothing is.
 Interval log(const Interval& x);
 Interval sin(const Interval& x);
 Interval cos(const Interval& x);
+/// Five to ten units of the last place.
+Interval atan(const Interval& x);
+/// Of what is from -1 to 1; ends beyond count as -1 or 1.
+Interval acos(const Interval& x);
 
 /// Only to be compared with zero: zero for [0, 0] and nothing else.
 inline double value_of(const Interval& x) {

@@ -5,9 +5,8 @@
 /// it stands: the platform joints are at p + Q u_i whether or not Q is orthogonal to the last bit. A statement about
 /// these points holds for a true robot whose platform differs from the one given by the rounding of Q.
 ///
-/// Assumed: what interval.hpp assumes of the arithmetic; the C library's fma and ldexp rounded correctly. Nothing is
-/// assumed of the approximate singular vectors and inverses that are used: they are verified
-/// (docs/theory/proof.md#certified-numbers).
+/// Assumed: what interval.hpp assumes of the arithmetic. Nothing is assumed of the approximate
+/// singular vectors and inverses that are used: they are verified (docs/theory/proof.md#certified-numbers).
 ///
 /// Every function throws std::runtime_error where `arithmetic_fault` finds the arithmetic of this thread unfit, and
 /// InvalidArgument unless the characteristic length is finite and positive. A configuration with NaN, and numbers

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "math/elementary.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/types.hpp"
 
@@ -115,9 +116,12 @@ struct Turning {
   }
 
   Enclosure<Vec3> at(double t, double window) const {
-    const double angle = rate * t, c = std::cos(angle), s = std::sin(angle);
+    const double angle = rate * t;
+    const bool far = !(angle < elementary::most_radians);  // where nothing is known of the direction
+    const auto [s, c] = far ? elementary::SineCosine{0.0, 0.0} : elementary::sine_cosine(angle);
     const Vec3 part = c * across + s * around;
-    const double off = 8.0 * eps * (1.0 + angle) * size + error, radius = around.norm() + 4.0 * eps * size;
+    const double off = (far ? 2.0 : 8.0 * eps * (1.0 + angle)) * size + error,
+                 radius = around.norm() + 4.0 * eps * size;
     Enclosure<Vec3> out{{along + part, rate * (c * around - s * across), -0.5 * rate * rate * part},
                         {off, rate * off, rate * rate * off},
                         {infinity, rate * radius, 0.5 * rate * rate * radius, rate * rate * rate * radius / 6.0}};

@@ -7,7 +7,6 @@
 #include "ninedof/families/hexagonal_family.hpp"
 #include "ninedof/families/symmetric_family.hpp"
 #include "ninedof/math/error.hpp"
-#include "ninedof/math/rotation.hpp"
 
 namespace ninedof::admissible {
 namespace {
@@ -56,10 +55,27 @@ Blueprints blueprints(const DesignFamily& family, std::span<const DesignForm> x)
   return out;
 }
 
-/// A matrix of doubles times a vector.
-DesignVector times(const Mat3& m, const DesignVector& v) {
-  const auto row = [&](Eigen::Index i) { return m(i, 0) * v.x + m(i, 1) * v.y + m(i, 2) * v.z; };
-  return {row(0), row(1), row(2)};
+using Rows = std::array<DesignVector, 3>;
+
+/// The rotation by w: 1 + S w x + C w x w x with S = sin a / a, C = 2 (sin(a/2) / a)^2, a = |w|. A matrix of doubles
+/// would be another one.
+Rows rotation_rows(const Vec3& w) {
+  const Interval x = w.x(), y = w.y(), z = w.z(), u = square(x) + square(y) + square(z), angle = sqrt(u);
+  const auto mean = [](const Interval& a) { return a.lo > 0.0 ? sin(a) / a : Interval(0.0, 1.0); };
+  const Interval s = mean(angle), c = 0.5 * square(mean(0.5 * angle)), rest = 1.0 - c * u;
+  const auto row = [](const Interval& a, const Interval& b, const Interval& d) {
+    return DesignVector{DesignForm::of(a), DesignForm::of(b), DesignForm::of(d)};
+  };
+  return {row(rest + c * square(x), c * (x * y) - s * z, c * (x * z) + s * y),
+          row(c * (x * y) + s * z, rest + c * square(y), c * (y * z) - s * x),
+          row(c * (x * z) - s * y, c * (y * z) + s * x, rest + c * square(z))};
+}
+DesignVector times(const Rows& m, const DesignVector& v) {
+  return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
+}
+Rows transposed(const Rows& m) {
+  return {DesignVector{m[0].x, m[1].x, m[2].x}, DesignVector{m[0].y, m[1].y, m[2].y},
+          DesignVector{m[0].z, m[1].z, m[2].z}};
 }
 
 }  // namespace
@@ -91,16 +107,12 @@ DesignForms design_forms(const DesignQuestion& question, const DesignBox& box) {
   out.home.p = {zero, zero, own.zp};
   out.home.s = {zero, zero, own.zs};
   if (!tool.position.isZero(0.0)) out.home.p = out.home.p + turned(out.home, tool.position);
-  if (tool.turned()) {
-    const Mat3 axes = tool.axes();
-    std::array<DesignVector, 3> q;
-    for (std::size_t k = 0; k < 3; ++k) q[k] = turned(out.home, Vec3(axes.col(static_cast<Eigen::Index>(k))));
-    out.home.q = q;
-  }
-  for (std::size_t k = point_u; k < out.joints.size(); ++k) {
+  for (std::size_t k = point_u; k < out.joints.size(); ++k)
     out.joints[k] = own.joints[k] - constant<DesignForm>(tool.position);
-    if (tool.turned()) out.joints[k] = times(tool.axes().transpose(), out.joints[k]);
-  }
+  if (!tool.turned()) return out;
+  const Rows axes = transposed(rotation_rows(tool.rotation));
+  out.home.q = {turned(out.home, axes[0]), turned(out.home, axes[1]), turned(out.home, axes[2])};
+  for (std::size_t k = point_u; k < out.joints.size(); ++k) out.joints[k] = times(axes, out.joints[k]);
   return out;
 }
 
@@ -113,7 +125,7 @@ PoseOf<DesignForm> listed_pose(const Pose& pose, const DesignForms& designs) {
   out.p = out.p + shift(pose.position);
   out.s = out.s + shift(pose.internal);
   if (pose.rotation.isZero(0.0)) return out;
-  const Mat3 turn = exp_rotation(pose.rotation);
+  const Rows turn = rotation_rows(pose.rotation);
   for (DesignVector& column : out.q) column = times(turn, column);
   return out;
 }

@@ -1,13 +1,13 @@
 #pragma once
 /// Sums of products of doubles, enclosed to the last bit whatever cancels.
 ///
-/// Each product and each partial sum is split into its rounded value and the exact remainder (TwoProduct with a fused
-/// operation, TwoSum of Knuth). The sum of all remainders is small, and an ordinary bound of its rounding error
+/// Each product and each partial sum is split into its rounded value and the exact remainder (TwoProduct of Dekker,
+/// TwoSum of Knuth). The sum of all remainders is small, and an ordinary bound of its rounding error
 /// suffices (docs/theory/proof.md, lemma 3).
 
 #include <cmath>
 
-#include "ninedof/math/interval.hpp"
+#include "math/elementary.hpp"
 #include "ninedof/math/xyz.hpp"
 
 namespace ninedof {
@@ -15,9 +15,9 @@ namespace ninedof {
 class DotSum {
  public:
   DotSum& product(double x, double y) {
-    const double rounded = x * y;
-    rest(std::fma(x, y, -rounded));
-    return number(rounded);
+    const elementary::Product both = elementary::product(x, y);
+    rest(both.low);
+    return number(both.high);
   }
   DotSum& number(double x) {
     const double sum = sum_ + x;
@@ -28,9 +28,9 @@ class DotSum {
   }
 
   Interval value() const {
-    // Adding n remainders costs at most 1.01 n u times the sum of their moduli, and each lost at most eta below the
+    // Adding n remainders costs at most 1.01 n u times the sum of their moduli, and each lost at most 4 eta below the
     // normal numbers; u = 2^-53, so there is a factor of nearly two to spare.
-    const double error = remainders_ * (0x1p-52 * moduli_ + detail::least_double);
+    const double error = remainders_ * (0x1p-52 * moduli_ + 4.0 * detail::least_double);
     return {detail::below(sum_ + detail::below(rest_ - error)), detail::above(sum_ + detail::above(rest_ + error))};
   }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/elementary.hpp"
 #include "ninedof/proof/bounds.hpp"
 #include "ninedof/proof/closed_form_bounds.hpp"
 #include "proof/numbers/condition_bounds.hpp"
@@ -38,10 +39,12 @@ Interval radius_form_of_differences(const Interval& x, const Interval& y) {
 
 /// a b - c d to the last bit: as DotSum, written out for two products.
 Interval difference_of_products(double a, double b, double c, double d) {
-  const double first = a * b, second = c * d, rounded = first - second, part = rounded - first;
+  const auto [first, first_low] = elementary::product(a, b);
+  const auto [second, second_low] = elementary::product(c, d);
+  const double rounded = first - second, part = rounded - first;
   const double left = (first - (rounded - part)) - (second + part);
-  const Interval of_products = Interval(std::fma(a, b, -first)) - Interval(std::fma(c, d, -second));
-  const Interval lost(-detail::least_double, detail::least_double);  // below the normal numbers
+  const Interval of_products = Interval(first_low) - Interval(second_low);
+  const Interval lost(-8.0 * detail::least_double, 8.0 * detail::least_double);  // below the normal numbers
   return Interval(rounded) + (Interval(left) + (of_products + lost));
 }
 

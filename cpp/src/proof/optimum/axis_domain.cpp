@@ -1,7 +1,5 @@
 #include "proof/optimum/axis_domain.hpp"
 
-#include <numbers>
-
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 
@@ -39,11 +37,9 @@ Interval hexagon_radius(const Interval& s1, const Interval& s2) {
 
 /// Angle of its joint 1 below the x axis, from 30 to 90 degrees, growing with s2 / s1.
 Interval hexagon_angle(const Interval& s1, const Interval& s2) {
-  constexpr double third = std::numbers::pi / 6.0, right = std::numbers::pi / 2.0;
-  const auto at = [](double a, double b) { return std::atan2(std::numbers::sqrt3 * (a + 2.0 * b), 3.0 * a); };
-  const double lo = s1.hi > 0.0 ? at(s1.hi, s2.lo) : right, hi = s2.hi > 0.0 ? at(s1.lo, s2.hi) : third;
-  constexpr double slack = 1e-15;  // of sqrt 3, three roundings and the arc tangent, far less
-  return {lo - slack, hi + slack};
+  const auto at = [](const Interval& a, const Interval& b) { return atan((a + 2.0 * b) / (sqrt(Interval(3.0)) * a)); };
+  const Interval third = atan(1.0 / sqrt(Interval(3.0))), right = 3.0 * third;
+  return {s1.hi > 0.0 ? at(s1.hi, s2.lo).lo : right.lo, s2.hi > 0.0 ? at(s1.lo, s2.hi).hi : third.hi};
 }
 
 void require(bool condition, const char* argument, const std::string& got, const char* expected) {

@@ -235,9 +235,8 @@ class Statements {
     for (const bool platform : {false, true})
       if (const auto asked = stroke.turns[at_index(leg)][platform]) {
         const double r = t.joints[at_index(joint_at(platform, leg))];
-        const double angle = questions_[*asked].high,
-                     chord = angle < 1.57 ? 2.0 * std::sin(angle) * (1.0 + 0x1p-40) : 2.0;
-        sum = sum + Interval(r) * Interval(chord);
+        const double angle = questions_[*asked].high;
+        sum = sum + Interval(r) * (angle < 1.57 ? 2.0 * sin(Interval(angle)) : Interval(2.0));
         joints += r * (1.0 + 0x1p-40);
       }
     if (!(shortest > 0.0)) return infinity;  // of the machines that are built: no leg of the drawing is shorter
