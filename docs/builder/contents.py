@@ -25,7 +25,7 @@ TREE = {
         ("Theory and code", _listed("theory/index reference/index architecture extend testing wheels comparison")),
         ("Project", ["project/*"]),
     ],
-    "theory/index": [("", _listed(f"{THEORY} proof-machine admissible workspace", "theory/"))],
+    "theory/index": [("", _listed(f"{THEORY} proof-machine elementary admissible workspace", "theory/"))],
     "gallery/index": [("", ["gallery/examples/*"])],
     "reference/index": [
         ("Python", ["reference/python/*"]),
