@@ -22,7 +22,6 @@ using namespace support;
 namespace {
 
 constexpr double degree = pi / 180.0;
-constexpr bool sanitized = cases(8) < 8;
 
 Problem hexagonal_problem(const std::vector<Limit>& limits, double length) {
   Problem out;
@@ -109,13 +108,13 @@ std::pair<double, double> worst(const PosedRobot& machine, const Place& place) {
 
 TEST_SUITE("rule_fit") {
   TEST_CASE("the machine of a requirement: a rule is fitted and certified") {
+    if (sanitized) return;  // minutes
     const RuleTask task = requirement();
     const PointRule rule = fit_rule(task);
     const auto [condition, stroke] = worst(task.machine, [&](const Vec6& at) { return shift_by(rule, at); });
     CHECK(condition <= 1.01 * 3.8868);  // the worst of the best O, by optimize
     CHECK(condition < worst(task.machine, [](const Vec6& at) -> Vec3 { return at.head<3>(); }).first);
     CHECK(stroke <= 1.4);
-    if (sanitized) return;  // proofs of it would take minutes
     PosedRobot machine = task.machine;
     machine.rule = {rule};
     const LimitsOverPoses found =
@@ -134,9 +133,12 @@ TEST_SUITE("rule_fit") {
     const RuleTask task = small_task({{.name = "stroke_ratio", .high = 1.14}});
     std::vector<std::string> phases;
     const RuleSettings settings{1, [&](const std::string& words) { phases.push_back(words); }};
-    const PointRule rule = fit_rule(task, settings), twice = fit_rule(task, {2, {}});
-    CHECK(rule.powers == twice.powers);
-    if (!sanitized) CHECK(rule.coefficients == twice.coefficients);  // proofs are cut where they are slow
+    const PointRule rule = fit_rule(task, settings);
+    if (!sanitized) {  // which cut proofs short
+      const PointRule twice = fit_rule(task, {2, {}});
+      CHECK(rule.powers == twice.powers);
+      CHECK(rule.coefficients == twice.coefficients);
+    }
     REQUIRE(phases.size() > 2);
     CHECK(phases[0].starts_with("placing O at "));
     CHECK(phases[1] == "fitting a rule for O of degree 1");
@@ -151,6 +153,7 @@ TEST_SUITE("rule_fit") {
   TEST_CASE("a stop ends a fit in each of its phases, and a task that does not fit is named") {
     const RuleTask task = small_task();
     for (const char* phase : {"placing", "fitting", "checking"}) {
+      if (sanitized && phase == std::string("placing")) continue;
       std::stop_source source;
       const auto stop = [&](const std::string& words) {
         if (words.starts_with(phase)) source.request_stop();

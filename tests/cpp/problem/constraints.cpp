@@ -150,10 +150,12 @@ TEST_SUITE("constraints") {
   TEST_CASE(
       "every row's gradient against differences, every variable of every family: rows to look at, rows to solve") {
     Random random(132);
+    int combination = 0;
     for (const std::string& family : families)
       for (const Limit& limit : limits)
         for (const bool displaced : {false, true})
           for (const bool solve : {false, true}) {
+            if (sanitized && combination++ % 9 != 0) continue;  // of every family, limit and way some
             CAPTURE(family);
             CAPTURE(limit.name);
             CAPTURE(displaced);

@@ -18,7 +18,7 @@ using namespace support;
 
 namespace {
 
-constexpr double gap = 3e-4;
+constexpr double gap = sanitized ? 3e-3 : 3e-4;
 
 PosedRobot small_machine() {
   Region region;
@@ -29,6 +29,15 @@ PosedRobot small_machine() {
 
 ConditionSettings settings() {
   return {.gap = gap};
+}
+
+const ConditionState& wide() {
+  static const ConditionState state = search_condition(small_machine(), {.gap = 0.5});
+  return state;
+}
+const ConditionState& narrow() {
+  static const ConditionState state = search_condition(small_machine(), settings());
+  return state;
 }
 
 double condition_at(const PosedRobot& machine, const Vec6& at) {
@@ -73,7 +82,7 @@ bool within(const ConditionState& state, double width) {
 TEST_SUITE("condition_search") {
   TEST_CASE("the enclosure is as narrow as the gap, and a wanted bound inside of it is proved") {
     const PosedRobot machine = small_machine();
-    const ConditionState found = search_condition(machine, settings());
+    const ConditionState& found = narrow();
     CHECK(within(found, gap));
     check_at_poses(machine, found);
     ConditionSettings bounded{.gap = 0.2, .wanted = {found.low * 1.02, found.low * 0.9, found.high * 9.0}};
@@ -85,14 +94,13 @@ TEST_SUITE("condition_search") {
 
   TEST_CASE("a state that has the gap stays as it is, and a wider one is narrowed") {
     const PosedRobot machine = small_machine();
-    const ConditionState wide = search_condition(machine, {.gap = 0.5}),
-                         narrow = search_condition(machine, settings(), wide);
-    CHECK(within(narrow, gap));
-    CHECK(narrow.boxes > wide.boxes);
-    const ConditionState again = search_condition(machine, settings(), narrow);
-    CHECK(again.boxes == narrow.boxes);
-    CHECK(again.low == narrow.low);
-    CHECK(again.high == narrow.high);
+    const ConditionState narrowed = search_condition(machine, settings(), wide());
+    CHECK(within(narrowed, gap));
+    CHECK(narrowed.boxes > wide().boxes);
+    const ConditionState again = search_condition(machine, settings(), narrowed);
+    CHECK(again.boxes == narrowed.boxes);
+    CHECK(again.low == narrowed.low);
+    CHECK(again.high == narrowed.high);
   }
 
   TEST_CASE("a search comes to its end from every state that it keeps") {
@@ -135,8 +143,7 @@ TEST_SUITE("condition_search") {
     CHECK(stopped.interrupted);
     CHECK(stopped.boxes > 100);
     check_at_poses(machine, stopped);
-    const ConditionState held =
-        search_condition(machine, settings(), search_condition(machine, {.gap = 0.5}), {}, {source.get_token(), {}});
+    const ConditionState held = search_condition(machine, settings(), wide(), {}, {source.get_token(), {}});
     CHECK(held.interrupted);
     CHECK(held.left_count == 0);  // no box was looked at: what was proved stays
     CHECK(held.high < infinity);
@@ -154,7 +161,7 @@ TEST_SUITE("condition_search") {
       all[1 + k] = -all[7 + k];
     }
     ConditionState begun;
-    begun.low = search_condition(machine, settings()).low;
+    begun.low = narrow().low;
     begun.left = {all};
     begun.left_count = 1;
     begun.target = begun.low * (1.0 + 1e-8);  // out of reach in that time
