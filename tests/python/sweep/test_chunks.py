@@ -1,7 +1,6 @@
 """Finished chunks survive kills, damaged files, other questions and other runs."""
 
 import os
-import random
 import shutil
 import signal
 import time
@@ -46,47 +45,6 @@ def until_a_chunk_is_kept(folder):
 
 
 # --- Killed at any moment ---------------------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-def test_a_sweep_killed_many_times_is_resumed(child, tmp_path, expected, monkeypatch):
-    """SIGKILL at random moments. Finished chunks are not computed again, and the result has the same bits."""
-    folder, notes = tmp_path / "out", tmp_path / "notes"
-    moments = random.Random(5)
-    kills = computed_before_the_end = 0
-    first_of = {repr(start): k for k, start in enumerate(firsts())}
-    for round_ in range(400):  # five or so where the machine is idle
-        mine = notes / str(round_)
-        mine.mkdir(parents=True)
-        kept = finished(folder)
-        process = child(folder, mine)
-        deadline = time.monotonic() + 60.0
-        while not any(mine.iterdir()) and process.is_alive() and time.monotonic() < deadline:
-            time.sleep(0.002)
-        process.join(moments.uniform(0.04, 0.05))  # of the 20 chunks six at most
-        if process.is_alive():
-            process.kill()
-            kills += 1
-        process.join()
-        status = process.exitcode
-        assert status in (0, -signal.SIGKILL), child.errors.read_text()
-        called = [first_of[p.read_text()] for p in mine.iterdir() if p.read_text()]
-        assert len(set(called)) == len(called)
-        assert not kept & set(called), "a finished chunk was computed again"
-        computed_before_the_end += len(called)
-        if status == 0:
-            break
-    assert status == 0
-    assert kills >= 3
-    lost = computed_before_the_end - 20  # a chunk that was computed but not kept when the kill came
-    assert 0 <= lost <= kills
-    last = notes / "last"
-    last.mkdir()
-    monkeypatch.setenv("NINEDOF_TEST_NOTES", str(last))
-    found = nd.sweep(G, HOME, GRID, work.noted, out=folder, chunk=20)["noted"]
-    assert found.tobytes() == expected.tobytes()
-    assert not list(last.iterdir()), "a complete sweep computes nothing"
-    assert {p.name for p in (folder / "pieces").glob("*.np*")} == {*(f"{k:08d}.npz" for k in range(20)), "noted.npy"}
 
 
 def firsts():
@@ -207,35 +165,10 @@ def test_a_folder_refuses_another_question(tmp_path, words, expected):
     assert asked(tmp_path).tobytes() == expected.tobytes()
 
 
-def test_work_of_another_kind_and_another_version_are_other_questions(tmp_path, monkeypatch):
-    asked(tmp_path)
-    with pytest.raises(ValueError, match=r"question: kind is 'sweep' there and 'atlas' here; expected"):
-        nd.atlas(100, out=tmp_path)
-    monkeypatch.setattr("ninedof._core.version", "99.0")
-    with pytest.raises(ValueError, match=r"question: ninedof is '.*' there and '99.0' here"):
-        asked(tmp_path)
-
-
 def test_the_chunk_size_of_a_folder_is_kept(tmp_path, expected):
     asked(tmp_path)
     assert asked(tmp_path, chunk=64).tobytes() == expected.tobytes()
     assert len(finished(tmp_path)) == 20
-
-
-@pytest.mark.parametrize("name", ["notes.txt", "finished.npz"])
-def test_a_folder_of_other_files_is_refused_and_not_changed(tmp_path, name):
-    (tmp_path / name).write_text("mine")
-    before = tmp_path.stat().st_mtime_ns
-    with pytest.raises(ValueError, match=rf"^out: got .*, which holds '{name}' but no question.json, expected"):
-        asked(tmp_path)
-    assert [p.read_text() for p in tmp_path.iterdir()] == ["mine"]
-    assert tmp_path.stat().st_mtime_ns == before
-
-
-def test_a_file_in_place_of_the_folder_is_refused(tmp_path):
-    (tmp_path / "file").write_text("mine")
-    with pytest.raises(ValueError, match=r"out: got .*file, which is no folder"):
-        asked(tmp_path / "file")
 
 
 def test_an_index_without_a_name_cannot_be_kept(tmp_path):
@@ -251,22 +184,6 @@ def test_the_name_of_an_index_does_not_lead_outside(tmp_path, name):
     with pytest.raises(ValueError, match=r"^index: got a function of the name .*, expected a name"):
         nd.sweep(G, HOME, GRID, index, out=tmp_path / "deep" / "out")
     assert not list(tmp_path.iterdir())
-
-
-def test_two_runs_do_not_share_a_folder(child, tmp_path):
-    notes = tmp_path / "notes"
-    notes.mkdir()
-    process = child(tmp_path / "out", notes)
-    try:
-        until_a_chunk_is_kept(tmp_path / "out")
-        os.kill(process.pid, signal.SIGSTOP)  # it must not finish during the test
-        with pytest.raises(ValueError, match="which another run is using"):
-            asked(tmp_path / "out")
-    finally:
-        process.kill()
-        process.join()
-    with pytest.raises(ValueError, match="another question"):  # a killed run holds no lock
-        asked(tmp_path / "out")
 
 
 # --- The disk ---------------------------------------------------------------------------------------------------------

@@ -1,12 +1,9 @@
 """Chunks by threads, processes and a Dask cluster: the same bits; an error of the executor leaves finished chunks."""
 
 import gc
-import os
 import pickle
-import signal
 import socket
 import threading
-import time
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 
 import pytest
@@ -242,28 +239,6 @@ def test_dask_computes_an_atlas(cluster):
     found, expected = (nd.atlas(60_000, chunk=9000, executor=e) for e in (cluster.get_executor(), None))
     for name in expected:
         assert found[name].tobytes() == expected[name].tobytes()
-
-
-def test_dask_replaces_a_lost_worker(cluster, expected, tmp_path, monkeypatch):
-    """SIGKILL to one of two workers while both compute: Dask gives its chunks to another."""
-    monkeypatch.setattr(chunks, "IN_FLIGHT", 8)
-    processes = list(cluster.run(os.getpid).values())
-    assert len(processes) == 2
-    killed = []
-
-    def kill(done, *_):
-        if done >= 60 and not killed:
-            killed.append(processes[0])
-            os.kill(processes[0], signal.SIGKILL)
-
-    found = asked(work.slow, executor=cluster.get_executor(), out=tmp_path, progress=kill)
-    assert killed
-    assert found["slow"].tobytes() == expected
-    cluster.wait_for_workers(2, timeout=60)
-    deadline = time.monotonic() + 60
-    while killed[0] in (now := list(cluster.run(os.getpid).values())) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    assert len(now) == 2
 
 
 def test_a_chunk_that_dask_gives_up_ends_the_run_and_the_next_call_goes_on(cluster, expected, tmp_path):
