@@ -99,7 +99,8 @@ def placed(rule, g, p, q):
 def test_what_is_proved_of_poses_is_so(published, question, rule):
     rng = np.random.default_rng(11)
     criteria = QUESTIONS[question]
-    for trial in range(size(2, 40)):
+    begin = (list(QUESTIONS).index(question) + list(RULES).index(rule)) % 2  # every question, and every rule, has both
+    for trial in range(begin, begin + size(1, 40)):
         g = published if trial == 0 else some_robot(rng)
         q = np.eye(3) if trial == 0 else Rotation.from_rotvec(0.2 * rng.normal(size=3)).as_matrix()
         home = nd.Configuration([0.1, 0.0, 4.6], q, placed(rule, g, np.array([0.1, 0.0, 4.6]), q))
@@ -217,7 +218,7 @@ def test_only_what_is_connected_with_home_counts(published):
     """Above and below the base there are two pieces; det N, det B and det C have one sign in one of them only."""
     criteria = {"leg_limits": (1.5, 6.5), "singularity_free": True}
     box = ([-6.0, -6.0, -8.0], [6.0, 6.0, 8.0])
-    proved = nd.certified_workspace(published, box, criteria=criteria, home=HOME, gap=0.03)
+    proved = nd.certified_workspace(published, box, criteria=criteria, home=HOME, gap=0.1)
     estimate = nd.workspace(published, box, criteria=criteria, home=HOME)
     assert proved.connected
     assert proved.home == "allowed"
@@ -225,7 +226,7 @@ def test_only_what_is_connected_with_home_counts(published):
     assert 0.0 < proved.home_volume[0] <= estimate.volume + estimate.error
     assert proved.home_volume[1] >= estimate.volume - estimate.error
     assert proved.home_volume[1] <= proved.volume[1]
-    assert proved.gap <= 0.03
+    assert proved.gap <= 0.1
 
 
 def test_a_piece_apart_is_not_counted(published):
@@ -247,29 +248,35 @@ def test_a_home_that_is_not_allowed(published):
     assert "home pose is not allowed" in str(proved)
 
 
+FULL = {"leg_clearance": 0.05, "condition_number": 8.0, "singularity_free": True}
+
+
+@pytest.fixture(scope="module")
+def unscaled(published):
+    return nd.certified_workspace(published, BOX, criteria=LEGS | FULL, home=HOME, gap=0.3)
+
+
 @pytest.mark.parametrize("scale", [2.0**-90, 1e-90, 1e90, 2.0**90])
-def test_units_of_length_change_nothing(published, scale):
+def test_units_of_length_change_nothing(published, unscaled, scale):
     triples = (
         published.base_external,
         published.base_internal,
         published.platform_external,
         published.platform_internal,
     )
-    criteria = {"leg_clearance": 0.05, "condition_number": 8.0, "singularity_free": True}
-    one = nd.certified_workspace(published, BOX, criteria=LEGS | criteria, home=HOME, gap=0.3)
     box = tuple(np.multiply(BOX, scale))
     home = nd.Configuration(HOME.position * scale, HOME.rotation, HOME.internal_point * scale)
     other = nd.certified_workspace(
         nd.Geometry(*(scale * t for t in triples)),
         box,
-        criteria=criteria | {"leg_limits": (2.5 * scale, 6.5 * scale), "leg_clearance": 0.05 * scale},
+        criteria=FULL | {"leg_limits": (2.5 * scale, 6.5 * scale), "leg_clearance": 0.05 * scale},
         home=home,
         characteristic_length=scale,
         gap=0.3,
     )
     exact = scale in (2.0**-90, 2.0**90)  # else joints are rounded, and where planes are tried is not continuous
-    assert other.volume == pytest.approx(np.array(one.volume) * scale**3, rel=1e-15 if exact else 0.05)
-    assert other.home_volume == pytest.approx(np.array(one.home_volume) * scale**3, rel=1e-15 if exact else 0.05)
+    assert other.volume == pytest.approx(np.array(unscaled.volume) * scale**3, rel=1e-15 if exact else 0.05)
+    assert other.home_volume == pytest.approx(np.array(unscaled.home_volume) * scale**3, rel=1e-15 if exact else 0.05)
 
 
 @pytest.mark.parametrize("archetype", ["inclusive", "reachable"])
