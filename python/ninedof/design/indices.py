@@ -166,7 +166,7 @@ def indices_of(index: Any, of_designs: bool = False) -> tuple[Index, ...]:
 
     Of designs at their neutral pose there are more: those that the core alone has, as objectives.
     """
-    single = isinstance(index, str) or callable(index) or not isinstance(index, Iterable)
+    single = isinstance(index, str) or callable(index) or not np.iterable(index)  # an array without dimensions is not
     entries = [index] if single else list(index)
     if not entries or not all(isinstance(one, str) or callable(one) for one in entries):
         raise ValueError(f"index: got {shown(index)}, expected a name, a callable, or a sequence of them")

@@ -75,7 +75,7 @@ KINDS = {
     "export as mjcf": ("robot.xml", lambda: exported("xml", "mjcf"), torn, nd.load, 2),
     "export as csv": ("robot.csv", lambda: exported("csv", "csv"), csv_mutant, nd.load, 2),
 }
-SHARE = size(25, 500)  # mutants for each unit of weight
+SHARE = size(10, 500)  # mutants for each unit of weight
 
 
 def exported(suffix, form):

@@ -16,7 +16,7 @@ from ninedof.records.record import load_record
 from ninedof.support.files import json_bytes, read_json, read_npz, write_npz, write_whole
 from ninedof.support.store import FORMAT, Store
 
-FLIPS, CUTS = size(120, 5000), size(20, 500)
+FLIPS, CUTS = size(40, 5000), size(10, 500)
 ARRAYS = {
     "scalar": np.array(3.5),
     "text": np.array(["a", "grüße"]),

@@ -48,8 +48,8 @@ class Row:
     """Arguments whose extreme numbers may give NaN, where the documentation says so."""
     loose: tuple[str, ...] = ()
     """Arguments whose other forms need not give the same result: names of places, what is written to."""
-    few: int = 0
-    """How many values of each argument are tried in a short run; 0 for all."""
+    few: int = 12
+    """How many values of each argument are tried in a short run; all under NINEDOF_LONG, see .ci/nightly."""
     dear: tuple[str, ...] = ()
     """Arguments of which only a few values are tried in a short run."""
 
@@ -222,16 +222,15 @@ def fault_of(error, words):
     return ""
 
 
-def attack(name, row, sample=None):
+def attack(name, row, every):
     """Try every attack of a row, or some of each argument; return the tally."""
     tally = Tally()
     with bounded():
         good = row.call(**row.arguments())
     usual = with_nan(good)
     trials = list(attacks(row))
-    few = row.few if sample is None else sample
-    if few or row.dear:
-        trials = some_of(trials, few, row.dear, name)
+    if not every:
+        trials = some_of(trials, row.few, row.dear, name)
     for path, label, make, exact in trials:
         tally.tried += 1
         arguments = row.arguments()
@@ -284,6 +283,5 @@ def some_of(trials, few, dear, name):
         by_place.setdefault(trial[0], []).append(trial)
     out = []
     for path, here in by_place.items():
-        count = 3 if path[0] in dear else few
-        out += here if not count else pick.sample(here, min(count, len(here)))
+        out += pick.sample(here, min(3 if path[0] in dear else few, len(here)))
     return out

@@ -179,7 +179,7 @@ row("poses.path", poses.path, words={"positions": ("rotations", "position")})(
 
 # --- searches ---------------------------------------------------------------------------------------------------------
 
-row("optimize", huge=("starts",), few=25, loose=("out",))(
+row("optimize", huge=("starts",), loose=("out",))(
     lambda: {
         "study": nd.Study.paper(),
         "starts": 1,
@@ -195,7 +195,7 @@ row("optimize", huge=("starts",), few=25, loose=("out",))(
 row("trace", words={"start": OF_ROBOT}, nan=("start",))(
     lambda: {"study": it.study(), "start": dict(DESIGN), "formulation": "minimax"}
 )
-row("pareto", huge=("points",), few=12, words={"values": ("against",)})(
+row("pareto", huge=("points",), words={"values": ("against",)})(
     lambda: {
         "study": it.study(),
         "against": "radius_ratio",
@@ -254,7 +254,6 @@ row(
     nd.MachineCertificate.from_dict,
     words={"data": ("certificate", "mark", "rule")},
     loose=("data",),
-    few=15,
 )(lambda: {"data": it.certificate().to_dict()})
 row("MachineCertificate.to_dict", lambda: it.certificate().to_dict())(dict)
 row("MachineCertificate.leg_table", lambda: it.certificate().leg_table())(dict)
@@ -277,13 +276,13 @@ POINT = {
 }
 WHERE = {"position": [[0.0, 0.0, 4.0]], "rotation": np.eye(3)}
 NO_POINT = ("clearance", "start", "limits", "position")  # where no point is allowed, it is NaN
-row("best_internal_point", few=25, nan=NO_POINT, loose=("limits",))(
+row("best_internal_point", nan=NO_POINT, loose=("limits",))(
     lambda: {"geometry": it.g(), **WHERE, **POINT, "threads": 1}
 )
-row("best_internal_path", few=25, nan=NO_POINT, loose=("limits",), words={"rotation": ("position",)})(
+row("best_internal_path", nan=NO_POINT, loose=("limits",), words={"rotation": ("position",)})(
     lambda: {"geometry": it.g(), **WHERE, **POINT, "smoothness": 0.1}
 )
-row("best_internal_map", few=15, nan=NO_POINT, loose=("limits",))(
+row("best_internal_map", nan=NO_POINT, loose=("limits",))(
     lambda: {
         "geometry": it.g(),
         **WHERE,
@@ -318,7 +317,6 @@ row("Trajectory.spiral", nd.Trajectory.spiral, words={name: ("position",) for na
 )
 row(
     "follow",
-    few=30,
     loose=("limits", "load"),
     words={"internal_point": ("leg_lengths",), "characteristic_length": ("kind",), "load": ("force", "moment")},
 )(
@@ -419,7 +417,7 @@ row("AdmissibleSet.around", lambda **a: it.admissible_set().around(**a), few=3)(
 )
 row("AdmissibleSet.sentences", lambda: it.admissible_set().sentences())(dict)
 row("AdmissibleSet.for_core", lambda: it.admissible_set().for_core())(dict)
-row("sweep", few=20, dear=("out",), huge=("over",), words={"over": ("x_p",)})(
+row("sweep", dear=("out",), huge=("over",), words={"over": ("x_p",)})(
     lambda: {
         "geometry": it.g(),
         "home": it.c(),
@@ -438,7 +436,6 @@ row("sweep", few=20, dear=("out",), huge=("over",), words={"over": ("x_p",)})(
 )
 row(
     "sweep_designs",
-    few=20,
     huge=("over",),
     words={"over": ("zs",), "design": OF_ROBOT, "characteristic_length": OF_ROBOT},
     nan=("over", "characteristic_length"),
@@ -456,7 +453,7 @@ row(
         "unit": "mm",
     }
 )
-row("sweep_figure", few=20, huge=("points",))(
+row("sweep_figure", huge=("points",))(
     lambda: {"figure": "6", "points": 3, "executor": None, "out": None, "progress": None}
 )
 row("SweepResult.at", lambda **a: it.swept().at(**a), loose=("position",))(
@@ -464,7 +461,7 @@ row("SweepResult.at", lambda **a: it.swept().at(**a), loose=("position",))(
 )
 row("SweepResult.least", lambda **a: it.swept().least(**a))(lambda: {"name": "condition_number"})
 row("SweepResult.to_xarray", lambda: it.swept().to_xarray())(dict)
-row("atlas", few=20, huge=("designs",), words={"bounds": ("a2",)})(
+row("atlas", huge=("designs",), words={"bounds": ("a2",)})(
     lambda: {
         "designs": 100,
         "seed": 1,
@@ -489,7 +486,6 @@ OF_A_WORKSPACE = {
 }
 row(
     "workspace",
-    few=15,
     nan=("internal_point", "characteristic_length"),
     huge=("resolution", "points", "shifts", "most_evaluations"),
 )(

@@ -18,16 +18,16 @@ at("Study.load", nd.Study.load, words={"path": ("missing/there", "x", "1.0", "y"
 )
 at("Study.save", lambda **a: it.study().save(**a))(lambda: {"path": it.fresh(".toml")})
 at("load", words={"path": ("record.json",)})(lambda: {"path": it.run()})
-at("save", few=25)(lambda: {"run": it.design(), "path": it.fresh(".toml")})
-at("save", of="save: a run", few=15)(lambda: {"run": it.result(), "path": it.fresh()})
+at("save")(lambda: {"run": it.design(), "path": it.fresh(".toml")})
+at("save", of="save: a run")(lambda: {"run": it.result(), "path": it.fresh()})
 at("load_certificate", words={"run": ("certify.json",)})(lambda: {"run": it.run()})
-at("check_certificate", few=12, words={"path": ("certificate",)})(lambda: {"path": it.proof_file(), "progress": None})
+at("check_certificate", words={"path": ("certificate",)})(lambda: {"path": it.proof_file(), "progress": None})
 at("AdmissibleSet.save_certificate", lambda **a: it.admissible_set().save_certificate(**a))(
     lambda: {"path": it.fresh()}
 )
 at("OptimumProof.save", lambda **a: it.proof().save(**a))(lambda: {"path": it.fresh()})
 at("report", few=3)(lambda: {"run": it.result(), "path": it.fresh(".html")})
-at("export", few=30, words={"platform_mass": ("options",)})(
+at("export", words={"platform_mass": ("options",)})(
     lambda: {
         "design": it.design(),
         "format": "mjcf",
@@ -49,7 +49,7 @@ for kind, thing in {
     "WorkspaceMap": it.workspace,
     "CertifiedWorkspace": it.certified,
 }.items():
-    at(f"{kind}.save", lambda thing=thing, **a: thing().save(**a), few=30)(lambda: {"path": it.fresh(".npz")})
+    at(f"{kind}.save", lambda thing=thing, **a: thing().save(**a))(lambda: {"path": it.fresh(".npz")})
     at(f"{kind}.load", getattr(nd, kind).load)(lambda thing=thing: {"path": it.saved(thing())})
 
 
