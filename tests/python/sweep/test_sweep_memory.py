@@ -1,7 +1,7 @@
 """A sweep whose result is a file is summed up and saved in pieces, with the same numbers."""
 
-import sys
 import tracemalloc
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -82,5 +82,5 @@ def test_a_report_does_not_read_the_arrays_again(tmp_path, monkeypatch):
         main(["sweep", "--over", "x_p=-1:1:31", "--over", "z_p=-1:1:21", "--out", str(tmp_path), "--no-figures"])
     assert ended.value.code == 0
     assert nd.load(tmp_path)["condition_number"].tobytes() == np.load(tmp_path / "pieces" / KAPPA).tobytes()
-    monkeypatch.setattr(sys.modules["ninedof.report.whole"], "load", None)
+    monkeypatch.setattr(import_module("ninedof.report.whole"), "load", None)
     assert nd.report(tmp_path).is_file()
