@@ -129,15 +129,6 @@ def test_study_over_poses_shows_prices_and_poses(run):
     assert evaluated["condition_number"] == pytest.approx(best["neutral_condition_number"], rel=1e-9)
 
 
-def test_a_run_never_overwrites_another(run):
-    Path("run").mkdir()
-    Path("run/mine.txt").write_text("kept")
-    status, _, err = run("--out run --no-figures")
-    assert status == 2
-    assert "which holds 'mine.txt'" in err
-    assert [p.name for p in Path("run").iterdir()] == ["mine.txt"]
-
-
 def test_evaluate_published_design(run):
     status, out, _ = run("evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.3745 --json")
     data = json.loads(out)
@@ -162,13 +153,6 @@ def test_evaluate_reads_degrees(run):
     published = "evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4432 --json"
     turned = json.loads(run(published + " --theta-z-deg 2.8647889756541161")[1])
     assert turned["condition_number"] == pytest.approx(3.8819, abs=5e-5)
-
-
-def test_evaluate_the_best_design_of_a_run(run):
-    run("--out run --no-figures")
-    status, out, _ = run("evaluate run --json")
-    assert status == 0
-    assert json.loads(out)["condition_number"] == pytest.approx(3.762659078596, rel=1e-9)
 
 
 def test_paper_prints_a_verdict_on_every_number(run):

@@ -53,8 +53,7 @@ def ended(program, *options):
     return done.returncode, done.stderr
 
 
-@pytest.mark.parametrize("threads", [1, 4])
-@pytest.mark.parametrize("call", CALLS)
+@pytest.mark.parametrize(("call", "threads"), [*((call, 4) for call in CALLS), ("short", 1), ("search", 1)])
 def test_the_status_of_the_program_survives_daemon_threads(call, threads):
     for k in range(size(1, 50)):
         program = HEAD + TAIL.format(threads=threads, call=CALLS[call], wait=0.03 * (k % 7))
