@@ -1,5 +1,7 @@
 """Tolerances for an error that is allowed: the inverse of the accuracy of a machine."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,17 +12,17 @@ STUDY = nd.Study(
     constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0)},
     objective={"region": {"box": [0.3, 0.3, 0.2], "tilt_deg": 8}},
     characteristic_length=1.0,
-    tolerances={"joints": 5e-4, "legs": 7e-4},  # of the study, and not of this question
     starts=2,
 )
+OTHERS = nd.Tolerances(joints=5e-4, legs=7e-4)  # of the study, and not of this question
 
 
 @pytest.fixture(scope="module")
 def result():
-    return nd.optimize(STUDY)
+    return replace(nd.optimize(STUDY), study=replace(STUDY, tolerances=OTHERS))
 
 
-@pytest.mark.parametrize(("weights", "share"), [((1, 1), 0.5), ((3, 1), 0.75), ((0, 1), 0.0), ((1, 0), 1.0)])
+@pytest.mark.parametrize(("weights", "share"), [((3, 1), 0.75), ((0, 1), 0.0)])
 def test_each_group_makes_its_part_of_the_error(result, weights, share):
     kept = nd.tolerances_for(result, position=0.01, weights=weights)
     apart = (kept.joints, 0.0), (0.0, kept.legs)

@@ -22,9 +22,18 @@ def run():
     return nd.optimize(study, threads=1)
 
 
-def test_the_worst_of_a_change_is_never_passed_at_sampled_poses_and_is_attained(run):
-    changed = run.with_changes(b1="+10%")
-    worst = nd.compare(run, changed).numbers["worst condition number"][1]
+@pytest.fixture(scope="module")
+def changed(run):
+    return run.with_changes(b1="+10%")
+
+
+@pytest.fixture(scope="module")
+def compared(run, changed):
+    return nd.compare(run, changed)
+
+
+def test_the_worst_of_a_change_is_never_passed_at_sampled_poses_and_is_attained(run, changed, compared):
+    worst = compared.numbers["worst condition number"][1]
     # An evaluation of its own: p in the box, tilts about horizontal axes, O shifted with p.
     rng = np.random.default_rng(5)
     home, g = changed.configuration, nd.Geometry.hexagonal(0.0, changed.variables["a2"], 1.1 * run.variables["b1"], 0.0)
@@ -56,15 +65,15 @@ def test_values_outside_of_the_bounds_of_their_study_are_named(run):
     words = "changed is outside of the bounds of its study: a2 = 6.5 mm (1 to 6), theta_z = 10° (fixed at 0)"
     assert words in str(both)
     assert both.to_dict()["outside"][1]["a2"] == (6.5, 1.0, 6.0)
-    assert "outside" not in str(nd.compare(run, run.with_changes(a2=6.0)))
-    metres = nd.compare(nd.Design(run.geometry, run.configuration, 1.0, "mm"), changed)
-    assert metres.outside[0] == {}
 
 
-def test_a_change_of_nothing_changes_nothing(run):
-    both = nd.compare(run, run.with_changes(b1=run.variables["b1"]))
+def test_a_change_of_nothing_changes_nothing_and_what_differs_in_the_studies(run):
+    same = run.with_changes(b1=run.variables["b1"])
+    other = replace(same, study=replace(same.study, constraints=LIMITS | {"leg_ratio": (None, 2.9)}))
+    both = nd.compare(run, other)
     assert all(one == pytest.approx(other, rel=1e-9) for one, other in both.numbers.values())
-    assert not both.differences
+    assert both.differences == {"constraints.leg_ratio.max": (3.0, 2.9)}
+    assert "outside" not in str(both)
 
 
 def test_changes_that_do_not_fit_are_refused(run):
@@ -93,22 +102,19 @@ def test_lengths_are_in_the_unit_of_the_first_and_all_have_one(run):
     )
     both = nd.compare(design, metres)
     assert all(one == pytest.approx(other, rel=1e-9) for one, other in both.numbers.values())
+    assert both.outside == ({}, {})  # without a study
     with pytest.raises(ValueError, match="got A in mm and B in no unit"):
         nd.compare(design, design._replace(unit=""))
-
-
-def test_what_differs_in_the_studies(run):
-    other = replace(run, study=replace(run.study, constraints=LIMITS | {"leg_ratio": (None, 2.9)}))
-    assert nd.compare(run, other).differences == {"constraints.leg_ratio.max": (3.0, 2.9)}
 
 
 def test_both_commands_fit_on_80_columns_and_draw(run, tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     nd.save(run, tmp_path / "run")
     name, picture = str(tmp_path / "run"), tmp_path / "plates.png"
+    neutral = str(nd.save(nd.Design(run.geometry, run.configuration, 1.0, "mm"), tmp_path / "neutral.toml"))
     for words in (
         ["evaluate", name, "--set", "b1=+10%", "--plot", str(picture)],
-        ["compare", f"{name}", name, name],
+        ["compare", name, neutral, neutral],
     ):
         with pytest.raises(SystemExit) as end:
             main(words)
@@ -122,7 +128,8 @@ def test_both_commands_fit_on_80_columns_and_draw(run, tmp_path, capsys, monkeyp
     assert data["numbers"]["b1"][1] == pytest.approx(1.1 * run.variables["b1"])
 
 
-def test_plates_are_in_one_scale(run):
-    figure = plot.compare(nd.compare(run, run.with_changes(b1="+10%")))
+def test_plates_are_in_one_scale(compared):
+    assert not compared.differences  # the dimensions alone differ
+    figure = plot.compare(compared)
     base, platform = figure.axes
     assert base.get_xlim() == platform.get_xlim() == base.get_ylim()

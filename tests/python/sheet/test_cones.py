@@ -84,8 +84,8 @@ def test_the_cones_of_one_kind_of_joint_are_those_of_its_legs():
     halves = {f"base_cone_{kind}": {"max_deg": 38, "axis": UP} for kind in ("external", "internal")}
     parts = nd.optimize(study(halves))
     assert parts.objective == pytest.approx(whole.objective, rel=1e-8)
-    certificate = whole.certify(time_limit=30)
-    in_parts = parts.certify(time_limit=30)
+    certificate = whole.certify(time_limit=0.0)
+    in_parts = parts.certify(time_limit=0.0)
     assert certificate.proved
     assert in_parts.proved
     workspace = [
