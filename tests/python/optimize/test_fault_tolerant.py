@@ -15,10 +15,10 @@ def worst_of(g, c, length):
     return max(float((s[..., 0] / s[..., 5]).max()) for s in sigma)
 
 
-def optimum(limit, **options):
+def optimum(limit, starts=8, **options):
     constraints = {"leg_ratio": (None, 3.0)} | ({} if limit is None else {"fault_tolerant": limit})
     return nd.optimize(
-        nd.Study(variables=PAIRED, constraints=constraints, characteristic_length=1.0, **options), starts=8, seed=0
+        nd.Study(variables=PAIRED, constraints=constraints, characteristic_length=1.0, **options), starts=starts, seed=0
     )
 
 
@@ -54,13 +54,13 @@ def test_no_design_keeps_it():
 
 @pytest.mark.slow  # a proof over a region: seconds, and a minute under sanitizers
 def test_a_region():
-    objective = {"region": nd.Region(box=[0.3, 0.3, 0.2], tilt=0.1)}
-    result = optimum((None, 4.0), objective=objective)
+    objective = {"region": nd.Region(box=[0.2, 0.2, 0.1], tilt=0.05)}
+    result = optimum((None, 4.0), 2, objective=objective)
     failing = nd.failure(result, pairs=False, samples=2000)
     assert max(one.condition_number for one in failing.locked[3:]) == pytest.approx(4.0, rel=1e-6)
     (row,) = [one for one in nd.sheet(result, samples=500).limits if one.name == "fault_tolerant"]
     assert row.value == pytest.approx(4.0, rel=1e-6)
-    certificate = result.certify(time_limit=60.0)
+    certificate = result.certify(gap=0.5)
     (proof,) = [one for one in certificate.limits if one.name == "fault_tolerant"]
     assert proof.answer == "proved"
     assert proof.value == pytest.approx((4.0, 4.0), rel=2e-6)
@@ -72,15 +72,15 @@ def test_a_workspace():
     home = nd.Configuration.neutral(3.9828, 2.4432)
     box = ((-2.0, -2.0, 3.0), (2.0, 2.0, 5.0))
     question = {"criteria": {"fault_tolerant": 4.5}, "internal_point": {"platform": [0.0, 0.0, -1.5396]}, "home": home}
-    found = nd.workspace(g, box, **question, method="sample", points=20_000)
-    p = np.random.default_rng(1).uniform(*box, size=(20_000, 3))
+    found = nd.workspace(g, box, **question, method="sample", points=6_000)
+    p = np.random.default_rng(1).uniform(*box, size=(6_000, 3))
     j = nd.jacobian(g, nd.Configuration(p, np.eye(3), p - [0.0, 0.0, 1.5396]), 1.0)
     sigma = np.stack([np.linalg.svd(np.delete(j, leg, axis=-1), compute_uv=False) for leg in range(3, 9)])
     share = ((sigma[..., 0] / sigma[..., 5]).max(axis=0) <= 4.5).mean()
     assert 0.05 < share < 0.95
     assert found.volume == pytest.approx(share * 32.0, rel=0.05)
-    proved = nd.certified_workspace(g, box, **question, gap=0.2)
+    proved = nd.certified_workspace(g, box, **question, gap=0.3)
     low, high = proved.volume
     assert low <= share * 32.0 * 1.03
     assert high >= share * 32.0 * 0.97
-    assert high - low <= 0.2 * high
+    assert high - low <= 0.3 * high

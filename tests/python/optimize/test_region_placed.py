@@ -63,8 +63,8 @@ def with_rule(study, rule):
 
 
 @cache
-def solved(name):
-    return nd.optimize(STUDIES[name])
+def solved(name, rule="best"):
+    return nd.optimize(with_rule(STUDIES[name], rule))
 
 
 @pytest.mark.slow
@@ -76,16 +76,16 @@ def test_limits_hold_between_the_poses(name):
     assert result.region.objective <= result.objective * (1.0 + 3e-7)
     found = nd.check(result, perturbations=0, seed=7)["region"]
     assert found.passed, found.sentence
-    index, margin = worst_placed(result.study, result.best, result.region, 1000, 7)
+    index, margin = worst_placed(result.study, result.best, result.region, size(300, 1000), 7)
     assert index <= result.objective * (1.0 + 1e-6)
     assert margin >= -1e-6
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", STUDIES)
+@pytest.mark.parametrize("name", ["line", "turns", "box"])
 def test_the_index_is_at_most_that_of_the_other_rules(name):
     for rule in ("shifted", "held"):
-        assert solved(name).objective <= nd.optimize(with_rule(STUDIES[name], rule)).objective * (1.0 + 1e-6)
+        assert solved(name).objective <= solved(name, rule).objective * (1.0 + 1e-6)
 
 
 @pytest.mark.slow
@@ -119,7 +119,7 @@ def test_an_interruption_keeps_the_design_with_o_shifted(number):
     """While O is no variable, and while it is one at the poses that decide."""
     result = nd.optimize(LINE, progress=InterruptedPhase(f"O placed, round {number}, "))
     assert (result.status, result.interrupted, result.region.keeps_limits) == ("stopped", True, True)
-    assert result.objective == nd.optimize(with_rule(LINE, "shifted")).objective
+    assert result.objective == solved("line", "shifted").objective
     assert "O shifted" in result.reason
     assert math.isinf(result.region.gain)
     assert nd.check(replace(result, region=None, study=result.solved), perturbations=0).passed

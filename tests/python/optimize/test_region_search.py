@@ -62,7 +62,8 @@ class Index:
         return np.log(nd.condition_number(self.g, c))
 
 
-def greatest(index, rng, count=20_000, starts=40, tries=40):
+def greatest(index, rng, count=20_000, starts=40):
+    tries = size(20, 40)
     shift, tilt, yaw = drawn(index.region, 1.0, rng, count)
     at = np.hstack([shift, tilt[:, :2], yaw])
     value = index(at)

@@ -134,6 +134,7 @@ STUDIES = {
         starts=2,
     ),
 }
+ALIKE = {"inches, cones, clearance", "twist, wide yaw", "mean, metres"}  # other numbers for what the others have
 HUGE = 10**5  # starts: minutes of work
 
 
@@ -143,7 +144,7 @@ def solved(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", STUDIES)
+@pytest.mark.parametrize("name", size([name for name in STUDIES if name not in ALIKE], STUDIES))
 def test_limits_hold_between_the_poses(name):
     result = solved(name)
     assert result.status == "optimal", result.reason
