@@ -18,6 +18,13 @@ from ninedof.plot import style
 from ninedof.sweep import SweepResult
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _figures_are_let_go():
+    """All together hold 300 MB, and a worker lives on."""
+    yield
+    made.cache_clear()
+
+
 @pytest.mark.parametrize("name", size(QUICK, FIGURES))
 def test_no_two_texts_intersect_and_axes_have_names(name):
     figure = made(name)
