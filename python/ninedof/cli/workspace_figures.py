@@ -17,7 +17,6 @@ from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 
 if TYPE_CHECKING:
     from ninedof.plot import Section
-    from ninedof.workspace import WorkspaceSlice
 
 NEAR = 10.0  # home is marked in a section within this part of the size of the workspace
 
@@ -82,7 +81,7 @@ def _planes(workspace: WorkspaceMap, home: Configuration, middle: Floats) -> lis
 
 def _section(
     workspace: WorkspaceMap, home: Configuration, region: Region | None, middle: Floats, fixed: int, at: float
-) -> Section[WorkspaceSlice]:
+) -> Section:
     """Return one section with what is marked in it: home, and the region or else the largest ball and box."""
     from ninedof.plot import Section
 

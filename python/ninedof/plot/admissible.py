@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from itertools import combinations
+from itertools import combinations, cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.collections import PolyCollection
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from ninedof.plot import style
@@ -19,16 +20,7 @@ if TYPE_CHECKING:
 INSIDE, UNDECIDED = "#A9CCE3", "#B8BFC6"
 OTHERS = ("#E69F00", "#56B4E9", "#F0E442", "#CC79A7", "#009E73", "#999933")  # limits that have no colour elsewhere
 PALE = 0.55  # of a limit's colour that is left: outside is ground, not figure
-MARK: dict[str, Any] = {
-    "marker": "D",
-    "ms": 5.0,
-    "color": style.INK,
-    "mec": "white",
-    "mew": 0.9,
-    "ls": "",
-    "zorder": 8,
-    "clip_on": False,
-}
+MARK = style.HOME | {"marker": "D", "ms": 5.0, "clip_on": False}
 
 
 def admissible(found: AdmissibleSet, figure: Figure | None = None) -> Figure:
@@ -84,18 +76,14 @@ def admissible(found: AdmissibleSet, figure: Figure | None = None) -> Figure:
 
 def _colours(found: AdmissibleSet) -> dict[str, Any]:
     """Return the pale colour of each limit that excludes something."""
-    others = iter(OTHERS * (1 + len(found.excluded) // len(OTHERS)))
+    others = cycle(OTHERS)
     out = {}
     for name in found.excluded:
         kind = "det" if name == "no singularity" else name.partition(" at ")[0].removeprefix("condition_number")
         kind = next((key for key in KINDS if len(key) > 1 and kind.startswith(key)), "")
-        strong = np.array(_rgb(KINDS[kind][1] if kind else next(others)))
+        strong = np.array(to_rgb(KINDS[kind][1] if kind else next(others)))
         out[name] = tuple(PALE * strong + (1.0 - PALE))
     return out
-
-
-def _rgb(colour: str) -> tuple[float, ...]:
-    return tuple(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5))
 
 
 def _plane(axes: Any, found: AdmissibleSet, i: int, j: int, colours: dict[str, Any]) -> None:
@@ -108,28 +96,23 @@ def _plane(axes: Any, found: AdmissibleSet, i: int, j: int, colours: dict[str, A
     there = (found.low[:, others] <= here[others]) & ((here[others] < found.high[:, others]) | high_end)
     met = there.all(axis=1)
     low, high = (_shown(found, end[met][:, [i, j]], i, j) for end in (found.low, found.high))
-    corners = _corners(low, high)
     faces = [
         INSIDE if state == 0 else UNDECIDED if state == 2 else colours[found.demands[demand][0]]
         for state, demand in zip(found.state[met].tolist(), found.demand[met].tolist(), strict=True)
     ]
     axes.add_collection(
-        PolyCollection(list(corners), facecolors=faces, edgecolors=faces, linewidths=0.2, rasterized=True)
+        PolyCollection(
+            list(style.corners(low, high)), facecolors=faces, edgecolors=faces, linewidths=0.2, rasterized=True
+        )
     )
     limits = _shown(found, ends[[i, j]].T, i, j)
     axes.set(xlim=limits[:, 0], ylim=limits[:, 1])
-    axes.set_xlabel(style.with_unit(names[i], found.study.unit_of(names[i])))
-    axes.set_ylabel(style.with_unit(names[j], found.study.unit_of(names[j])))
+    labels = [style.with_unit(names[k], found.study.unit_of(names[k])) for k in (i, j)]
+    axes.set(xlabel=labels[0], ylabel=labels[1])
     axes.grid(visible=False)
     axes.plot(*_shown(found, here[[i, j]][None], i, j)[0], **MARK)
     if others:
         axes.set_title(found.of.values([names[k] for k in others]))
-
-
-def _corners(low: Floats, high: Floats) -> Floats:
-    return np.stack(
-        [low, np.column_stack([high[:, 0], low[:, 1]]), high, np.column_stack([low[:, 0], high[:, 1]])], axis=1
-    )
 
 
 def _shown(found: AdmissibleSet, values: Floats, i: int, j: int) -> Floats:
@@ -141,15 +124,12 @@ def _shown(found: AdmissibleSet, values: Floats, i: int, j: int) -> Floats:
 def _iso_lines(axes: Any, found: AdmissibleSet, i: int, j: int) -> bool:
     """Draw lines of the worst condition number over a sample of poses; return whether it could be computed."""
     sampled = found.of.sampled_condition(i, j)
-    if sampled is None:
+    if sampled is None or not np.isfinite(sampled[2]).any():
         return False
     x, y, worst = sampled
-    finite = worst[np.isfinite(worst)]
-    if not finite.size:
-        return False
+    low, high = style.finite_range(worst)
     shown = _shown(found, np.column_stack([x, y]), i, j)
-    low = float(finite.min())
-    levels = style.round_levels(low, min(float(finite.max()), 3.0 * low), 7)
+    levels = style.round_levels(low, min(high, 3.0 * low), 7)
     drawn = axes.contour(shown[:, 0], shown[:, 1], worst, levels=levels, colors=style.INK, linewidths=0.7)
     axes.clabel(drawn, fontsize=style.SMALL_SIZE - 1, fmt="%g")
     return True

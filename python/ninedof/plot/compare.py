@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from ninedof.plot import style
 from ninedof.robot.plate_plan import plates_of
@@ -52,11 +51,10 @@ def compare(comparison: Any, figure: Figure | None = None) -> Figure:
             for i, (pair, scale) in enumerate(zip(plates, scales, strict=True)):
                 _plate(axes, pair[k], scale, i)
         panels[0].set_ylabel(style.with_unit("y", unit))
-        handles = [Line2D([], [], label=name, **_look(i, "E")) for i, name in enumerate(comparison.names)]
+        handles = [style.key(**_look(i, "E"), label=name) for i, name in enumerate(comparison.names)]
         for kind, words in KINDS.items():
-            handles.append(Line2D([], [], label=words, **_look(0, kind) | {"ls": "", "color": style.INK}))
-        handles[-1].set(markeredgecolor=style.INK, markerfacecolor="white")
-        handles[-2].set(markeredgecolor=style.INK)
+            ink = {"ls": "", "color": style.INK, "mec": style.INK}
+            handles.append(style.key(**_look(0, kind) | ink, label=words))
         ncols = len(handles) if sum(map(len, comparison.names)) < 24 else 2  # long names would leave the page
         figure.legend(handles=handles, loc="outside lower center", ncols=ncols, frameon=False)
     return figure

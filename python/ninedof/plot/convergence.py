@@ -53,27 +53,25 @@ def convergence(
     >>> figure = plot.convergence(runs["minimax"], runs["plain"], best=nd.optimize(study).condition_number)
 
     """
-    methods = [
-        ("minimax SQP", style.SERIES[1], style.DASHES[0], [np.asarray(run, dtype=np.float64) for run in minimax]),
-        ("plain SQP", style.SERIES[0], style.DASHES[1], [np.asarray(run, dtype=np.float64) for run in plain]),
-    ]
-    for name, _, _, runs in methods:
+    methods = {"minimax SQP": minimax, "plain SQP": plain}
+    for name, runs in methods.items():
         style.counted(name, runs, 10**6)
-    longest = max(run.size for *_, runs in methods for run in runs)
+    longest = max(np.size(run) for runs in methods.values() for run in runs)
     near = style.power_of_ten(tolerance)
     with style.page(figure, style.TWO_COLUMNS, 4.6) as figure:
         share = figure.add_axes((0.095, 0.09, 0.885, 0.235))
-        for x, (name, colour, dashes, runs) in zip((0.095, 0.5525), methods, strict=True):
-            gaps = [np.maximum(run - best, FLOOR) for run in runs]
-            extended = np.array([np.append(gap, np.full(longest - gap.size, gap[-1])) for gap in gaps])
-            axes = figure.add_axes((x, 0.465, 0.4275, 0.475))
+        for k, (name, runs) in enumerate(methods.items()):
+            colour = style.SERIES[1 - k]
+            gaps = [np.maximum(np.subtract(run, best), FLOOR) for run in runs]
+            extended = np.array([np.pad(gap, (0, longest - gap.size), "edge") for gap in gaps])
+            axes = figure.add_axes((0.095 + 0.4575 * k, 0.465, 0.4275, 0.475))
             axes.set_title(f"{name}: {sum(gap[-1] <= tolerance for gap in gaps)} of {len(gaps)} starts arrive")
             _runs(axes, gaps, extended, colour, tolerance)
             _evaluations(axes, longest)
-            if x < 0.5:
+            if k == 0:
                 axes.set_ylabel("condition number\nabove the best")
-            axes.tick_params(labelleft=x < 0.5)
-            _share(share, name, (extended <= tolerance).mean(axis=0), colour, dashes)
+            axes.tick_params(labelleft=k == 0)
+            _share(share, name, (extended <= tolerance).mean(axis=0), colour, style.DASHES[k])
         _evaluations(share, longest)
         share.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.0, ncols=2, handlelength=3.0)
         share.set(ylim=(0, 1.05), ylabel=f"starts within {near}")
@@ -98,7 +96,7 @@ def _runs(axes: Any, gaps: list[Floats], extended: Floats, colour: str, toleranc
     axes.add_collection(LineCollection(there, colors=colour, linewidths=0.5, alpha=0.35, zorder=2))
     axes.add_collection(LineCollection(stuck, colors=style.ALARM, linewidths=0.8, alpha=0.85, zorder=3))
     axes.add_collection(LineCollection([_steps(median)], colors=style.INK, linewidths=1.6, zorder=4))
-    end: dict[str, Any] = {"marker": "o", "ms": 3.5, "mec": "white", "mew": 0.6}
+    end = {"marker": "o", "ms": 3.5, "mec": "white", "mew": 0.6}
     for line in stuck:
         axes.plot(*line[-1:].T, color=style.ALARM, ls="", zorder=5, **end)
     axes.axhline(tolerance, color=style.INK, lw=0.8, ls=(0, (5, 3)), zorder=1)

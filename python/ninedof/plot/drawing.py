@@ -3,54 +3,42 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Polygon
 
 from ninedof.plot import style
-from ninedof.plot.space.mechanism import DASHES, POINT_O, Robot
+from ninedof.plot.space.mechanism import DASHES, POINT_O, Robot, legs_of
 from ninedof.robot.configuration import Configuration, require_single
 from ninedof.robot.geometry import Geometry
-from ninedof.robot.leg_names import LEGS
 from ninedof.robot.plate_plan import Plate, free_angles, plates_of, turn_words
 from ninedof.robot.plates import outlines
 from ninedof.support.arrays import Floats
-from ninedof.support.placing import Placing, rectangle
+from ninedof.support.placing import Placing, around, rectangle, toward
 from ninedof.support.units import amount
+
+if TYPE_CHECKING:
+    from ninedof.design.duty import Tool
 
 HEIGHT = 2.75  # inches
 REACH = 1.5  # half a panel of a plan, in sizes of its plate
 LETTER, LINE = 4.3, 8.5  # points, of a letter and a line of the smallest words
-JOINTS: dict[str, dict[str, Any]] = {
+JOINTS = {
     "E": {"marker": "o", "ms": 5.5, "color": style.EXTERNAL, "mec": "white", "mew": 0.5, "ls": ""},
     "I": {"marker": "s", "ms": 3.4, "color": style.LOWER, "mec": "white", "mew": 0.5, "ls": ""},
 }
-CHIP: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
-CENTRE: dict[str, Any] = {"color": style.MUTED, "lw": 0.5, "ls": (0, (8, 2, 2, 2))}
-
-
-class ToolOf(Protocol):
-    """The methods of `ninedof.Tool` that a drawing calls."""
-
-    def words(self, unit: str) -> list[str]:
-        """Say where it is."""
-
-    def plates(self, geometry: Geometry) -> Geometry:
-        """Return the plates in their own frames."""
-
-    def plate(self, configuration: Configuration) -> Configuration:
-        """Return where the plate's frame is."""
+CHIP = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+CENTRE = {"color": style.MUTED, "lw": 0.5, "ls": (0, (8, 2, 2, 2))}
 
 
 def drawing(
     geometry: Geometry,
     configuration: Configuration,
     unit: str = "",
-    tool: ToolOf | None = None,
+    tool: Tool | None = None,
     figure: Figure | None = None,
 ) -> Figure:
     """Return a figure with the dimensions of a machine: base and platform from +z of their frames, and from the front.
@@ -84,32 +72,34 @@ def drawing(
 
     """
     require_single("configuration", configuration)
-    points, words = Robot("", geometry, configuration).points(), [] if tool is None else tool.words(unit)
-    if tool is not None and words:
+    points, words = Robot("", geometry, configuration).points(), turn_words(configuration)
+    if tool:
         points = np.vstack([points, configuration.position])
         geometry, configuration = tool.plates(geometry), tool.plate(configuration)
+        words = turn_words(configuration) + tool.words(unit)
     seen = points[:, [0, 2]]
     with style.page(figure, style.TWO_COLUMNS, HEIGHT) as figure:
         for k, plate in enumerate(plates_of(geometry)):
-            panel = _Panel(figure, (k / 3.0, REACH * plate.size, np.zeros(2)))
-            panel.title(f"{plate.title}, from +z")
+            panel = _Panel(figure, k, f"{plate.title}, from +z", REACH * plate.size, np.zeros(2))
             panel.plate(plate, unit)
         low, high = seen.min(axis=0), seen.max(axis=0)
         low[1] = min(low[1], 0.0)
-        panel = _Panel(figure, (2.0 / 3.0, 0.72 * float((high - low).max()), 0.5 * (low + high)))
-        panel.title("Front, along +y, neutral pose")
+        half, middle = 0.72 * (high - low).max(), 0.5 * (low + high)
+        panel = _Panel(figure, 2, "Front, along +y, neutral pose", half, middle)
         panel.front(seen, configuration, unit)
-        panel.note([*turn_words(configuration), *words])
+        panel.axes.text(
+            0.5, 0.04, "\n".join(words), size=style.SMALL_SIZE, ha="center", va="bottom", transform=panel.axes.transAxes
+        )
     return figure
 
 
 class _Panel:
     """One view at one scale, its words placed where they cover least."""
 
-    def __init__(self, figure: Any, place: tuple[float, float, Floats]) -> None:
-        """Begin with the left end in the figure, half the side and the middle of the view."""
-        left, half, middle = place
-        self.axes = figure.add_axes((left, 0.0, 1.0 / 3.0, 0.9))
+    def __init__(self, figure: Any, number: int, title: str, half: float, middle: Floats) -> None:
+        """Begin with half the side and the middle of the view."""
+        self.axes = figure.add_axes((number / 3.0, 0.0, 1.0 / 3.0, 0.9))
+        self.axes.set_title(title, loc="center", size=style.TEXT_SIZE)
         width, height = style.inches(figure) * [1.0 / 3.0, 0.9]
         scale = 2.0 * half / min(width, height)
         self.point = scale / 72.0
@@ -119,16 +109,8 @@ class _Panel:
         self.axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
         self.axes.set_axis_off()
         self.places = Placing()
-        corners = np.array([low, [high[0], low[1]], high, [low[0], high[1]], low])
-        self.places.words += [np.array(side) for side in pairwise(corners)]  # stay inside
-
-    def title(self, words: str) -> None:
-        self.axes.set_title(words, loc="center", size=style.TEXT_SIZE)
-
-    def note(self, lines: Sequence[str]) -> None:
-        self.axes.text(
-            0.5, 0.04, "\n".join(lines), size=style.SMALL_SIZE, ha="center", va="bottom", transform=self.axes.transAxes
-        )
+        corners = rectangle(middle, *(2.0 * spans))
+        self.places.words += [np.array(side) for side in pairwise([*corners, corners[0]])]  # stay inside
 
     def write(self, words: str, centres: Floats, colour: str = style.INK) -> None:
         """Write words at the one of some centres, shape (n, 2), where they cover least."""
@@ -141,8 +123,7 @@ class _Panel:
 
     def beside(self, at: Floats, words: str, out: Floats, first: float = 4.0) -> Floats:
         """Return centres for words about a point, the first in a direction."""
-        turn = math.atan2(out[1], out[0]) + np.array([k * s for k in range(9) for s in (1.0, -1.0)]) * np.pi / 9.0
-        way = np.column_stack([np.cos(turn), np.sin(turn)])
+        way = around(out, np.pi / 9.0, 9)
         reach = first + np.abs(way) @ [0.5 * LETTER * len(words), 0.5 * LINE]
         return np.concatenate([at + self.point * (reach + more)[:, None] * way for more in (0.0, 6.0, 14.0, 24.0)])
 
@@ -151,21 +132,20 @@ class _Panel:
         if len(plate.outline):
             self.axes.add_patch(Polygon(plate.outline, fc=style.GRID, ec=style.INK, lw=1.0, zorder=1))
             self.places.add_path(np.vstack([plate.outline, plate.outline[:1]]))
-        turn = np.linspace(0.0, 2.0 * np.pi, 121)
         for radius in plate.radii:
-            self.axes.plot(radius * np.cos(turn), radius * np.sin(turn), **CENTRE)
+            self.axes.plot(*(radius * toward(np.linspace(0.0, 2.0 * np.pi, 121))).T, **CENTRE)
         for axis in np.eye(2):
             self.line(np.array([-0.06 * plate.size * axis, 0.24 * plate.size * axis]), color=style.MUTED, lw=0.8)
         for at, names in plate.centres().items():
             self.places.words.append(rectangle(np.array(at[:2]), 6.0 * self.point, 6.0 * self.point))
             for kind in sorted({name[0] for name in names}):
                 self.axes.plot(*at[:2], zorder=6 + (kind == "I"), **JOINTS[kind])
-        for name, (start, end) in plate.sides.items():
-            self._side(name, start[:2], end[:2], unit)
+        for name, ends in plate.sides.items():
+            self._side(name, *ends, unit)
         for radius, angle in zip(plate.radii, free_angles(plate), strict=False):
             self._radius(radius, angle, unit)
-        for k, (first, last) in enumerate(plate.angles):
-            self._angle((0.42 + 0.2 * k) * min(plate.radii), first, last)
+        for k, angles in enumerate(plate.angles):
+            self._angle((0.42 + 0.2 * k) * min(plate.radii), *angles)
         for axis, name in zip(np.eye(2), "xy", strict=True):
             self.write(name, self.beside(0.24 * plate.size * axis, name, axis, 1.0), style.MUTED)
         for at, names in plate.centres().items():
@@ -177,59 +157,49 @@ class _Panel:
         self.places.add_path(np.array([start, end]))
 
     def _side(self, name: str, start: Floats, end: Floats, unit: str) -> None:
-        along, middle = end - start, 0.5 * (start + end)
-        out = np.array([along[1], -along[0]]) / np.linalg.norm(along)
-        out *= math.copysign(1.0, float(out @ middle)) * 13.0 * self.point
+        start, end = start[:2], end[:2]
+        (x, y), middle, length = end - start, 0.5 * (start + end), np.linalg.norm(end - start)
+        out = np.array([y, -x]) / length
+        out *= math.copysign(1.0, out @ middle) * 13.0 * self.point
         for point in (start, end):
             self.line(np.array([point + 0.35 * out, point + 1.25 * out]), color=style.INK, lw=0.5)
         self._arrow(start + out, end + out)
-        words = f"{name} = {amount(f'{np.linalg.norm(along):.5g}', unit)}"
+        words = f"{name} = {amount(f'{length:.5g}', unit)}"
         self.write(words, self.beside(middle + out, words, out, 1.0))
 
     def _radius(self, radius: float, angle: float, unit: str) -> None:
-        way = np.array([math.cos(angle), math.sin(angle)])
+        way = toward(angle)
         self._arrow(np.zeros(2), radius * way, "-|>")
         words = f"R {amount(f'{radius:.5g}', unit)}"
         self.write(words, self.beside(radius * way, words, way, 1.0))
 
     def _angle(self, radius: float, start: float, end: float) -> None:
-        ends = [math.degrees(start), math.degrees(end)]
-        self.axes.add_patch(Arc((0.0, 0.0), 2.0 * radius, 2.0 * radius, theta1=ends[0], theta2=ends[1], lw=0.7))
-        turn = np.linspace(start, end, 25)
-        self.places.add_path(radius * np.column_stack([np.cos(turn), np.sin(turn)]))
+        first, last = math.degrees(start), math.degrees(end)
+        self.axes.add_patch(Arc((0.0, 0.0), 2.0 * radius, 2.0 * radius, theta1=first, theta2=last, lw=0.7))
+        self.places.add_path(radius * toward(np.linspace(start, end, 25)))
         for one in (start, end):
-            self.line(
-                np.outer([0.25, 1.08], radius * np.array([math.cos(one), math.sin(one)])), color=style.INK, lw=0.5
-            )
-        way = np.array([math.cos(0.5 * (start + end)), math.sin(0.5 * (start + end))])
-        words = f"{ends[1] - ends[0]:.4g}°"
+            self.line(np.outer([0.25, 1.08], radius * toward(one)), color=style.INK, lw=0.5)
+        way = toward(0.5 * (start + end))
+        words = f"{last - first:.4g}°"
         self.write(words, np.concatenate([self.beside(radius * way, words, s * way, 1.5) for s in (1.0, -1.0)]))
-
-    def tool(self, plate: Floats, at: Floats) -> None:
-        """Draw the way from the origin of the plate to the tool's point, and name it."""
-        self.line(np.array([plate, at]), color=style.REGION, lw=1.6)
-        self.axes.plot(*at, "v", color=style.REGION, ms=5.0, mec="white", mew=0.5, zorder=7)
-        self.write("tool", self.beside(at, "tool", at - plate)[:36], style.REGION)  # near it, whatever it covers
 
     def front(self, points: Floats, c: Configuration, unit: str) -> None:
         """Draw the machine from the front with the heights of p and O; a point after O is the tool's."""
-        base, platform, o = points[:6], points[6:12], points[12]
+        base, platform, o, p = points[:6], points[6:12], points[12], c.position[[0, 2]]
         for body, colour in ((base, style.BASE), (platform, style.PLATFORM)):
-            flat = np.column_stack([body, np.zeros(6)])
-            faces = outlines(flat) if np.ptp(body, axis=0).min() > 1e-6 * np.ptp(body) else []
+            faces = outlines(np.column_stack([body, np.zeros(6)]))
             for face in faces:
                 self.axes.add_patch(Polygon(face[:, :2], fc=colour, ec=style.INK, lw=0.9, alpha=0.8))
-            ends = body[[int(body[:, 0].argmin()), int(body[:, 0].argmax())]]
-            self.line(ends, color=colour, lw=0.5 if faces else 3.0, solid_capstyle="butt", zorder=1)
-        pairs = zip([*base[:3], o, o, o, *base[3:]], [*platform, o, o, o], strict=True)
-        legs = dict(zip(LEGS, pairs, strict=True))
-        for name, leg in legs.items():
+            ends = [body[:, 0].argmin(), body[:, 0].argmax()]
+            self.line(body[ends], color=colour, lw=0.5 if faces else 3.0, solid_capstyle="butt", zorder=1)
+        legs = legs_of(points)
+        for name, *leg in legs:
             self.line(np.array(leg), color=style.LEG_COLOURS[name[0]], lw=1.3, ls=DASHES[name[0]])
-        self.axes.plot(*np.vstack([base, platform]).T, "o", color=style.INK, ms=3.0, mec="white", mew=0.5, zorder=6)
+        self.axes.plot(*points[:12].T, "o", color=style.INK, ms=3.0, mec="white", mew=0.5, zorder=6)
         self.axes.plot(*o, **POINT_O, zorder=7)
         self.places.words.append(rectangle(o, 7.0 * self.point, 7.0 * self.point))
-        edges = float(points[:, 0].min()), float(points[:, 0].max())
-        for side, edge, name, at in zip((-1.0, 1.0), edges, ("zs", "zp"), (o, c.position[[0, 2]]), strict=True):
+        left, right = points[:, 0].min(), points[:, 0].max()
+        for side, edge, name, at in ((-1.0, left, "zs", o), (1.0, right, "zp", p)):
             x = edge + side * 12.0 * self.point
             for start in (np.array([edge, 0.0]), at):
                 tip = np.array([x + side * 3.0 * self.point, start[1]])
@@ -241,10 +211,12 @@ class _Panel:
             self.places.words.append(rectangle(middle, LINE * self.point, LETTER * self.point * len(words)))
         self.write("O", self.beside(o, "O", np.array([-1.0, 0.3])))
         for tool in points[13:]:
-            self.tool(c.position[[0, 2]], tool)
-        for name, (start, end) in legs.items():
+            self.line(np.array([p, tool]), color=style.REGION, lw=1.6)
+            self.axes.plot(*tool, "v", color=style.REGION, ms=5.0, mec="white", mew=0.5, zorder=7)
+            self.write("tool", self.beside(tool, "tool", tool - p)[:36], style.REGION)  # near it, whatever it covers
+        for name, start, end in legs:
             share = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8])[:, None]
-            normal = np.array([end[1] - start[1], start[0] - end[0]]) / max(float(np.linalg.norm(end - start)), 1e-300)
-            away = 6.5 * self.point * normal
+            x, z = (end - start) / max(float(np.linalg.norm(end - start)), 1e-300)
+            away = 6.5 * self.point * np.array([z, -x])
             spots = [start + share * (end - start) + side * away for side in (1.0, -1.0, 2.0, -2.0)]
             self.write(name, np.concatenate(spots), style.LEG_COLOURS[name[0]])

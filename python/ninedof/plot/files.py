@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 from matplotlib.text import Text
@@ -68,39 +67,15 @@ def picture(image: Any) -> bytes:
     return stream.getvalue()
 
 
-def _show_what_acts(figure: Figure) -> None:
-    r"""Write control characters of names as \x1b: SVG has no place for them."""
-    for text in figure.findobj(Text):
-        if (words := escaped(text.get_text())) != text.get_text():
-            text.set_text(words)
-
-
 def _laid_out(figure: Figure) -> Iterator[tuple[str, bytes]]:
-    """Yield suffix and content of each file, in the settings of all figures."""
+    r"""Yield suffix and content of each file, in the settings of all figures; control characters of names as \x1b."""
     with style.settings():
-        _show_what_acts(figure)
+        for text in figure.findobj(Text):
+            text.set_text(escaped(text.get_text()))  # SVG has no place for them
         if (engine := figure.get_layout_engine()) is not None:
             engine.execute(figure)  # once for all files
             figure.set_layout_engine("none")
-        yield from _images(figure)
-
-
-def _images(figure: Figure) -> Iterator[tuple[str, bytes]]:
-    """Yield suffix and content of each file. The canvases draw once for each; `savefig` would draw twice."""
-    from matplotlib.backends.backend_pdf import FigureCanvasPdf
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
-
-    shown, dpi = figure.canvas, figure.dpi
-    try:
-        for kind, canvas, entries in (
-            ("png", FigureCanvasAgg, {}),
-            ("svg", FigureCanvasSVG, {"Date": None}),
-            ("pdf", FigureCanvasPdf, {"CreationDate": None}),
-        ):
+        for kind, dates in (("png", {}), ("svg", {"Date": None}), ("pdf", {"CreationDate": None})):
             image = io.BytesIO()
-            figure.set_dpi(style.DPI)  # of rasters; a canvas may leave its own
-            getattr(canvas(figure), f"print_{kind}")(image, metadata=entries)
+            figure.savefig(image, format=kind, dpi=style.DPI, metadata=dates)
             yield kind, image.getvalue()
-    finally:
-        figure.set_canvas(shown)
-        figure.set_dpi(dpi)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 Row = Mapping[str, Any]
 
 # Joints are told apart by shape too; where two coincide the smaller lies on the larger.
-JOINTS: dict[str, dict[str, Any]] = {
+JOINTS = {
     "base, external": {"color": style.EXTERNAL, "marker": "o", "ms": 6.5, "mec": "white", "mew": 0.5, "ls": ""},
     "base, internal": {"color": style.LOWER, "marker": "s", "ms": 3.8, "mec": "white", "mew": 0.5, "ls": ""},
     "platform, external": {"color": style.EXTERNAL, "marker": "o", "ms": 6.5, "mfc": "white", "mew": 1.1, "ls": ""},
@@ -91,8 +91,8 @@ def _designs(front: Front, most: int) -> dict[int, Candidate]:
     good = {
         k: result.best for k, result in enumerate(front.results) if result.best and not math.isnan(front.objectives[k])
     }
-    picked = np.linspace(0, len(good) - 1, min(most, len(good))).round().astype(int)
-    return {k: good[k] for k in np.array(list(good), dtype=int)[picked].tolist()}
+    picked, numbers = np.linspace(0, len(good) - 1, min(most, len(good))), list(good)
+    return {numbers[round(k)]: good[numbers[round(k)]] for k in picked}
 
 
 def _axis_words(front: Front) -> str:
@@ -109,7 +109,7 @@ def _axis_words(front: Front) -> str:
 def _objective(axes: Any, rows: Sequence[Row], front: Front) -> None:
     objective, of_tolerances = front.study.words, front.of_tolerances
     solved_rows = [row for row in rows if row["objective"] is not None]
-    x, y = (np.array([row[key] for row in solved_rows], dtype=np.float64) for key in ("limit", "objective"))
+    x, y = (np.array([row[key] for row in solved_rows]) for key in ("limit", "objective"))
     axes.plot(x, y, color=style.SERIES[0], zorder=2)
     used = set()
     for row in solved_rows:
@@ -120,21 +120,17 @@ def _objective(axes: Any, rows: Sequence[Row], front: Front) -> None:
     axes.set_title(fill(f"{objective}: the least for each {'tolerance' if of_tolerances else 'limit'}", MOST_LETTERS))
     axes.set_ylabel(fill(objective if len(objective) < 70 else objective.split(" over ")[0], 34))
     if len(y):
-        room = 0.08 * max(float(np.ptp(y)), 0.02 * float(y.max()))
-        axes.set_ylim(float(y.min()) - room, float(y.max()) + 1.6 * room)
+        room = 0.08 * max(np.ptp(y), 0.02 * y.max())
+        axes.set_ylim(y.min() - room, y.max() + 1.6 * room)
     else:
         axes.set(ylim=(0.0, 1.0), yticks=[])
     bottom = axes.get_ylim()[0]
     axes.tick_params(labelbottom=False)
-    labels = {
-        kind: kind.replace("tighter limit", "larger tolerance") if of_tolerances else kind
-        for kind in FOUND
-        if kind in used
-    }
-    keys = [style.key(**FOUND[kind], ls="", ms=5, mew=1.1, label=words) for kind, words in labels.items()]
+    labels = {kind: kind.replace("tighter limit", "larger tolerance") if of_tolerances else kind for kind in FOUND}
+    keys = [style.key(**FOUND[kind], ls="", ms=5, mew=1.1, label=labels[kind]) for kind in FOUND if kind in used]
     for status, (marker, words) in NONE.items():
         without = [row["limit"] for row in rows if row["objective"] is None and row["status"] == status]
-        cross: dict[str, Any] = {"color": style.ALARM, "marker": marker, "ls": "", "ms": 8, "mec": "white"}
+        cross = {"color": style.ALARM, "marker": marker, "ls": "", "ms": 8, "mec": "white"}
         for limit in without:
             axes.plot(limit, bottom, **cross, clip_on=False, zorder=6)
         keys += [style.key(**cross, mew=0.8, label=words)] * bool(without)
@@ -144,10 +140,10 @@ def _objective(axes: Any, rows: Sequence[Row], front: Front) -> None:
 def _prices(axes: Any, rows: Sequence[Row], is_tolerance: bool) -> None:
     priced = [(row["limit"], row["price"]) for row in rows if row["price"] is not None]
     if priced:
-        x, y = np.array(priced, dtype=np.float64).T
+        x, y = np.array(priced).T
         axes.vlines(x, 0.0, y, color=style.SERIES[2], lw=1.6)
         axes.plot(x, y, "o", ms=4, color=style.SERIES[2], mec="white", mew=0.8, zorder=3, clip_on=False)
-        axes.set_ylim(0.0, 1.25 * max(float(y.max()), 1e-5))
+        axes.set_ylim(0.0, 1.25 * max(y.max(), 1e-5))
     else:
         axes.set_yticks([])
     relaxed = "a tolerance 1 % smaller" if is_tolerance else "a limit 1 % looser"
@@ -157,8 +153,8 @@ def _prices(axes: Any, rows: Sequence[Row], is_tolerance: bool) -> None:
 
 def _limits(panels: Sequence[Any], rows: Sequence[Row]) -> None:
     """Set the axis of limits, logarithmic for a wide range, with a grey background where no design exists."""
-    limits = np.array([row["limit"] for row in rows], dtype=np.float64)
-    low, high = float(limits.min()), float(limits.max())
+    limits = [row["limit"] for row in rows]
+    low, high = min(limits), max(limits)
     if high > 4.0 * low > 0.0:
         margin = (high / low) ** 0.035
         view = (low / margin, high * margin)
@@ -189,7 +185,7 @@ def _sketches(
     figure.text(0.09, share - 0.02, words, size=style.SMALL_SIZE)
     keys = [style.key(**mark, label=kind) for kind, mark in JOINTS.items()]
     figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.085, share - 0.02), ncols=4, columnspacing=1.0)
-    reach = 1.12 * max(float(np.abs(joints).max()) for joints, _ in designs)
+    reach = 1.12 * max(np.abs(joints).max() for joints, _ in designs)
     for k, (title, (joints, mirrored)) in enumerate(zip(titles, designs, strict=True)):
         axes = figure.add_axes((0.09 + k * width, 0.005, width, share - 0.095))
         axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
@@ -202,8 +198,8 @@ def _sketches(
             axes.plot(*three.T, **mark)
     bar = style.round_to(0.5 * reach, 25.0 * 0.5 * reach)
     right, y = 0.985, share - 0.014
-    inch = float(style.inches(figure)[0])
-    long = bar / (2.0 * reach) * min(width * inch, (share - 0.095) * float(style.inches(figure)[1])) / inch
+    across, up = style.inches(figure)
+    long = bar / (2.0 * reach) * min(width * across, (share - 0.095) * up) / across
     line = Line2D([right - long, right], [y, y], color=style.INK, lw=1.2, marker="|", ms=4, label="scale")
     figure.add_artist(line)
     words = amount(f"{bar:g}", unit)

@@ -84,8 +84,8 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Fi
         for number, (colour, design) in enumerate(pairs):
             zs, theta, kappa = design.point
             _curve(left, design.zs, design.along_zs, (zs, kappa), colour, number)
-            degrees = np.degrees(np.asarray(design.theta_z, dtype=np.float64))
-            _curve(right, degrees, design.along_theta_z, (float(np.degrees(theta)), kappa), colour, number)
+            degrees = np.degrees(design.theta_z)
+            _curve(right, degrees, design.along_theta_z, (np.degrees(theta), kappa), colour, number)
             if design.neutral is not None:
                 for axes, x, y in zip((left, right), (design.zs, degrees), design.neutral, strict=True):
                     axes.plot(x, style.without_infinite(y), **NEUTRAL)
@@ -102,17 +102,18 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Fi
         if compared:
             box = figure.add_axes((0.085, 0.185, 0.415, 0.165), label="magnified")
             _magnify(left, box, *compared)
-        keys: list[Any] = [
-            style.key(
-                colour,
-                ls=style.DASHES[number],
-                marker=style.MARKS[number],
-                ms=5.5,
-                mec="white",
-                label=f"{d.name}: {d.point[2]:.4f}",
+        keys: list[Any] = []
+        for number, (colour, d) in enumerate(pairs):
+            keys.append(
+                style.key(
+                    colour,
+                    ls=style.DASHES[number],
+                    marker=style.MARKS[number],
+                    ms=5.5,
+                    mec="white",
+                    label=f"{d.name}: {d.point[2]:.4f}",
+                )
             )
-            for number, (colour, d) in enumerate(pairs)
-        ]
         keys += [style.key(**NEUTRAL, label="at the neutral pose")] * any(d.neutral is not None for d in designs)
         keys += [Patch(color=style.GRID, label="a limit is passed")] * any(ground)
         figure.legend(handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.01), ncols=4, handlelength=3.2)
@@ -128,7 +129,7 @@ def _passed(axes: Any, design: DesignCurves, k: int) -> bool:
     """Draw a grey ground where a limit is passed along one of the two; return whether it is in the picture."""
     if design.passed is None:
         return False
-    x = np.asarray((design.zs, np.degrees(np.asarray(design.theta_z, dtype=np.float64)))[k], dtype=np.float64)
+    x = np.asarray((design.zs, np.degrees(design.theta_z))[k])
     passed, (low, high) = np.asarray(design.passed[k], dtype=bool), axes.get_xlim()
     axes.fill_between(x, 0, 1, where=passed, transform=axes.get_xaxis_transform(), color=style.GRID, lw=0, zorder=0)
     axes.set_xlim(low, high)
@@ -138,10 +139,9 @@ def _passed(axes: Any, design: DesignCurves, k: int) -> bool:
 def _crop(axes: Any, factor: float, own: Sequence[float]) -> None:
     """Show the curves up to `factor` times their least value, and the part of the x axis where one is below that."""
     x, y = np.hstack([np.array(line.get_data()) for line in axes.lines])
-    finite = y[np.isfinite(y)]
-    if not len(finite):
+    if not np.isfinite(y).any():
         return
-    low, high = float(finite.min()), float(finite.max())
+    low, high = style.finite_range(y)
     top = min(max(factor * low, 1.05 * max(own)), high) + 1e-6 * low
     inside = x[y <= top]
     axes.set_ylim(low - 0.23 * (top - low), top + 0.02 * (top - low))
@@ -151,27 +151,23 @@ def _crop(axes: Any, factor: float, own: Sequence[float]) -> None:
 
 def _tangent(axes: Any, design: DesignCurves, slope: float) -> None:
     _, theta, kappa = design.point
-    at, per_degree = float(np.degrees(theta)), float(np.radians(slope))
-    ends = at + 0.28 * float(np.ptp(axes.get_xlim())) * np.array([-1.0, 1.0])
+    at, per_degree = np.degrees(theta), np.radians(slope)
+    ends = at + 0.28 * np.ptp(axes.get_xlim()) * np.array([-1.0, 1.0])
     axes.plot(ends, kappa + per_degree * (ends - at), color=style.INK, lw=1.1, ls=(0, (5, 3)), zorder=4)
     text = f"dashed, {design.name}:\nslope {per_degree:+.4f} a degree,\nnot 0 as eq. (7) has it"
     side = 0.025 if slope < 0 else 0.975  # the side where the line is high
     note = axes.text(side, 0.025, text.replace("-", "\N{MINUS SIGN}"), size=style.SMALL_SIZE, transform=axes.transAxes)
-    note.set(
-        ha="left" if slope < 0 else "right",
-        va="bottom",
-        linespacing=1.3,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
-    )
+    white = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}
+    note.set(ha="left" if slope < 0 else "right", va="bottom", linespacing=1.3, bbox=white)
 
 
 def _magnify(axes: Any, box: Any, colour: str, design: DesignCurves) -> None:
     """Draw the curve near the level on separate axes, and mark the magnified part."""
-    zs, kappa = np.asarray(design.zs, dtype=np.float64), np.asarray(design.along_zs, dtype=np.float64)
-    level, first, last = float(design.level or 0.0), min(design.crossings), max(design.crossings)
+    zs, kappa = np.asarray(design.zs), np.asarray(design.along_zs)
+    level, first, last = design.level or 0.0, min(design.crossings), max(design.crossings)
     margin = 0.6 * max(last - first, 0.02 * abs(last))
     inside = kappa[(zs >= first - margin) & (zs <= last + margin)]
-    depth = max(level - float(min(inside, default=level)), 1e-4 * level)
+    depth = max(level - min(inside, default=level), 1e-4 * level)
     x, y = (first - margin, last + margin), (level - 1.7 * depth, level + 1.3 * depth)
     box.plot(zs, kappa, color=colour)
     box.axhline(level, color=style.INK, lw=0.9, ls=(0, (5, 3)))
@@ -179,12 +175,13 @@ def _magnify(axes: Any, box: Any, colour: str, design: DesignCurves) -> None:
         box.plot([crossing], [level], "o", color=colour, ms=4.5, mec="white", mew=0.8, zorder=5)
     if design.least is not None:
         box.plot(*design.least, "D", color=colour, ms=3.6, mec="white", mew=0.6, zorder=5)
+        words = "least {1:.4f} at {0:.4f}".format(*design.least)
         box.annotate(
-            f"least {design.least[1]:.4f} at {design.least[0]:.4f}",
+            words,
             design.least,
+            size=style.SMALL_SIZE,
             xytext=(0, -6),
             textcoords="offset points",
-            size=style.SMALL_SIZE,
             ha="center",
             va="top",
         )

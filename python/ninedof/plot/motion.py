@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 MOST_DRAWN = 800  # stretches of a curve
 MOST_MARGIN = 1.0  # drawn: beyond it a limit is far
-LIMIT: dict[str, Any] = {"color": style.INK, "lw": 1.0, "ls": (0, (6, 3)), "zorder": 1}
-FORBIDDEN: dict[str, Any] = {"color": style.ALARM, "alpha": 0.12, "lw": 0.0, "zorder": 0}
+LIMIT = {"color": style.INK, "lw": 1.0, "ls": (0, (6, 3)), "zorder": 1}
+FORBIDDEN = {"color": style.ALARM, "alpha": 0.12, "lw": 0.0, "zorder": 0}
 
 
 def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, figure: Figure | None = None) -> Figure:
@@ -57,8 +57,17 @@ def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, f
     rows = [*([1.0] * len(bands)), 0.85, *([0.85] if others else [])]
     height = 2.15 * sum(rows)
     with style.page(figure, style.TWO_COLUMNS, height) as figure:
-        place: dict[str, float] = {"left": 0.085, "right": 0.98, "bottom": 0.45 / height, "top": 1.0 - 0.28 / height}
-        grid = figure.add_gridspec(len(rows), 3, height_ratios=rows, hspace=0.5, wspace=0.36, **place)
+        grid = figure.add_gridspec(
+            len(rows),
+            3,
+            height_ratios=rows,
+            hspace=0.5,
+            wspace=0.36,
+            left=0.085,
+            right=0.98,
+            bottom=0.45 / height,
+            top=1.0 - 0.28 / height,
+        )
         first, panels = [], []
         for row, (what, (values, unit)) in enumerate(bands.items()):
             for k, (kind, title) in enumerate(style.LEG_WORDS.items()):
@@ -92,10 +101,9 @@ def _drawn(kappa: Floats) -> NDArray[np.intp]:
 
 def _legs(axes: Any, t: Floats, lengths: Floats, kind: str) -> None:
     for j, dashes in enumerate(style.DASHES[:3]):
-        look: dict[str, Any] = {"color": style.LEG_COLOURS[kind], "ls": dashes}
         for k, values in enumerate(lengths.reshape(-1, len(t), 3)):
-            axes.plot(t, values[:, j], **look, label=None if k else f"{kind}{j + 1}")
-    least, most = float(lengths.min()), float(lengths.max())
+            axes.plot(t, values[:, j], color=style.LEG_COLOURS[kind], ls=dashes, label=None if k else f"{kind}{j + 1}")
+    least, most = lengths.min(), lengths.max()
     room = max(0.08 * (most - least), 0.01 * max(abs(least), abs(most))) or 1.0
     axes.set_ylim(least - room, most + 3.0 * room)
     axes.legend(loc="upper center", ncols=3, handlelength=2.2, columnspacing=1.0)
@@ -112,40 +120,35 @@ def _limits(axes: Any, low: Floats, high: Floats, lengths: Floats) -> None:
             axes.set_ylim(min(bottom, value - 0.1 * reach), max(top, value + 0.6 * reach))
     bottom, top = axes.get_ylim()
     if (lengths < low).any():  # the forbidden side, where a leg enters it
-        axes.axhspan(bottom, float(low.max()), **FORBIDDEN)
+        axes.axhspan(bottom, low.max(), **FORBIDDEN)
     if (lengths > high).any():
-        axes.axhspan(float(high.min()), top, **FORBIDDEN)
+        axes.axhspan(high.min(), top, **FORBIDDEN)
     axes.set_ylim(bottom, top)
 
 
 def _condition(axes: Any, t: Floats, kappa: Floats) -> None:
     axes.plot(t, style.without_infinite(kappa), color=style.SERIES[0])
-    axes.set(ylabel="condition number")
-    finite = kappa[np.isfinite(kappa)]
-    if finite.size and finite.max() > style.RANGE * finite.min():
-        axes.set_yscale("log")
-        axes.set_ylim(finite.min() * 0.8, style.RANGE * finite.min())
-        style.one_two_five(axes.yaxis)
-        most = "without a bound" if np.isinf(kappa).any() else f"{finite.max():.4g} at most"
-        axes.set_title(f"cut off at {style.RANGE * finite.min():.3g}; {most}", size=style.TEXT_SIZE, weight="normal")
-    elif finite.size:
-        room = max(0.08 * float(np.ptp(finite)), 0.005 * float(finite.max()))
-        axes.set_ylim(finite.min() - room, finite.max() + room)
+    axes.set_ylabel("condition number")
+    if most := style.cut_off(axes.yaxis, kappa):
+        axes.set_title(f"cut off at {axes.get_ylim()[1]:.3g}; {most}", size=style.TEXT_SIZE, weight="normal")
+    else:
+        low, high = style.finite_range(kappa)
+        room = max(0.08 * (high - low), 0.005 * high)
+        axes.set_ylim(low - room, high + room)
 
 
 def _margins(axes: Any, t: Floats, margins: Mapping[str, Floats]) -> None:
     for k, (name, values) in enumerate(margins.items()):
-        samples, colours = _drawn(-values), len(style.SERIES)
+        samples = _drawn(-values)
         percent = 100.0 * np.minimum(values[samples], MOST_MARGIN)
-        dashes = style.DASHES[(k + k // colours) % len(style.DASHES)]
-        axes.plot(t[samples], percent, color=style.SERIES[k % colours], ls=dashes, label=name.replace("_", " "))
+        axes.plot(t[samples], percent, **style.look(k), label=name.replace("_", " "))
     axes.axhline(0.0, **LIMIT)
     low, high = axes.get_ylim()
-    if min(float(values.min()) for values in margins.values()) < 0.0:
+    if min(values.min() for values in margins.values()) < 0.0:
         axes.axhspan(low, 0.0, **FORBIDDEN)
     columns = min(5, len(margins))
     axes.set_ylim(low, high + (0.08 + 0.14 * -(-len(margins) // columns)) * (high - low))  # room for the legend
     words = f"least margin of each limit, drawn up to {100.0 * MOST_MARGIN:g} % of it"
     axes.set_title(words, size=style.TEXT_SIZE, weight="normal")
-    axes.set(ylabel="margin (%)")
+    axes.set_ylabel("margin (%)")
     axes.legend(loc="upper center", ncols=columns, handlelength=2.2, columnspacing=1.0)

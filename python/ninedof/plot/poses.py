@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
@@ -20,7 +19,7 @@ WORST_NAMED = 9  # of more poses than MOST_NAMED, those in the list
 LETTER, LINE = 0.056, 0.135  # inches, of the list
 LEAST_SPAN = 0.2  # of the least value, shown by the axis
 TALL = 1.9  # inches, of the axes
-WORST: Any = (0, (5, 3))
+WORST = (0, (5, 3))
 
 
 def poses(
@@ -87,12 +86,22 @@ def poses(
         keys = []
         for k, (name, v) in enumerate(zip(designs, values, strict=True)):
             _one(axes, v, k, len(values))
-            look = {"marker": style.MARKS[k], "ms": 5, "lw": 0.8, "ls": WORST, "mec": "white"}
-            keys.append(style.key(style.SERIES[k], **look, label=_label(name, v)))
+            keys.append(
+                style.key(
+                    style.SERIES[k], marker=style.MARKS[k], ms=5, lw=0.8, ls=WORST, mec="white", label=_label(name, v)
+                )
+            )
         _names(axes, names, count, slanted)
         _write(axes, columns, note, under)
-        options: dict[str, Any] = {"ncols": 1 if single else 2, "handlelength": 3.0, "borderpad": 0.2}
-        axes.legend(handles=keys, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.7, **options)
+        axes.legend(
+            handles=keys,
+            loc="lower left",
+            bbox_to_anchor=(0.0, 1.0),
+            borderaxespad=0.7,
+            ncols=1 if single else 2,
+            handlelength=3.0,
+            borderpad=0.2,
+        )
     return figure
 
 
@@ -113,27 +122,35 @@ def _columns(lines: Sequence[str], width: float) -> list[Sequence[str]]:
 
 def _write(axes: Any, columns: Sequence[Sequence[str]], note: str, below: float) -> None:
     """Write the list, so many inches below the axes, line by line."""
-    options: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points", "size": style.SMALL_SIZE}
     heads = bool(columns and note)
     lines = [(0, 0, note, style.MUTED)] * heads
     lines += [(k, row + heads, words, style.INK) for k, each in enumerate(columns) for row, words in enumerate(each)]
     for k, row, words, colour in lines:
         at = (0.0, -72.0 * (below + (row + 0.4) * LINE))
-        axes.annotate(words, (k / len(columns), 0.0), at, color=colour, va="top", annotation_clip=False, **options)
+        axes.annotate(
+            words,
+            (k / len(columns), 0.0),
+            at,
+            color=colour,
+            va="top",
+            annotation_clip=False,
+            xycoords="axes fraction",
+            textcoords="offset points",
+            size=style.SMALL_SIZE,
+        )
 
 
 def _label(name: str, values: Floats) -> str:
-    worst = float(values.max())
-    text = "singular at some" if not np.isfinite(worst) else f"worst {worst:.4g}"
-    return f"{name}: {text}" if len(values) > 1 else f"{name}: {worst:.4g}"
+    worst = values.max()
+    if len(values) == 1:
+        return f"{name}: {worst:.4g}"
+    return f"{name}: worst {worst:.4g}" if np.isfinite(worst) else f"{name}: singular at some"
 
 
 def _scale(axes: Any, values: Sequence[Floats]) -> None:
     """Show the finite values up to style.RANGE times the least, on a logarithmic axis if they span a factor of 3."""
-    every = np.concatenate(values)
-    finite = every[np.isfinite(every)]
-    low = float(finite.min()) if len(finite) else 1.0
-    high = min(float(finite.max()) if len(finite) else 2.0, style.RANGE * low)
+    low, high = style.finite_range(np.concatenate(values), (1.0, 2.0))
+    high = min(high, style.RANGE * low)
     if high > 3.0 * low:
         axes.set_yscale("log")
         style.one_two_five(axes.yaxis)
@@ -160,13 +177,10 @@ def _names(axes: Any, names: Sequence[str], count: int, slanted: bool) -> None:
     axes.set_xlim(-0.7, count - 0.3)
     if not names:
         axes.set_xlabel("number of the pose")
+    step = 1
     if count > MOST_NAMED:
         power = 10 ** int(np.log10(count / 5))
         step = power * max(1, round(count / (10 * power)))
-        numbers = list(range(step - 1, count, step))
-        axes.set_xticks(numbers, [str(k + 1) for k in numbers])
-        return
-    axes.xaxis.set_major_locator(FixedLocator(list(range(count))))
-    labels = list(names) or [str(k + 1) for k in range(count)]
-    turn: dict[str, Any] = {"rotation": 50, "ha": "right", "rotation_mode": "anchor"} if slanted else {}
-    axes.set_xticklabels(labels, **turn)
+    numbers = range(step - 1, count, step)
+    turn = {"rotation": 50, "ha": "right", "rotation_mode": "anchor"} if slanted else {}
+    axes.set_xticks(numbers, names or [str(k + 1) for k in numbers], **turn)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ninedof.optimize.region_map import RegionMap
 
 MARGIN = "viridis"
-RULED: dict[str, Any] = {"marker": "o", "ms": 5.0, "mfc": "none", "color": style.ALARM, "mew": 1.3, "ls": ""}
+RULED = {"marker": "o", "ms": 5.0, "mfc": "none", "color": style.ALARM, "mew": 1.3, "ls": ""}
 TALLEST = 3.2  # inches, of the panels
 
 
@@ -45,12 +45,11 @@ def region_map(region: RegionMap, figure: Figure | None = None) -> Figure:
     width, height = np.ptp(outline, axis=0)
     panels = 1 if region.margin is None else 2
     wide = style.ONE_COLUMN + 0.6 if panels == 1 else style.TWO_COLUMNS
-    tall = float(np.clip(1.05 + 0.34 * style.TWO_COLUMNS * height / width, 2.2, TALLEST + 1.0))
+    tall = np.clip(1.05 + 0.34 * style.TWO_COLUMNS * height / width, 2.2, TALLEST + 1.0)
     with style.page(figure, wide, tall, layout="constrained") as figure:
         axes: Any = figure.subplots(1, panels, squeeze=False)[0]
         over = f"\nover all {region.over}" if region.over else ""
-        cut = np.where(np.isfinite(region.condition_number), region.condition_number, np.nan)
-        _fill(axes[0], x, y, cut, style.CONDITION, "condition number")
+        _fill(axes[0], x, y, region.condition_number, style.CONDITION, "condition number")
         axes[0].set_title(f"worst condition number{over}")
         if region.margin is not None:
             _fill(axes[1], x, y, 100.0 * region.margin, MARGIN, "least margin (%)")
@@ -74,15 +73,9 @@ def region_map(region: RegionMap, figure: Figure | None = None) -> Figure:
 
 def _fill(axes: Any, x: Floats, y: Floats, values: Floats, colours: str, words: str) -> None:
     """Fill between contours at round values, and add their bar."""
-    finite = values[np.isfinite(values)]
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    low, high = style.finite_range(values, (0.0, 1.0))
     levels = style.round_levels(low, min(high, style.RANGE * low) if low > 0.0 else high)
     norm, extend = BoundaryNorm(levels, 256, extend="max"), "max" if high > levels[-1] else "neither"
-    options: Any = {"levels": levels, "extend": extend}
-    filled = axes.contourf(x, y, values, cmap=colours, norm=norm, **options)
+    filled = axes.contourf(x, y, values, cmap=colours, norm=norm, levels=levels, extend=extend)
     axes.contour(x, y, values, levels=levels, colors="white", linewidths=0.4, alpha=0.7)
-    bar = axes.figure.colorbar(filled, ax=axes, fraction=0.045, pad=0.02, label=words)
-    bar.ax.yaxis.set_major_locator(MaxNLocator(6))
-    bar.ax.yaxis.set_major_formatter("{x:g}")
-    bar.ax.minorticks_off()
-    bar.outline.set_linewidth(0.5)
+    style.colour_bar(axes.figure, filled, words, ax=axes, fraction=0.045, pad=0.02, ticks=MaxNLocator(6))

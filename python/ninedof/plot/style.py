@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence, Sized
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatter
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ninedof.support.arrays import Floats
 from ninedof.support.units import with_unit as with_unit
@@ -43,7 +44,7 @@ CONDITION = "cividis_r"  # condition numbers, dark if large; safe for colour-bli
 DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 MARKS = ("o", "s", "^", "D")
 
-HOME: dict[str, Any] = {"marker": "P", "ms": 6.5, "color": INK, "mec": "white", "mew": 0.9, "ls": "", "zorder": 8}
+HOME = {"marker": "P", "ms": 6.5, "color": INK, "mec": "white", "mew": 0.9, "ls": "", "zorder": 8}
 """The mark of the home pose."""
 
 # Inches: figures are made at the width they are printed at, so that these are the sizes of the text on paper.
@@ -90,30 +91,26 @@ _SETTINGS: Any = {
     "text.color": INK,
     "text.parse_math": False,  # names come from files: a "$" in them is a dollar; symbols of our own ask for it
     "text.usetex": False,
-    "xtick.major.pad": 2.5,
-    "xtick.major.size": 2.5,
-    "xtick.major.width": 0.6,
-    "xtick.minor.size": 1.5,
-    "xtick.minor.width": 0.4,
-    "xtick.color": MUTED,
-    "xtick.labelcolor": INK,
-    "xtick.labelsize": SMALL_SIZE,
-    "ytick.major.pad": 2.5,
-    "ytick.major.size": 2.5,
-    "ytick.major.width": 0.6,
-    "ytick.minor.size": 1.5,
-    "ytick.minor.width": 0.4,
-    "ytick.color": MUTED,
-    "ytick.labelcolor": INK,
-    "ytick.labelsize": SMALL_SIZE,
+    **{
+        f"{axis}tick.{name}": value
+        for axis in "xy"
+        for name, value in {
+            "major.pad": 2.5,
+            "major.size": 2.5,
+            "major.width": 0.6,
+            "minor.size": 1.5,
+            "minor.width": 0.4,
+            "color": MUTED,
+            "labelcolor": INK,
+            "labelsize": SMALL_SIZE,
+        }.items()
+    },
 }
 
 
-@contextmanager
-def settings() -> Iterator[None]:
+def settings() -> AbstractContextManager[None]:
     """Apply the settings of all figures inside a `with` block, and restore those of matplotlib."""
-    with rc_context(_SETTINGS):
-        yield
+    return rc_context(_SETTINGS)
 
 
 def new_figure(width: float, height: float, layout: Any = None) -> Figure:
@@ -169,10 +166,22 @@ def one_two_five(axis: Any) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
+def finite_range(values: Floats, otherwise: tuple[float, float] = (1.0, 1.0)) -> tuple[float, float]:
+    """Return the least and the greatest finite value."""
+    finite = values[np.isfinite(values)]
+    return (finite.min(), finite.max()) if finite.size else otherwise
+
+
 def without_infinite(values: ArrayLike) -> Floats:
     """Return the values with NaN in place of infinite ones: the curve has a gap there."""
     array = np.asarray(values, dtype=np.float64)
     return np.where(np.isfinite(array), array, np.nan)
+
+
+def corners(low: Floats, high: Floats) -> Floats:
+    """Return the corners of rectangles between low and high, shapes (n, 2) to (n, 4, 2)."""
+    (x0, y0), (x1, y1) = low.T, high.T
+    return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]).transpose(2, 0, 1)
 
 
 def round_levels(low: float, high: float, most: int = 9) -> Floats:
@@ -197,9 +206,38 @@ def round_to(value: float, span: float) -> float:
     return float(f"{round(value / step) * step:.12g}") + 0.0
 
 
-def key(color: str, **line: Any) -> Line2D:
+def colour_bar(figure: Any, image: Any, label: str, **place: Any) -> None:
+    """Add a colour bar with plain numbers at its ticks."""
+    bar = figure.colorbar(image, label=label, **place)
+    bar.ax.yaxis.set_major_formatter("{x:g}")
+    bar.ax.minorticks_off()
+    bar.outline.set_linewidth(0.5)
+
+
+def cut_off(axis: Any, values: Floats) -> str:
+    """Show values up to RANGE times the least, on a logarithmic axis; return the greatest in words, "" if shown."""
+    low, high = finite_range(values)
+    if high <= RANGE * low:
+        return ""
+    axis.axes.set(yscale="log", ylim=(low * 0.8, RANGE * low))
+    one_two_five(axis)
+    return "without a bound" if np.isposinf(values).any() else f"{high:.4g} at most"
+
+
+def stretches(values: NDArray[Any]) -> Iterator[tuple[int, int]]:
+    """Yield the first and the last index of each stretch of one value along a curve; the next begins at the last."""
+    changes = np.flatnonzero(values[1:] != values[:-1]) + 1
+    return pairwise([0, *changes.tolist(), len(values) - 1])
+
+
+def key(color: Any, **line: Any) -> Line2D:
     """Return a legend entry without data."""
     return Line2D([], [], color=color, **line)
+
+
+def look(k: int) -> dict[str, Any]:
+    """Return colour and dashes of the curve number k of any number: no two of the first sixteen are alike."""
+    return {"color": SERIES[k % len(SERIES)], "ls": DASHES[(k + k // len(SERIES)) % len(DASHES)]}
 
 
 def arrow(colour: str, width: float, ends: str = "-|>") -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.ticker import MaxNLocator
 
 from ninedof.plot import style
 from ninedof.support.angles import plain_name
@@ -63,12 +63,12 @@ def sweep(result: SweepResult, name: str = "", note: str = "", figure: Figure | 
         return _curves(result, name, swept[0], np.atleast_2d(np.asarray(values).T), labels, note, figure)
     if len(swept) == 2:
         slices = values[None] if labels is None else np.moveaxis(values, -1, 0)[:MOST_CURVES]
-        titles = [_words(name)] if labels is None else [str(x) for x in labels]
+        titles = [name.replace("_", " ")] if labels is None else [str(x) for x in labels]
         return _maps(result, name, swept, dict(zip(titles, slices, strict=True)), note, figure)
     if labels is not None:
         values, name = values[..., 0], f"{name}, {labels[0]}"
     picks = np.unique(np.linspace(0, len(values) - 1, min(PANELS, len(values))).round().astype(int))
-    first, unit = _values(result, swept[0])
+    first, unit = _values(result, swept[0]), _unit(result, swept[0])
     titles = [f"{plain_name(swept[0])} = {amount(style.signed(first[k]), unit)}" for k in picks]
     return _maps(result, name, swept[1:], dict(zip(titles, values[picks], strict=True)), note, figure)
 
@@ -84,41 +84,30 @@ def _curves(
     with style.page(figure, width, tall + above) as figure:
         share = tall / (tall + above)  # for the panels, below the note
         if of_legs:
-            place: dict[str, float] = {"left": 0.085, "right": 0.985, "bottom": 0.19 * share, "top": 0.83 * share}
-            panels: Any = figure.add_gridspec(1, 3, wspace=0.36, **place).subplots()
+            panels: Any = figure.add_gridspec(
+                1, 3, wspace=0.36, left=0.085, right=0.985, bottom=0.19 * share, top=0.83 * share
+            ).subplots()
         else:
             high = 0.74 if len(names) > 1 or note else 0.8
             panels = [figure.add_axes((0.155, 0.16 * share, 0.8, high * share))]
         if note:
             figure.text(0.02, 0.99, words, size=style.SMALL_SIZE, va="top")
-        x, _ = _values(result, dim)
+        x = _values(result, dim)
         for k, row in enumerate(rows[:MOST_CURVES]):
-            axes = panels[k // 3 if of_legs else 0]
-            colour = style.LEG_COLOURS[names[k][0]] if of_legs else style.SERIES[k % len(style.SERIES)]
-            dashes = style.DASHES[k % 3 if of_legs else (k + k // len(style.SERIES)) % len(style.DASHES)]
-            axes.plot(x, style.without_infinite(row), ls=dashes, color=colour, label=names[k] if names else None)
+            axes, look = panels[0], style.look(k)
+            if of_legs:
+                axes, look = panels[k // 3], {"color": style.LEG_COLOURS[names[k][0]], "ls": style.DASHES[k % 3]}
+            axes.plot(x, style.without_infinite(row), **look, label=names[k] if names else None)
         for k, axes in enumerate(panels):
-            axes.set(xlabel=_axis(result, dim))
+            axes.set(xlabel=_axis(result, dim), ylabel=_label(result, name))
             axes.margins(x=0.0)
-            axes.set_ylabel(style.with_unit(_words(name), _unit(result, name)))
             if of_legs:
                 axes.set_title(tuple(style.LEG_WORDS.values())[k], size=style.TEXT_SIZE, pad=16.0)
             if names:
                 axes.legend(loc="lower left", ncols=4, bbox_to_anchor=(0.0, 0.99), borderaxespad=0.0, handlelength=2.4)
-        if name.startswith("condition_number"):
-            _crop(panels[0], rows)
+        if name.startswith("condition_number") and (most := style.cut_off(panels[0].yaxis, rows)):
+            panels[0].set_title(f"cut off; {most}", size=style.SMALL_SIZE, weight="normal", loc="right")
     return figure
-
-
-def _crop(axes: Any, rows: Floats) -> None:
-    """Cut off values of many times the least, near a singularity, and say so."""
-    finite = rows[np.isfinite(rows)]
-    if finite.size and finite.max() > style.RANGE * finite.min():
-        axes.set_ylim(finite.min() * 0.8, style.RANGE * finite.min())
-        axes.set_yscale("log")
-        style.one_two_five(axes.yaxis)
-        most = "without a bound" if np.isposinf(rows).any() else f"{finite.max():.4g} at most"
-        axes.set_title(f"cut off; {most}", size=style.SMALL_SIZE, weight="normal", loc="right")
 
 
 def _maps(
@@ -131,73 +120,53 @@ def _maps(
 ) -> Figure:
     """Draw maps over two coordinates, by title, with a common colour scale."""
     slices = np.stack(list(panels.values()))
-    columns = min(3, len(slices))
-    rows = -(-len(slices) // 3)
+    columns, rows = min(3, len(slices)), -(-len(slices) // 3)
     single = columns == 1
     size = (style.ONE_COLUMN, 2.8) if single else (style.TWO_COLUMNS, 0.5 + 2.0 * rows)
     coarser = [-(-n // FINEST) for n in slices.shape[1:]]
     slices = slices[:, :: coarser[0], :: coarser[1]]
     levels, beyond = _bands(slices.ravel(), name)
-    norm = BoundaryNorm(levels, 256, extend="max" if beyond else "neither")
+    extend: Any = "max" if beyond else "neither"
+    norm = BoundaryNorm(levels, 256, extend=extend)
     colours = style.CONDITION if name.startswith("condition_number") else MAP
-    x, y = (_values(result, d)[0][::step] for d, step in zip(dims, coarser, strict=True))
+    x, y = (_values(result, d)[::step] for d, step in zip(dims, coarser, strict=True))
     with style.page(figure, *size, layout="constrained") as figure:
         grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-        image = None
         if note:
             figure.suptitle(fill(note, NOTE[not single]), size=style.SMALL_SIZE, x=0.02, ha="left")
         for axes, title, part in zip(grid.flat, panels, slices, strict=False):
             values = np.ma.masked_invalid(part.T)
             if min(part.shape) >= SMOOTH and np.isfinite(part).all():
                 clipped = np.clip(values, levels[0], None if beyond else levels[-1])
-                extend = "max" if beyond else "neither"
                 image = axes.contourf(x, y, clipped, levels, norm=norm, cmap=colours, extend=extend)
             else:
                 image = axes.pcolormesh(x, y, values, norm=norm, cmap=colours, shading="nearest", rasterized=True)
-            axes.set_facecolor(style.GRID)
+            axes.set(facecolor=style.GRID, xlabel=_axis(result, dims[0]), ylabel=_axis(result, dims[1]))
+            axes.label_outer()
             axes.grid(False)
-            axes.set_title(title, size=style.TEXT_SIZE if columns > 1 else None)
-            if min(part.shape) > 1 and len(levels) > 2:
-                _contours(axes, x, y, values, levels)
+            axes.set_title(title, size=None if single else style.TEXT_SIZE)
+            if min(part.shape) > 1 and len(levels) > 2 and values.min() < values.max():
+                axes.contour(x, y, values, levels=levels, colors="white", linewidths=0.4, alpha=0.7)
         for axes in list(grid.flat)[len(slices) :]:
             axes.set_axis_off()
-        for axes in grid[-1, :]:
-            axes.set_xlabel(_axis(result, dims[0]))
-        for axes in grid[:, 0]:
-            axes.set_ylabel(_axis(result, dims[1]))
-        if image is not None:
-            bar = figure.colorbar(image, ax=list(grid.flat), pad=0.02, aspect=30, ticks=levels)
-            bar.ax.yaxis.set_major_formatter("{x:g}")
-            bar.ax.yaxis.set_minor_locator(NullLocator())
-            bar.outline.set_linewidth(0.5)
-            words = style.with_unit(_words(name), _unit(result, name))
-            finite = slices[np.isfinite(slices)]
-            words += f", {finite.max():.4g} at most" if beyond and np.isfinite(slices).all() else ""
-            bar.set_label(words + ("; grey: infinite or none" if not np.isfinite(slices).all() else ""))
+        words = _label(result, name)
+        if not np.isfinite(slices).all():
+            words += "; grey: infinite or none"
+        elif beyond:
+            words += f", {slices.max():.4g} at most"
+        style.colour_bar(figure, image, words, ax=list(grid.flat), pad=0.02, aspect=30, ticks=levels)
     return figure
-
-
-def _contours(axes: Any, x: Any, y: Any, values: Any, levels: Floats) -> None:
-    """Draw thin lines between the bands."""
-    if values.count() and float(values.min()) < float(values.max()):
-        axes.contour(x, y, values, levels=levels, colors="white", linewidths=0.4, alpha=0.7)
 
 
 def _bands(values: Floats, name: str) -> tuple[Floats, bool]:
     """Return round values between the bands of colour, and whether there are larger ones."""
-    finite = values[np.isfinite(values)]
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    low, high = style.finite_range(values, (0.0, 1.0))
     if high <= low + 1e-12 * abs(low):
         high = low + max(1e-6 * abs(low), 1e-12)
-    top = min(high, style.RANGE * low) if name.startswith("condition_number") and low > 0.0 else high
     if not name.startswith("condition_number"):
-        return np.asarray(MaxNLocator(12, steps=[1, 2, 2.5, 5, 10]).tick_values(low, top)), False
-    levels = style.round_levels(low, top)
-    return levels, high > float(levels[-1])
-
-
-def _words(name: str) -> str:
-    return name.replace("_", " ")
+        return np.asarray(MaxNLocator(12, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)), False
+    levels = style.round_levels(low, min(high, style.RANGE * low) if low > 0.0 else high)
+    return levels, high > levels[-1]
 
 
 def _unit(result: SweepResult, name: str) -> str:
@@ -206,10 +175,14 @@ def _unit(result: SweepResult, name: str) -> str:
     return "deg" if unit == "rad" else "" if unit in ("1", "length") else unit
 
 
-def _values(result: SweepResult, dim: str) -> tuple[Any, str]:
-    """Return the values along a dimension in the unit that is drawn, and that unit."""
+def _values(result: SweepResult, dim: str) -> Any:
+    """Return the values along a dimension in the unit that is drawn."""
     values = result.coords[dim]
-    return np.degrees(values) if result.units.get(dim) == "rad" else values, _unit(result, dim)
+    return np.degrees(values) if result.units.get(dim) == "rad" else values
+
+
+def _label(result: SweepResult, name: str) -> str:
+    return style.with_unit(name.replace("_", " "), _unit(result, name))
 
 
 def _axis(result: SweepResult, dim: str) -> str:

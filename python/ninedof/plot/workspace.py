@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from contourpy import contour_generator
-from matplotlib.collections import LineCollection
+from matplotlib.collections import PolyCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Circle, Rectangle
 from matplotlib.path import Path
-from matplotlib.ticker import NullLocator
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
@@ -52,14 +50,12 @@ KINDS: dict[str, tuple[str, str, Any]] = {  # limits: part of the name, words, c
 }
 ALLOWED, OPEN, EDGE = "#A9CCE3", "#E8871E", "#7FB0D1"  # proved, not decided, edges of proved boxes
 
-Plane = TypeVar("Plane", bound="WorkspaceSlice | CertifiedSection")
-
 
 @dataclass(frozen=True, eq=False)
-class Section(Generic[Plane]):
+class Section:
     """A plane section of a workspace and what is marked in it, in the two coordinates drawn."""
 
-    plane: Plane
+    plane: Any
     """As `WorkspaceMap.slice` returns it (smooth for contours), or `CertifiedWorkspace.section`."""
     ball: tuple[ArrayLike, float] | None = None
     """Centre and radius of the section of the ball."""
@@ -73,7 +69,7 @@ class Section(Generic[Plane]):
     """The same plane of a map, to draw its boundary over what is certified."""
 
 
-def workspace(found: WorkspaceMap, sections: Sequence[Section[WorkspaceSlice]], figure: Figure | None = None) -> Figure:
+def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure | None = None) -> Figure:
     """Return a figure of a workspace: sections above, what ends it and the spread of the condition number below.
 
     Colours are bands between contours at round values, the same in all sections. Where the condition number goes on
@@ -107,21 +103,26 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section[WorkspaceSlice]], 
         parts: Any = figure.subfigures(2, 1, height_ratios=[upper, LOWER])
         above, below = parts
         bands, most = _bands(found.percentiles, sections)
+        turn, unit = (np.degrees, "deg") if found.of_angles else (np.asarray, found.unit)
         filled: Any = None
         panels = above.subplots(1, len(sections), squeeze=False)[0]
         for axes, section in zip(panels, sections, strict=True):
-            turn, unit = (np.degrees, "deg") if found.of_angles else (np.asarray, found.unit)
             filled = _fill(axes, section.plane, turn, bands, most is not None) or filled
             _boundary(axes, section.plane, turn, kinds)
             _marks(axes, section, turn, unit, style.INK)
         if filled is not None:
-            size: dict[str, Any] = {"fraction": 0.03, "pad": 0.02, "aspect": 28}
-            bar = above.colorbar(filled, ax=list(panels), **size, ticks=bands, panchor=False)
-            bar.ax.yaxis.set_major_formatter("{x:g}")
-            bar.ax.yaxis.set_minor_locator(NullLocator())
             more = "" if most is None else f", {most:.4g} at most" if np.isfinite(most) else ", without a bound"
-            bar.set_label("condition number" + more)
-            bar.outline.set_linewidth(0.5)
+            style.colour_bar(
+                above,
+                filled,
+                "condition number" + more,
+                ax=list(panels),
+                ticks=bands,
+                fraction=0.03,
+                pad=0.02,
+                aspect=28,
+                panchor=False,
+            )
         _legend(figure, _keys_of_limits(sections, kinds), sections, style.INK, 4)
         left, right = below.subplots(1, 2)
         _shares(left, found.limits())
@@ -129,9 +130,7 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section[WorkspaceSlice]], 
     return figure
 
 
-def certified_workspace(
-    sections: Sequence[Section[CertifiedSection]], unit: str = "", figure: Figure | None = None
-) -> Figure:
+def certified_workspace(sections: Sequence[Section], unit: str = "", figure: Figure | None = None) -> Figure:
     """Return a figure of a certified workspace: where poses are proved to be allowed, and where nothing is proved.
 
     The rest is proved to be outside. Each pixel is judged at its middle: what is thinner may be missed. Edges
@@ -161,7 +160,7 @@ def certified_workspace(
                 for line in _outline(section.estimate, np.asarray):
                     axes.plot(*line.T, color=style.INK, lw=0.9, zorder=5)
             _marks(axes, section, np.asarray, unit, style.REGION)
-        square: dict[str, Any] = {"ls": "", "marker": "s", "ms": 6}
+        square = {"ls": "", "marker": "s", "ms": 6}
         keys = [
             style.key(ALLOWED, **square, label="proved to be allowed"),
             style.key(OPEN, **square, label="not decided"),
@@ -183,20 +182,19 @@ def _layout() -> ConstrainedLayoutEngine:
     return ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06)
 
 
-def _bands(percentiles: Floats, sections: Sequence[Section[WorkspaceSlice]]) -> tuple[Floats, float | None]:
+def _bands(percentiles: Floats, sections: Sequence[Section]) -> tuple[Floats, float | None]:
     """Return the round values between the bands of colour, and the largest value if it is beyond them."""
-    in_sections = np.concatenate([section.plane.condition_number.ravel() for section in sections])
-    of_volume = percentiles[np.isfinite(percentiles)]
-    finite = (
-        of_volume if of_volume.size else in_sections[np.isfinite(in_sections)]
-    )  # the raster goes on beyond the boundary
-    if not finite.size:
+    values = percentiles
+    if not np.isfinite(values).any():  # the raster goes on beyond the boundary
+        values = np.concatenate([section.plane.condition_number.ravel() for section in sections])
+    if not np.isfinite(values).any():
         return np.array([1.0, 2.0]), None
-    low, high = float(finite.min()), float(finite.max())
-    usual = float(of_volume[: USUAL + 1].max()) if of_volume.size > USUAL else high
+    low, high = style.finite_range(values)
+    of_volume = percentiles[np.isfinite(percentiles)]
+    usual = of_volume[: USUAL + 1].max() if of_volume.size > USUAL else high
     top = high if high <= usual + MORE * (usual - low) else min(usual, style.RANGE * low)
     bands = style.round_levels(low, top)
-    most = np.inf if np.isposinf(percentiles if of_volume.size else in_sections).any() else high
+    most = np.inf if np.isposinf(values).any() else high
     return bands, most if most > bands[-1] else None
 
 
@@ -232,73 +230,77 @@ def _boundary(axes: Any, s: WorkspaceSlice, turn: Any, kinds: Sequence[str]) -> 
     numbers = np.array([names.index(kind) for kind in kinds] + [-1])
     lines = _outline(s, turn)
     for line in lines:
-        at = []
-        for k, axis in enumerate((turn(s.horizontal), turn(s.vertical))):
-            near = np.round((line[:, k] - axis[0]) / (axis[1] - axis[0])).astype(int)
-            at.append(np.clip(near, 0, len(axis) - 1))
-        number = numbers[s.limit[at[1], at[0]]]
-        ends = [0, *(np.flatnonzero(number[1:] != number[:-1]) + 1).tolist(), len(line) - 1]
-        for first, last in pairwise(ends):
+        column, row = (
+            np.clip(np.round((values - axis[0]) / (axis[1] - axis[0])).astype(int), 0, len(axis) - 1)
+            for values, axis in zip(line.T, (turn(s.horizontal), turn(s.vertical)), strict=True)
+        )
+        number = numbers[s.limit[row, column]]
+        for first, last in style.stretches(number):
             _, colour, dashes = KINDS[names[number[first]]] if number[first] >= 0 else ("", style.MUTED, "-")
             part = line[first : last + 1].T
             axes.plot(*part, color="white", lw=BOUNDARY, solid_capstyle="butt", zorder=4)
             axes.plot(*part, color=colour, ls=dashes, lw=BOUNDARY, dash_capstyle="butt", zorder=5)
     if lines:
         every = np.concatenate(lines)
-        low, high = every.min(axis=0), every.max(axis=0)
-        room = 0.06 * float((high - low).max())
-        axes.set(xlim=(low[0] - room, high[0] + room), ylim=(low[1] - room, high[1] + room))
+        room = 0.06 * np.ptp(every, axis=0).max()
+        low, high = every.min(axis=0) - room, every.max(axis=0) + room
+        axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
 
 
 def _certified(axes: Any, s: CertifiedSection) -> None:
     """Draw what is proved, and show the part of the plane about it."""
-    dx, dy = (0.5 * float(a[1] - a[0]) for a in (s.horizontal, s.vertical))
+    dx, dy = (0.5 * (a[1] - a[0]) for a in (s.horizontal, s.vertical))
     x0, x1, y0, y1 = s.horizontal[0] - dx, s.horizontal[-1] + dx, s.vertical[0] - dy, s.vertical[-1] + dy
-    options: dict[str, Any] = {"origin": "lower", "extent": (x0, x1, y0, y1), "interpolation": "nearest"}
-    axes.imshow(s.state, cmap=ListedColormap(["white", OPEN, ALLOWED]), vmin=-1, vmax=1, **options)
-    a0, b0, a1, b1 = s.inner.T
-    corners = [np.column_stack(pair) for pair in ((a0, b0), (a1, b0), (a1, b1), (a0, b1), (a0, b0))]
-    axes.add_collection(LineCollection(list(np.stack(corners, axis=1)), colors=EDGE, linewidths=0.25))
+    axes.imshow(
+        s.state,
+        cmap=ListedColormap(["white", OPEN, ALLOWED]),
+        vmin=-1,
+        vmax=1,
+        origin="lower",
+        extent=(x0, x1, y0, y1),
+        interpolation="nearest",
+    )
+    boxes = style.corners(s.inner[:, :2], s.inner[:, 2:])
+    axes.add_collection(PolyCollection(list(boxes), facecolors="none", edgecolors=EDGE, linewidths=0.25))
     ends = np.argwhere(s.state == 1 if (s.state == 1).any() else s.state >= 0)
     if len(ends):
         low, high = ends.min(axis=0), ends.max(axis=0)
         x, y = s.horizontal[[low[1], high[1]]], s.vertical[[low[0], high[0]]]
-        room = 0.06 * float(max(np.ptp(x), np.ptp(y))) + max(dx, dy)
+        room = 0.06 * max(np.ptp(x), np.ptp(y)) + max(dx, dy)
         # Not past the section: of what lies there it says nothing, and white is proved to be outside.
         axes.set(xlim=(max(x[0] - room, x0), min(x[1] + room, x1)), ylim=(max(y[0] - room, y0), min(y[1] + room, y1)))
 
 
-def _marks(axes: Any, section: Section[Plane], turn: Any, unit: str, region: str) -> None:
+def _marks(axes: Any, section: Section, turn: Any, unit: str, region: str) -> None:
     """Draw ball, box, region and home over a section, and name its axes and its plane."""
-    for ink, width in (("white", 2.0), (style.INK, 0.9)):
+    for ink, width, dashes in (("white", 2.0, "-"), (style.INK, 0.9, DASHED)):
         line: dict[str, Any] = {"fill": False, "lw": width, "ec": ink}
         if section.ball is not None:
-            axes.add_patch(Circle(tuple(turn(section.ball[0])), float(turn(section.ball[1])), **line))
+            axes.add_patch(Circle(turn(section.ball[0]), turn(section.ball[1]), **line))
         if section.box is not None:
-            low, high = (np.asarray(turn(corner), dtype=np.float64) for corner in section.box)
-            axes.add_patch(Rectangle(tuple(low), *(high - low), **line, ls="-" if ink == "white" else DASHED))
+            low, high = turn(section.box)
+            axes.add_patch(Rectangle(low, *(high - low), **line, ls=dashes))
     if section.region is not None:
-        for colour, width in (("white", 2.4), (region, 1.3)):
-            axes.plot(*turn(np.asarray(section.region, dtype=np.float64)).T, color=colour, lw=width, zorder=6)
+        axes.plot(*turn(section.region).T, color=region, lw=1.3, path_effects=[style.rim(2.4)], zorder=6)
     if section.home is not None:
-        axes.plot(*turn(np.asarray(section.home, dtype=np.float64)), **style.HOME)
+        axes.plot(*turn(section.home), **style.HOME)
     s = section.plane
     axes.grid(visible=False)
     axes.set(xlabel=style.with_unit(s.axes[0], unit), ylabel=style.with_unit(s.axes[1], unit))
     axes.set_aspect("equal", anchor="N")  # titles at one height
-    axes.set_title(f"{s.plane[0]} = {amount(style.signed(float(turn(s.plane[1]))), unit)}")
+    axes.set_title(f"{s.plane[0]} = {amount(style.signed(turn(s.plane[1])), unit)}")
 
 
-def _keys_of_limits(sections: Sequence[Section[WorkspaceSlice]], kinds: Sequence[str]) -> list[Any]:
+def _keys_of_limits(sections: Sequence[Section], kinds: Sequence[str]) -> list[Any]:
     planes = [section.plane for section in sections]
-    there = {kinds[n] for s in planes for n in np.unique(s.limit[s.state == 1]).tolist() if n >= 0}
-    keys = [(words, colour, dashes) for kind, (words, colour, dashes) in KINDS.items() if kind in there]
-    return [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in keys]
+    there = {kinds[n] for s in planes for n in np.unique(s.limit[s.state == 1]) if n >= 0}
+    looks = [look for kind, look in KINDS.items() if kind in there]
+    return [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in looks]
 
 
-def _legend(figure: Any, keys: list[Any], sections: Sequence[Section[Plane]], region: str, columns: int) -> None:
+def _legend(figure: Any, keys: list[Any], sections: Sequence[Section], region: str, columns: int) -> None:
     """Write the legend: the keys, and those of the marks that the sections have."""
-    ring: dict[str, Any] = {"lw": 0.9, "marker": "o", "ms": 7, "mfc": "none", "ls": ""}
+    ring = {"lw": 0.9, "marker": "o", "ms": 7, "mfc": "none", "ls": ""}
     marks = {
         "region": style.key(region, lw=1.3, label="region of the study"),
         "ball": style.key(style.INK, **ring, label="largest ball"),

@@ -6,9 +6,17 @@ from itertools import combinations
 
 import numpy as np
 
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
 
 _TOLERANCE = 1e-9  # relative to the size of the plate
+
+
+def points_of(g: Geometry, c: Configuration) -> Floats:
+    """Return the joints of the base, those of the platform in the base frame, each external first, and O: (13, 3)."""
+    carried = c.position + np.vstack([g.platform_external, g.platform_internal]) @ c.rotation.T
+    return np.vstack([g.base_external, g.base_internal, carried, c.internal_point])
 
 
 def distinct(points: Floats) -> Floats:

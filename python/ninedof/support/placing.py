@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ninedof.support.arrays import Floats
 
@@ -16,6 +18,17 @@ def rectangle(centre: Floats, width: float, height: float, angle: float = 0.0) -
     along = np.array([np.cos(angle), np.sin(angle)])
     half, up = 0.5 * width * along, 0.5 * height * np.array([-along[1], along[0]])
     return np.array([centre - half - up, centre + half - up, centre + half + up, centre - half + up])
+
+
+def toward(angle: ArrayLike) -> Floats:
+    """Return the unit vectors at angles from +x in radians, shape (..., 2)."""
+    return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def around(direction: Floats, step: float, count: int) -> Floats:
+    """Return unit vectors at multiples of a step to both sides of a direction, the nearest first, shape (n, 2)."""
+    turns = np.array([k * side for k in range(count) for side in (1.0, -1.0)])
+    return toward(math.atan2(direction[1], direction[0]) + turns * step)
 
 
 def meet(one: Floats, other: Floats) -> bool:

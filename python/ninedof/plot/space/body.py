@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
 SHADES = np.array([[0.13, 0.22, 0.30], [0.88, 0.93, 0.96]])  # away from the light and towards it
 LIGHT = scene.VIEW.eye - 0.8 * scene.VIEW.right + np.array([0.0, 0.0, 0.9])  # from above and the left of the viewer
 
-LINES: dict[bool, dict[str, Any]] = {
+LINES = {
     True: {"color": style.INK, "lw": 0.9, "ls": (0, (3, 1.5)), "label": "region, inside"},
     False: {"color": style.ALARM, "lw": 1.6, "label": "region, outside"},
 }
@@ -76,7 +75,7 @@ def workspace_body(
     marked = np.empty((0, 3)) if home is None else as_floats("home", home, (3,)).reshape(1, 3)
     every = np.concatenate([surface.points, *outline, marked])
     low, high = every.min(axis=0), every.max(axis=0)
-    room = 0.04 * float((high - low).max())
+    room = 0.04 * (high - low).max()
     low, high = low - room, high + room
     side = style.ONE_COLUMN
     with style.panel(ax, side, side, (0.0, 0.0, 1.0, 1.0), projection="3d") as (figure, axes):
@@ -91,18 +90,17 @@ def workspace_body(
         body.set_rasterized(True)
         axes.add_collection3d(body)
         keys: list[Any] = [Patch(fc=SHADES.mean(axis=0), label="workspace")]
-        sides = _inside(surface, [_dense(line, STEP * float((high - low).max())) for line in outline])
+        sides = _inside(surface, [_dense(line, STEP * (high - low).max()) for line in outline])
         for inside, look in LINES.items():
             for part in sides[inside]:
                 axes.plot(*part.T, **look, zorder=7 + (not inside))
             keys += [style.key(**look)] * bool(sides[inside])
         for point in marked:
-            axes.plot(
-                *np.column_stack([point, [*point[:2], low[2]]]), color=style.INK, lw=0.6, ls=(0, (3, 2)), zorder=7
-            )
+            foot = [*point[:2], low[2]]
+            axes.plot(*np.column_stack([point, foot]), color=style.INK, lw=0.6, ls=(0, (3, 2)), zorder=7)
             axes.plot(*point[:, None], **style.HOME)
             keys.append(style.key(**style.HOME, label="home"))
-        words: dict[str, Any] = {"handles": keys, "ncols": 2 if len(keys) == 4 else 3, "columnspacing": 1.2}
+        words = {"handles": keys, "ncols": 2 if len(keys) == 4 else 3, "columnspacing": 1.2}
         if ax is None:
             figure.legend(**words, loc="lower center")
         else:
@@ -129,8 +127,7 @@ def _inside(surface: WorkspaceSurface, lines: Sequence[Floats]) -> dict[bool, li
     low, high = triangles[..., :2].min(axis=1), triangles[..., :2].max(axis=1)
     for line in lines:
         inside = np.array([_passed(triangles, low, high, point) % 2 == 1 for point in line @ RAY])
-        ends = [0, *(np.flatnonzero(inside[1:] != inside[:-1]) + 1).tolist(), len(line) - 1]
-        for first, last in pairwise(ends):
+        for first, last in style.stretches(inside):
             parts[bool(inside[first])].append(line[first : last + 1])
     return parts
 

@@ -14,12 +14,14 @@ from numpy.typing import ArrayLike
 from ninedof.plot import style
 from ninedof.plot.space.scene import View
 from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.placing import toward
 
 VIEW = View(22.0, -58.0)  # no axis is much foreshortened
 MOST_PANELS = 4
 ROOM = 1.15  # half a panel, over the largest semi-axis
 CUT = 0.92  # of half a panel: drawn length of an infinite semi-axis
 RIM = [style.rim(2.6)]
+CIRCLE = toward(np.linspace(0.0, 2.0 * np.pi, 181)).T
 COLOURS = tuple(style.SERIES[k] for k in (0, 2, 1, 3, 2))
 
 Axes = tuple["ArrayLike", "ArrayLike"]
@@ -63,7 +65,7 @@ def ellipsoids(
     style.counted("panels", panels, MOST_PANELS)
     shapes = {source: (np.eye(3), np.ones(3)), **{title: _checked(axes) for title, axes in panels.items()}}
     lengths = np.concatenate([semi_axes for _, semi_axes in shapes.values()])
-    half = ROOM * float(lengths[np.isfinite(lengths)].max())
+    half = ROOM * lengths[np.isfinite(lengths)].max()
     count = len(shapes)
     share = 1.0 / count
     width = style.TWO_COLUMNS if count > 2 else 1.5 * style.ONE_COLUMN
@@ -72,18 +74,20 @@ def ellipsoids(
             axes = figure.add_axes((k * share, 0.09, share, 0.74), projection="3d")
             _space(axes, half)
             _body(axes, directions, semi_axes, half, COLOURS[k])
-            if k:
-                axes.plot(*_disc(np.eye(2)), color=style.SERIES[0], lw=0.9, ls=(0, (4, 3)), zorder=5)
             words, middle = "radius 1, dashed", (k + 0.5) * share
             if k:
+                axes.plot(*_disc(np.eye(2)), color=style.SERIES[0], lw=0.9, ls=(0, (4, 3)), zorder=5)
                 words = "semi-axes" + (" " if count < 5 else "\n") + "  ".join(map(_number, semi_axes))
             first, _, note = title.partition("\n")
             figure.text(middle, 0.925, first, ha="center", size=style.TITLE_SIZE, weight="bold")
             figure.text(middle, 0.87, note, ha="center", size=style.SMALL_SIZE, color=style.MUTED)
             figure.text(middle, 0.02, words, ha="center", size=style.SMALL_SIZE)
-        arrow: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 9, "lw": 1.2, "color": style.INK}
         ends = ((0.86 * share, 0.82), (1.14 * share, 0.82))
-        figure.add_artist(FancyArrowPatch(*ends, transform=figure.transSubfigure, **arrow))
+        figure.add_artist(
+            FancyArrowPatch(
+                *ends, transform=figure.transSubfigure, arrowstyle="-|>", mutation_scale=9, lw=1.2, color=style.INK
+            )
+        )
         figure.text(share, 0.85, mapping, ha="center", size=style.TITLE_SIZE, weight="bold")
     return figure
 
@@ -99,14 +103,9 @@ def _number(value: float) -> str:
     return "∞" if np.isinf(value) else f"{value:#.3g}" if value else "0"
 
 
-def _circle() -> Floats:
-    angle = np.linspace(0.0, 2.0 * np.pi, 181)
-    return np.stack([np.cos(angle), np.sin(angle)])
-
-
 def _disc(shape: Floats) -> Floats:
     """Return the image of the unit circle under a matrix (2, 2), in the plane of the picture."""
-    return np.column_stack([VIEW.right, VIEW.up]) @ shape @ _circle()
+    return np.column_stack([VIEW.right, VIEW.up]) @ shape @ CIRCLE
 
 
 def _space(axes: Any, half: float) -> None:
@@ -117,8 +116,9 @@ def _space(axes: Any, half: float) -> None:
     axes.set_axis_off()
     for name, along in zip("xyz", np.eye(3), strict=True):
         axes.plot(*np.outer(along, [-half, half]), color=style.MUTED, lw=0.7, zorder=1)
-        at, options = 1.11 * half * along, {"ha": "center", "va": "center", "zorder": 1}
-        axes.text(*at, name, size=style.SMALL_SIZE, color=style.MUTED, **options)
+        axes.text(
+            *(1.11 * half * along), name, size=style.SMALL_SIZE, color=style.MUTED, ha="center", va="center", zorder=1
+        )
 
 
 def _body(axes: Any, directions: Floats, semi_axes: Floats, half: float, colour: str) -> None:
@@ -131,7 +131,7 @@ def _body(axes: Any, directions: Floats, semi_axes: Floats, half: float, colour:
     axes.add_collection3d(Poly3DCollection([outline.T], facecolor=colour, alpha=0.16, lw=0, zorder=2))
     axes.plot(*outline, color=colour, lw=1.0, ls=_dashes(infinite), zorder=4)
     for pair in ([0, 1], [1, 2], [2, 0]):
-        ring, dashes = shape[:, pair] @ _circle(), _dashes(infinite[pair])
+        ring, dashes = shape[:, pair] @ CIRCLE, _dashes(infinite[pair])
         axes.plot(*ring, color=colour, lw=0.6, alpha=0.4, ls=dashes, zorder=3)
         axes.plot(*_in_front(ring, shape), color=colour, lw=1.1, ls=dashes, zorder=6)
     for tip, cut in zip(shape.T * np.where(VIEW.eye @ shape >= 0.0, 1.0, -1.0)[:, None], infinite, strict=True):

@@ -16,7 +16,7 @@ LEAST = 1.2  # least distance of two names, in the distance of a name from its l
 ALONG = np.linspace(0.2, 0.8, 13)  # where a name may stand on its leg
 AROUND = np.linspace(0.0, 2.0 * np.pi, 17)[:-1]
 REACH = np.array([2.0, 3.0, 4.0, 5.5, 7.0])  # of names with a line to their leg, in the same distance
-CHIP: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.9}
+CHIP = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.9}
 """The ground of a name: a plate behind it may be dark."""
 
 Leg = tuple[str, Floats, Floats]
@@ -33,29 +33,33 @@ def write_names(
     lines = [VIEW.seen(np.stack([start, end])) for _, start, end in legs] + [VIEW.seen(line) for line in clear_of]
     faces = [Path(VIEW.seen(face)) for face in dark]
     beside = o + 1.4 * away * _ring(AROUND)
-    room = np.min([_distance(VIEW.seen(beside), line) for line in lines] or [np.ones(len(beside))], axis=0)
-    spot = beside[int(np.argmax(np.round(np.minimum(room / away, 1.6), 1) - 0.5 * _within(VIEW.seen(beside), faces)))]
+    flat = VIEW.seen(beside)
+    room = np.min([np.full(len(flat), 1.6 * away), *(_distance(flat, line) for line in lines)], axis=0) / away
+    spot = beside[np.argmax(np.round(room, 1) - 0.5 * _within(flat, faces))]
     taken = [VIEW.seen(spot)]
-    options: dict[str, Any] = {"zorder": 30, "ha": "center", "va": "center"}
-    look = {"size": style.TITLE_SIZE, "weight": "bold", "style": "italic", "color": style.INK, "path_effects": HALO}
-    axes.text(*spot, "O", **look, **options)
+    options = {"zorder": 30, "ha": "center", "va": "center"}
+    axes.text(
+        *spot, "O", size=style.TITLE_SIZE, weight="bold", style="italic", color=style.INK, path_effects=HALO, **options
+    )
     short_first = np.argsort([np.linalg.norm(np.diff(line, axis=0)) for line in lines[: len(legs)]], kind="stable")
     for k in short_first.tolist():
         name, start, end = legs[k]
         on_leg, spots, apart = _places(start, end, away)
         flat = VIEW.seen(spots)
-        others = [_distance(flat, line) for j, line in enumerate(lines) if j != k]
-        room = np.min([*(2.0 * d for d in others), 1.6 * _distance(flat, lines[k])], axis=0) / away
+        others = lines[:k] + lines[k + 1 :]
+        room = (
+            np.min([*(2.0 * _distance(flat, line) for line in others), 1.6 * _distance(flat, lines[k])], axis=0) / away
+        )
         names = np.min([np.linalg.norm(flat - one, axis=1) for one in taken], axis=0) / away
-        crossed = np.sum([_crosses(VIEW.seen(on_leg), flat, line) for j, line in enumerate(lines) if j != k], axis=0)
+        crossed = sum(_crosses(VIEW.seen(on_leg), flat, line) for line in others)
         centred = np.tile(np.abs(ALONG - 0.5), len(spots) // len(ALONG))
         worth = np.minimum(np.minimum(room, names / 1.6), 1.6) - 0.3 * centred - 0.6 * _within(flat, faces)
         worth -= 0.7 * (apart > 1.0) + 0.15 * (apart - 1.0) + 0.25 * crossed + 2.0 * (names < LEAST)
-        best = int(np.argmax(np.round(worth, 6)))
+        best = np.argmax(np.round(worth, 6))
         taken.append(flat[best])
         colour = style.LEG_COLOURS[name[0]]
         if apart[best] > 1.0:
-            tip = spots[best] - 0.5 * away / (apart[best] * away) * (spots[best] - on_leg[best])
+            tip = spots[best] - 0.5 / apart[best] * (spots[best] - on_leg[best])
             axes.plot(*np.column_stack([on_leg[best], tip]), color=colour, lw=0.5, zorder=29)
         axes.text(*spots[best], name, size=style.SMALL_SIZE, color=colour, bbox=CHIP, **options)
 
@@ -84,7 +88,7 @@ def _within(points: Floats, faces: Sequence[Path]) -> Floats:
 def _distance(points: Floats, line: Floats) -> Floats:
     """Return the distance of points (n, 2) from a segment (2, 2)."""
     start, along = line[0], line[1] - line[0]
-    share = np.clip((points - start) @ along / max(float(along @ along), 1e-300), 0.0, 1.0)
+    share = np.clip((points - start) @ along / max(along @ along, 1e-300), 0.0, 1.0)
     return np.asarray(np.linalg.norm(points - start - share[:, None] * along, axis=1))
 
 

@@ -18,14 +18,14 @@ from ninedof.plot.space.leg_names import Leg, write_names
 from ninedof.robot.configuration import Configuration, require_single
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.robot.plates import distinct, outlines
+from ninedof.robot.plates import distinct, outlines, points_of
 from ninedof.support.arrays import Floats
 
-DASHES: dict[str, Any] = {"l": "-", "q": (0, (4.5, 0.9)), "r": (0, (1.6, 0.7))}  # told apart without colours
+DASHES = {"l": "-", "q": (0, (4.5, 0.9)), "r": (0, (1.6, 0.7))}  # told apart without colours
 WIDTHS = {"l": 2.0, "q": 1.6, "r": 1.6}
-POINT_O: dict[str, Any] = {"marker": "D", "color": style.INK, "ms": 4.2, "mec": "white", "mew": 0.7, "ls": ""}
+POINT_O = {"marker": "D", "color": style.INK, "ms": 4.2, "mec": "white", "mew": 0.7, "ls": ""}
 """A diamond: a ring beside the letter O would be read as a second one."""
-_LEGEND: dict[str, Any] = {"handlelength": 1.5, "columnspacing": 1.2}
+_LEGEND = {"handlelength": 1.5, "columnspacing": 1.2}
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,11 +44,8 @@ class Robot:
 
     def points(self) -> Floats:
         """Return base joints, platform joints in the base frame (external before internal), and O: shape (13, 3)."""
-        g, c = self.geometry, self.configuration
-        require_single("configuration", c)
-        platform = np.vstack([g.platform_external, g.platform_internal])
-        in_base = c.position + platform @ c.rotation.T
-        return np.vstack([g.base_external, g.base_internal, in_base, c.internal_point])
+        require_single("configuration", self.configuration)
+        return points_of(self.geometry, self.configuration)
 
     def corners(self) -> tuple[Floats, Floats]:
         """Return the corners of the box about it and the lines."""
@@ -135,7 +132,7 @@ def mechanisms(robots: Sequence[Robot], unit: str = "", figure: Figure | None = 
     words, keys = 0.52, 0.52 if single or lines else 0.36  # inches for captions above, keys below
     width = (1.3 if lines else 1.0) * style.ONE_COLUMN if single else style.TWO_COLUMNS
     with style.page(figure, width, words + keys + scene.height(low, high, width * share)) as figure:
-        tall = float(style.inches(figure)[1])
+        tall = style.inches(figure)[1]
         for k, robot in enumerate(robots):
             axes = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d")
             mechanism(Robot("", robot.geometry, robot.configuration, lines=robot.lines), unit, axes, (low, high), False)
@@ -159,20 +156,31 @@ def draw(axes: Any, robot: Robot, clear_of: Sequence[Floats] = (), names: bool =
     _plate(axes, base, style.BASE, alpha=0.88, zorder=1)
     for line in robot.lines:
         axes.plot(*np.asarray(line, dtype=np.float64).T, color=style.REGION, lw=0.8, zorder=2)  # behind legs, platform
-    starts, ends = [*base[:3], o, o, o, *base[3:]], [*platform, o, o, o]
-    legs: list[Leg] = list(zip(LEGS, starts, ends, strict=True))
+    legs = legs_of(points)
     # From the back to the front, with a white rim where one crosses another.
-    for order, (name, start, end) in enumerate(sorted(legs, key=lambda leg: float((leg[1] + leg[2]) @ scene.VIEW.eye))):
+    for order, (name, start, end) in enumerate(sorted(legs, key=lambda leg: (leg[1] + leg[2]) @ scene.VIEW.eye)):
         kind = name[0]
-        options = {"color": style.LEG_COLOURS[kind], "ls": DASHES[kind], "lw": WIDTHS[kind], "dash_capstyle": "butt"}
         rim = [style.rim(WIDTHS[kind] + 1.2)]
-        axes.plot(*np.column_stack([start, end]), zorder=3 + order, path_effects=rim, **options)
+        axes.plot(
+            *np.column_stack([start, end]),
+            zorder=3 + order,
+            path_effects=rim,
+            color=style.LEG_COLOURS[kind],
+            ls=DASHES[kind],
+            lw=WIDTHS[kind],
+            dash_capstyle="butt",
+        )
     _plate(axes, platform, style.PLATFORM, alpha=0.72, zorder=20)
     joints = np.vstack([distinct(base), distinct(platform)])
     axes.plot(*joints.T, "o", color=style.INK, ms=3.2, mec="white", mew=0.5, zorder=21)
     axes.plot(*o[:, None], **POINT_O, zorder=22)
-    away = 0.05 * float(np.ptp(axes.get_xlim()))
+    away = 0.05 * np.ptp(axes.get_xlim())
     write_names(axes, legs if names else [], o, away, outlines(base), clear_of)
+
+
+def legs_of(points: Floats) -> list[Leg]:
+    """Return name and ends of each leg; points as `Robot.points`, in space or in a plane."""
+    return list(zip(LEGS, points[[0, 1, 2, 12, 12, 12, 3, 4, 5]], points[[*range(6, 12), 12, 12, 12]], strict=True))
 
 
 def _keys() -> list[Any]:
@@ -187,8 +195,7 @@ def _keys() -> list[Any]:
 
 def _plate(axes: Any, joints: Floats, colour: str, alpha: float, zorder: int) -> None:
     sides = outlines(joints)
-    clear = 1.0 - alpha if len(sides) == 1 else 0.5 * (1.0 - alpha)  # two faces of a solid overlap
-    faces = Poly3DCollection(sides, facecolor=colour, alpha=1.0 - clear, zorder=zorder)
+    alpha, width = (alpha, 0.9) if len(sides) == 1 else (0.5 * (1.0 + alpha), 0.6)  # two faces of a solid overlap
+    faces = Poly3DCollection(sides, facecolor=colour, alpha=alpha, lw=width, zorder=zorder)
     faces.set_edgecolor(style.INK)
-    faces.set_linewidth(0.9 if len(sides) == 1 else 0.6)
     axes.add_collection3d(faces)

@@ -13,6 +13,8 @@ from ninedof.plot import style
 from ninedof.support.arrays import Floats
 
 ROOM = np.array([0.14, 0.36, 0.5, 0.2])  # inches beside the box: left, below, right, above
+AXES = ((4, 0.04, 0.96, -3, -3), (3, 0.04, 0.96, -3, 1), (4, -1e-9, 0.97, 0, 0))
+"""Of x, y and z: most ticks, where they begin and end on the axis, and the distances of their numbers and the name."""
 HALO = [style.rim(1.8)]
 
 
@@ -44,7 +46,7 @@ VIEW = View(17.0, -76.0)  # low enough to show the heights of base, O and platfo
 
 def corners(points: Floats) -> tuple[Floats, Floats]:
     """Return the corners of a box about the z axis that holds all points, shape (n, 3), and the origin."""
-    half, heights = 1.04 * float(np.abs(points[:, :2]).max()), points[:, 2]
+    half, heights = 1.04 * np.abs(points[:, :2]).max(), points[:, 2]
     return np.array([-half, -half, min(heights.min(), 0.0)]), np.array([half, half, max(heights.max(), 0.0)])
 
 
@@ -54,20 +56,18 @@ def box(axes: Any, names: tuple[str, str, str], unit: str, low: Floats, high: Fl
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     axes.set_box_aspect(tuple(span), zoom=1.0)
     VIEW.turn(axes)
-    for name, axis in zip("xyz", (axes.xaxis, axes.yaxis, axes.zaxis), strict=True):
+    every = (axes.xaxis, axes.yaxis, axes.zaxis)
+    # No ticks at the corners that two axes share.
+    for axis, first, size, (most, least, last, pad, label_pad) in zip(every, low, span, AXES, strict=True):
+        ticks = MaxNLocator(most).tick_values(first, first + size)
+        axis.set_ticks([tick for tick in ticks if least < (tick - first) / size < last])
         axis.pane.set_visible(False)
         axis.line.set_color(style.MUTED)
         axis._axinfo["grid"].update(color=style.GRID, linewidth=0.5)
-        axis.set_tick_params(labelsize=style.SMALL_SIZE, pad=0 if name == "z" else -3)
+        axis.set_tick_params(labelsize=style.SMALL_SIZE, pad=pad)
         axis.set_rotate_label(False)
-        axis.labelpad = {"x": -3, "y": 1}.get(name, 0)
-    # No ticks at the corners that two axes share.
-    for axis, first, size, most in zip((axes.xaxis, axes.yaxis), low[:2], span[:2], (4, 3), strict=True):
-        values = MaxNLocator(most).tick_values(first, first + size)
-        axis.set_ticks([tick for tick in values if 0.04 < (tick - first) / size < 0.96])
-    values = MaxNLocator(4).tick_values(low[2], high[2])
-    axes.set_zticks([tick for tick in values if -1e-9 <= (tick - low[2]) / span[2] <= 0.97])
-    text: dict[str, Any] = {"size": style.TEXT_SIZE, "color": style.INK}
+        axis.labelpad = label_pad
+    text = {"size": style.TEXT_SIZE, "color": style.INK}
     axes.set_xlabel(style.with_unit(names[0], unit), **text)
     axes.set_ylabel(style.with_unit(names[1], unit), **text)
     # Above its axis at this corner: beside the axis, matplotlib puts the name on the numbers or outside the figure.
