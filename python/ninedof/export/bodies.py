@@ -88,25 +88,16 @@ class Bodies:
         ]
         self.part_mass = 0.5 * float(leg_mass)
         """Of a cylinder and of a rod, each: half a leg."""
-        self.platform_mass = float(platform_mass)
         self.radius = RADIUS * float(np.mean([leg.length for leg in self.legs]))
         """Of a rod."""
-
-    @property
-    def point_mass(self) -> float:
+        self.point_mass = 0.2 * self.part_mass
         """Of the body O: a tenth of a leg."""
-        return 0.2 * self.part_mass
-
-    @property
-    def point_inertia(self) -> tuple[float, float]:
+        self.point_inertia = ball_inertia(self.point_mass, 2.0 * self.radius)
         """Moments of the body O, a ball of twice the radius of a rod."""
-        return ball_inertia(self.point_mass, 2.0 * self.radius)
-
-    @property
-    def platform_inertia(self) -> tuple[float, float]:
-        """Moments about an axis in the plate and about its normal: a disc through the outermost joint."""
+        self.platform_mass = float(platform_mass)
         square = max(float(np.sum(point[:2] ** 2)) for point in self.platform.values())
-        return 0.25 * self.platform_mass * square, 0.5 * self.platform_mass * square
+        self.platform_inertia = 0.25 * self.platform_mass * square, 0.5 * self.platform_mass * square
+        """Moments about an axis in the plate and about its normal: a disc through the outermost joint."""
 
     def part_inertia(self, leg: Leg) -> tuple[float, float]:
         """Moments of a cylinder or a rod about an axis across it, through its centre, and about its own axis."""
@@ -127,17 +118,13 @@ def _site(name: str) -> str:
 
 def ball_inertia(mass: float, radius: float) -> tuple[float, float]:
     """Return the moments of a ball, twice the same."""
-    return (moment := 0.4 * mass * radius**2), moment
+    return 0.4 * mass * radius**2, 0.4 * mass * radius**2
 
 
 def numbers(values: Iterable[float] | float) -> str:
     """Return the text of an attribute: it reads back to the same doubles."""
-    each = [values] if isinstance(values, float | int) else values
-    return " ".join(_short(float(value)) for value in each)
-
-
-def _short(value: float) -> str:
-    return repr(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
+    each = map(float, [values] if isinstance(values, float | int) else values)
+    return " ".join(repr(int(x)) if x == int(x) and abs(x) < 1e15 else repr(x) for x in each)
 
 
 def angles(rotation: Floats) -> tuple[float, float, float]:

@@ -39,37 +39,27 @@ def text(model: Model) -> str:
     sections: list[list[Iterable[Any]]] = [
         [
             (JOINT, x, y, z, base_x, base_y, base_z),
-            *((name, *_texts(own), *_texts(base[name])) for name, own in model.own_frame.items()),
+            *((name, *own, *base[name]) for name, own in model.own_frame.items()),
         ],
-        [(POSE, x, y, z), *((name, *_texts(base[name])) for name in (P, O))],
+        [(POSE, x, y, z), *((name, *base[name]) for name in (P, O))],
         [
             (ROTATION, *AXES),
-            *((name, *_texts(row)) for name, row in zip(ROWS_OF_Q, model.configuration.rotation, strict=True)),
+            *((name, *row) for name, row in zip(ROWS_OF_Q, model.configuration.rotation, strict=True)),
         ],
         [
             (LEG, "from", "to", *lengths),
-            *((*leg, *_texts((x, *ends))) for leg, x, ends in zip(LEGS, model.neutral_lengths, ranges, strict=True)),
+            *((*leg, x, *ends) for leg, x, ends in zip(LEGS, model.neutral_lengths, ranges, strict=True)),
         ],
-        [(SETTING, "value"), (LENGTH, length if isinstance(length, str) else repr(float(length)))],
+        [(SETTING, "value"), (LENGTH, length if isinstance(length, str) else float(length))],
     ]
     if model.tool:
-        sections.insert(-1, [(TOOL, *AXES), *_of_tool(model)])
+        axes = [(f"axis {name}", *axis) for name, axis in zip(AXES, model.tool.axes.T, strict=True)]
+        sections.insert(-1, [(TOOL, *AXES), ("point", *map(float, model.tool.position)), *axes])
     file = io.StringIO()
     for k, rows in enumerate(sections):
         file.write("\n" if k else "")
         csv.writer(file, lineterminator="\n").writerows(rows)
     return file.getvalue()
-
-
-def _of_tool(model: Model) -> Iterable[tuple[str, ...]]:
-    """Yield the point of the tool and its axes, in the frame of the platform."""
-    yield "point", *_texts(model.tool.position)
-    for name, axis in zip(AXES, model.tool.axes.T, strict=True):
-        yield f"axis {name}", *_texts(axis)
-
-
-def _texts(values: Iterable[float]) -> list[str]:
-    return [repr(float(value)) for value in values]
 
 
 class Block(NamedTuple):

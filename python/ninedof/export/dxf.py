@@ -16,7 +16,7 @@ from ninedof.export.model import Format, Model
 from ninedof.robot.plate_plan import Plate, free_angles, plates_of, turn_words
 from ninedof.support.arrays import Floats
 from ninedof.support.extras import optional
-from ninedof.support.placing import Placing, rectangle
+from ninedof.support.placing import Placing, around, rectangle, toward
 from ninedof.support.units import amount, with_unit
 
 INSUNITS = {"": 0, "in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6}
@@ -73,8 +73,8 @@ def _dimension_style(document: Any, style: str, height: float, decimals: int) ->
     sizes = {"dimtxt": height, "dimasz": height, "dimexo": height, "dimexe": 0.5 * height, "dimgap": 0.4 * height}
     numbers = {"dimdec": decimals, "dimzin": 0, "dimtad": 1, "dimdsep": ord(".")}
     lines = {"dimclrd": 5, "dimclre": 5, "dimclrt": 7, "dimlwd": BY_LAYER, "dimlwe": BY_LAYER}
-    angles = {"dimadec": 3, "dimazin": 2}
-    document.dimstyles.new(style, dxfattribs=sizes | numbers | lines | angles)
+    lines |= {"dimadec": 3, "dimazin": 2}  # angles
+    document.dimstyles.new(style, dxfattribs=sizes | numbers | lines)
 
 
 def _round_up(value: float) -> float:
@@ -107,8 +107,8 @@ class _Drawing:
             self._side(name, *ends)
         for radius, angle in zip(plate.radii, free_angles(plate), strict=False):
             self._radius(radius, angle)
-        for k, (first, last) in enumerate(plate.angles):
-            self._angle((0.4 + 0.2 * k) * min(plate.radii), first, last)
+        for k, angles in enumerate(plate.angles):
+            self._angle((0.4 + 0.2 * k) * min(plate.radii), *angles)
         self._axes(0.25 * plate.size)
         for at, names in centres.items():
             self._name(" ".join(names), self.origin + at[:2], 0.4 * self.height)
@@ -133,13 +133,10 @@ class _Drawing:
     def _name(self, words: str, at: Floats, clear: float) -> None:
         """Write words as near to a point as they cover nothing, the first outward."""
         width, h = LETTER * self.height * len(words), self.height
-        out = at - self.origin
-        first = math.atan2(out[1], out[0])
-        turn = first + np.array([k * s for k in range(13) for s in (1.0, -1.0)]) * np.pi / 12.0
-        way = np.column_stack([np.cos(turn), np.sin(turn)])
+        way = around(at - self.origin, np.pi / 12.0, 13)
         reach = clear + 0.5 * h + np.abs(way) @ [0.5 * width, 0.5 * h]
         centres = np.concatenate([at + (reach + more * h)[:, None] * way for more in (0.0, 0.8, 1.8, 3.0, 5.0)])
-        self._text(words, self.places.put(1.1 * width, 1.3 * h, centres), "TEXT", "MIDDLE_CENTER")
+        self._text(words, self.places.put(1.1 * width, 1.3 * h, centres), "MIDDLE_CENTER")
 
     def _side(self, name: str, start: Floats, end: Floats) -> None:
         """Dimension a side, on the side away from the origin."""
@@ -164,25 +161,23 @@ class _Drawing:
         middle, width = 0.5 * (start + end), LETTER * self.height * 8.0
         ways = middle + np.array([0.0, 0.15, -0.15, 0.35, -0.35, 0.7, -0.7, 1.1, -1.1])
         reach = radius + np.array([2.5, -2.5, 4.0, 6.0])[:, None] * self.height
-        centres = np.stack([reach * np.cos(ways), reach * np.sin(ways)], axis=-1).reshape(-1, 2)
-        sides = [self.origin + 1.1 * radius * np.array([math.cos(x), math.sin(x)]) for x in (start, end)]
-        self.places.lines += [np.array([self.origin, side]) for side in sides]
-        turn = np.linspace(start, end, 9)
-        self.places.add_path(self.origin + radius * np.column_stack([np.cos(turn), np.sin(turn)]))
+        centres = (reach[..., None] * toward(ways)).reshape(-1, 2)
+        for side in 1.1 * radius * toward([start, end]):
+            self.places.add_path(np.array([self.origin, self.origin + side]))
+        self.places.add_path(self.origin + radius * toward(np.linspace(start, end, 9)))
         at = self.places.put(width, 1.6 * self.height, self.origin + centres)
         self.places.words.pop()  # the words themselves take their place
-        self._render(
-            self.space.add_angular_dim_cra(
-                center=self.origin,
-                radius=0.3 * radius,
-                start_angle=math.degrees(start),
-                end_angle=math.degrees(end),
-                distance=0.7 * radius,
-                location=at,
-                text_rotation=0.0,
-                **self.styled,
-            )
+        dimension = self.space.add_angular_dim_cra(
+            center=self.origin,
+            radius=0.3 * radius,
+            start_angle=math.degrees(start),
+            end_angle=math.degrees(end),
+            distance=0.7 * radius,
+            location=at,
+            text_rotation=0.0,
+            **self.styled,
         )
+        self._render(dimension)
 
     def _render(self, dimension: Any) -> None:
         """Draw a dimension, and keep its words and lines free of names."""
@@ -206,21 +201,21 @@ class _Drawing:
             axis = [f"{value:.5f}" for value in model.cone_axes[_joint(plate, name)].round(5) + 0.0]
             word = f"{name}  {JOINT_WORDS[name[0]]} {name[1]}"
             rows.append([word, *numbers, f"{round(angle, 4) + 0.0:.4f}" if radius > 0.0 else "-", *axis])
-        self._text(f"{plate.title} from +z, in its own frame{place}", start, "TEXT", "LEFT", scale=1.2)
+        self._text(f"{plate.title} from +z, in its own frame{place}", start, "LEFT", scale=1.2)
         for k, row in enumerate(rows, start=1):
             for x, entry in zip(columns, row, strict=True):
                 align = "LEFT" if x == 0.0 else "RIGHT"
-                self._text(entry, start + np.array([x, -2.0 * k * self.height]), "TEXT", align)
+                self._text(entry, start + np.array([x, -2.0 * k * self.height]), align)
         c, unit = model.configuration, model.unit
         heights = {"zp": c.position, "zs": c.internal_point}
         words = [f"{name} = {amount(f'{at[2]:.{self.decimals}f}', unit)}" for name, at in heights.items()]
         pose = f"neutral pose: {', '.join([*words, *turn_words(c), *model.tool.words(unit)])}"
         for k, note in enumerate((CONES, pose), start=len(rows) + 1):
-            self._text(note, start + np.array([0.0, -2.0 * k * self.height]), "TEXT", "LEFT")
+            self._text(note, start + np.array([0.0, -2.0 * k * self.height]), "LEFT")
 
-    def _text(self, words: str, at: Floats, layer: str, align: str, scale: float = 1.0) -> None:
+    def _text(self, words: str, at: Floats, align: str, scale: float = 1.0) -> None:
         places = optional("ezdxf.enums", "cad", PURPOSE).TextEntityAlignment
-        text = self.space.add_text(words, height=scale * self.height, dxfattribs={"layer": layer})
+        text = self.space.add_text(words, height=scale * self.height, dxfattribs={"layer": "TEXT"})
         text.set_placement(at, align=places[align])
 
 

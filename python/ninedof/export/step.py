@@ -6,6 +6,7 @@ names none, the file says millimetres and its description says that this was ass
 
 from __future__ import annotations
 
+import re
 from datetime import UTC, datetime
 
 import numpy as np
@@ -23,22 +24,56 @@ LEGS_OF = {"l": "external legs", "q": "upper internal legs", "r": "lower interna
 """By the first letter of the leg."""
 
 
+LEG = """\
+DIRECTION('',{direction})
+VECTOR('',@1,1.)
+LINE('{name}',{start},@2)
+TRIMMED_CURVE('{name}',@3,(PARAMETER_VALUE(0.)),(PARAMETER_VALUE({length})),.T.,.PARAMETER.)"""
+METRIC = "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT({prefix},.METRE.))"
+IMPERIAL = """\
+(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))
+DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)
+LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({millimetres}),@1)
+(CONVERSION_BASED_UNIT('{name}',@3)LENGTH_UNIT()NAMED_UNIT(@2))"""
+CONTEXT = """\
+(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))
+(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())
+UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE({accuracy}),{length},'distance_accuracy_value','')
+(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((@3))\
+GLOBAL_UNIT_ASSIGNED_CONTEXT(({length},@1,@2))REPRESENTATION_CONTEXT('','3D'))"""
+# Not that of the platform: readers take a placement for one of the whole shape.
+BASE_FRAME = """\
+CARTESIAN_POINT('base frame',(0.0,0.0,0.0))
+DIRECTION('',(0.0,0.0,1.0))
+DIRECTION('',(1.0,0.0,0.0))
+AXIS2_PLACEMENT_3D('base frame',@1,@2,@3)"""
+PRODUCT = """\
+APPLICATION_CONTEXT('core data for automotive mechanical design processes')
+APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,@1)
+PRODUCT_CONTEXT('',@1,'mechanical')
+PRODUCT('{name}','{name}','',(@3))
+PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(@4))
+PRODUCT_DEFINITION_FORMATION('','',@4)
+PRODUCT_DEFINITION_CONTEXT('part definition',@1,'design')
+PRODUCT_DEFINITION('design','',@6,@7)
+PRODUCT_DEFINITION_SHAPE('','',@8)"""
+
+
 def text(model: Model) -> str:
     """Return the file."""
     data = Entities()
     at = model.base_frame
-    points = {name: data.point(name, xyz) for name, xyz in at.items()}
-    lines = {leg: data.segment(leg, points[a], at[a], at[b]) for leg, a, b in LEGS if np.any(at[a] != at[b])}
+    points = {name: data.add(f"CARTESIAN_POINT('{name}',{_reals(xyz)})") for name, xyz in at.items()}
+    lines = {leg: _segment(data, leg, points[a], at[b] - at[a]) for leg, a, b in LEGS if np.any(at[a] != at[b])}
     groups = {"joints": list(points.values())}
     groups |= {title: [line for leg, line in lines.items() if leg.startswith(kind)] for kind, title in LEGS_OF.items()}
-    sets = [data.group(title, members) for title, members in groups.items() if members]
+    sets = [_group(data, title, members) for title, members in groups.items() if members]
     largest = max(float(np.abs(xyz).max()) for xyz in at.values())
-    context = data.context(model.unit or ASSUMED, ACCURACY * largest)
-    name = f"'{model.name}'"
-    shape = data.add(
-        f"GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION({name},{_list([*sets, data.base_frame()])},{context})"
-    )
-    data.add(f"SHAPE_DEFINITION_REPRESENTATION({data.product(name)},{shape})")
+    unit = _length_unit(data, model.unit or ASSUMED)
+    context = data.add(CONTEXT, accuracy=_real(ACCURACY * largest), length=unit)
+    items = _list([*sets, data.add(BASE_FRAME)])
+    shape = data.add(f"GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('{model.name}',{items},{context})")
+    data.add(f"SHAPE_DEFINITION_REPRESENTATION({data.add(PRODUCT, name=model.name)},{shape})")
     return "\n".join([*_header(model), "DATA;", *data.lines, "ENDSEC;", "END-ISO-10303-21;", ""])
 
 
@@ -62,75 +97,33 @@ class Entities:
     def __init__(self) -> None:
         self.lines: list[str] = []
 
-    def add(self, entity: str) -> str:
-        """Add one entity and return its number."""
-        number = f"#{len(self.lines) + 1}"
-        self.lines.append(f"{number}={entity};")
-        return number
+    def add(self, entities: str, **values: str) -> str:
+        """Add entities, a line each, in which @1 is the first of them; return the number of the last."""
+        before = len(self.lines)
+        for entity in (entities.format(**values) if values else entities).split("\n"):
+            numbered = re.sub(r"@(\d)", lambda match: f"#{before + int(match[1])}", entity)
+            self.lines.append(f"#{len(self.lines) + 1}={numbered};")
+        return f"#{len(self.lines)}"
 
-    def point(self, name: str, xyz: Floats) -> str:
-        """Add a named point."""
-        return self.add(f"CARTESIAN_POINT('{name}',{_reals(xyz)})")
 
-    def direction(self, xyz: Floats) -> str:
-        """Add a direction."""
-        return self.add(f"DIRECTION('',{_reals(xyz)})")
+def _segment(data: Entities, name: str, start: str, way: Floats) -> str:
+    """Add a line from the point `start`."""
+    length = float(np.linalg.norm(way))
+    return data.add(LEG, name=name, start=start, direction=_reals(way / length), length=_real(length))
 
-    def segment(self, name: str, start: str, a: Floats, b: Floats) -> str:
-        """Add the line from the point `start`, which is at a, to b."""
-        length = float(np.linalg.norm(b - a))
-        vector = self.add(f"VECTOR('',{self.direction((b - a) / length)},1.)")
-        line = self.add(f"LINE('{name}',{start},{vector})")
-        ends = f"(PARAMETER_VALUE(0.)),(PARAMETER_VALUE({_real(length)}))"
-        return self.add(f"TRIMMED_CURVE('{name}',{line},{ends},.T.,.PARAMETER.)")
 
-    def group(self, name: str, members: list[str]) -> str:
-        """Add a set of points or curves, and put it on a layer of the same name."""
-        number = self.add(f"GEOMETRIC_CURVE_SET('{name}',{_list(members)})")
-        self.add(f"PRESENTATION_LAYER_ASSIGNMENT('{name}','',{_list(members)})")
-        return number
+def _group(data: Entities, name: str, members: list[str]) -> str:
+    """Add a set of points or curves, and put it on a layer of the same name."""
+    number = data.add(f"GEOMETRIC_CURVE_SET('{name}',{_list(members)})")
+    data.add(f"PRESENTATION_LAYER_ASSIGNMENT('{name}','',{_list(members)})")
+    return number
 
-    def base_frame(self) -> str:
-        """Add the base frame. Not that of the platform: readers take a placement for one of the whole shape."""
-        origin, axes = self.point("base frame", np.zeros(3)), np.eye(3)
-        return self.add(
-            f"AXIS2_PLACEMENT_3D('base frame',{origin},{self.direction(axes[2])},{self.direction(axes[0])})"
-        )
 
-    def context(self, unit: str, accuracy: float) -> str:
-        """Add the units and the accuracy of the points."""
-        length = self._length_unit(unit)
-        angle = self.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
-        solid = self.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
-        measure = f"LENGTH_MEASURE({_real(accuracy)})"
-        uncertainty = self.add(f"UNCERTAINTY_MEASURE_WITH_UNIT({measure},{length},'distance_accuracy_value','')")
-        return self.add(
-            f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(({uncertainty}))"
-            f"GLOBAL_UNIT_ASSIGNED_CONTEXT({_list([length, angle, solid])})REPRESENTATION_CONTEXT('','3D'))"
-        )
-
-    def _length_unit(self, unit: str) -> str:
-        prefix = PREFIXES.get(unit, PREFIXES[ASSUMED])
-        metric = self.add(f"(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT({prefix},.METRE.))")
-        if unit in PREFIXES:
-            return metric
-        name, millimetres = CONVERTED[unit]
-        power = self.add("DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)")
-        factor = self.add(f"LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({_real(millimetres)}),{metric})")
-        return self.add(f"(CONVERSION_BASED_UNIT('{name}',{factor})LENGTH_UNIT()NAMED_UNIT({power}))")
-
-    def product(self, name: str) -> str:
-        """Add the product that the shape is one of; return the definition of its shape."""
-        application = self.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')")
-        protocol = f"'international standard','automotive_design',2000,{application}"
-        self.add(f"APPLICATION_PROTOCOL_DEFINITION({protocol})")
-        discipline = self.add(f"PRODUCT_CONTEXT('',{application},'mechanical')")
-        product = self.add(f"PRODUCT({name},{name},'',({discipline}))")
-        self.add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({product}))")
-        formation = self.add(f"PRODUCT_DEFINITION_FORMATION('','',{product})")
-        stage = self.add(f"PRODUCT_DEFINITION_CONTEXT('part definition',{application},'design')")
-        definition = self.add(f"PRODUCT_DEFINITION('design','',{formation},{stage})")
-        return self.add(f"PRODUCT_DEFINITION_SHAPE('','',{definition})")
+def _length_unit(data: Entities, unit: str) -> str:
+    if unit in PREFIXES:
+        return data.add(METRIC, prefix=PREFIXES[unit])
+    name, millimetres = CONVERTED[unit]
+    return data.add(IMPERIAL, name=name, millimetres=_real(millimetres))
 
 
 def _list(numbers: list[str]) -> str:
