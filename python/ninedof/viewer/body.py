@@ -48,7 +48,7 @@ def question_of(variant: Variant, c: Configuration, rule: str, size: float, cond
     Positions are connected with the pose shown, and have its side of every singularity; with the neutral pose where the
     study limits cones, whose axes are those there.
     """
-    criteria: dict[str, Any] = {}
+    criteria = {}
     if variant.study is not None:
         limits, _ = study_limits(variant.study, variant.geometry, variant.home)
         criteria = {name: limit for name, limit in limits.items() if name not in OF_LENGTHS}

@@ -46,9 +46,11 @@ def build(panel: Panel) -> None:
     panel.text("legend", lambda: legend_html(lines_shown(panel.state)))
     family = panel.state.machine.family.replace("_", " ")
     design = f"Design: {family}" if family else "Design"
-    for title, folder in {"Platform": _platform, "Internal point O": _internal_point, "Limits": _limits}.items():
+    for title, folder in {"Platform": _platform, "Internal point O": _internal_point}.items():
         with panel.gui.add_folder(title):
             folder(panel)
+    with panel.gui.add_folder("Limits"):
+        panel.text("limits", lambda: limits_html(panel.numbers, panel.unit))
     closed = {"Assembly modes": _modes, "Workspace": _workspace, "Path": _path, "View": _view, "Save": _save}
     for title, folder in ({design: _design} | closed).items():
         with panel.gui.add_folder(title, expand_by_default=False):
@@ -86,10 +88,6 @@ def _internal_point(panel: Panel) -> None:
     panel.follow(choice, "value", lambda: WORDS[state.rule])
     for k in range(6, 9):
         _coordinate(panel, k, with_unit("O {}", panel.unit), REACH * state.machine.size, "Place of O, base frame")
-
-
-def _limits(panel: Panel) -> None:
-    panel.text("limits", lambda: limits_html(panel.numbers, panel.unit))
 
 
 def _design(panel: Panel) -> None:

@@ -23,7 +23,8 @@ from ninedof.pareto import Front
 from ninedof.records.design_file import Design, hexagonal_design
 from ninedof.records.load import load
 from ninedof.robot.configuration import Configuration, single
-from ninedof.robot.geometry import TRIPLES, Geometry
+from ninedof.robot.geometry import Geometry
+from ninedof.robot.plates import points_of
 from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
 
@@ -86,7 +87,7 @@ class Machine:
     @cached_property
     def size(self) -> float:
         """Diameter of the machine: of a ball about all joints and O at home."""
-        points = machine_points(self.design.geometry, self.design.configuration)
+        points = points_of(self.design.geometry, self.design.configuration)
         return float(2.0 * np.linalg.norm(points - points.mean(axis=0), axis=1).max())
 
     @cached_property
@@ -206,10 +207,3 @@ def machine_of(design: Any = None) -> Machine:
     study = design.study
     found = Design(best.geometry, best.configuration, best.characteristic_length, study.unit, study.tool)
     return Machine(found, design)
-
-
-def machine_points(g: Geometry, c: Configuration) -> Floats:
-    """Return the joints in the base frame, in the order of `TRIPLES`, and O; shape (13, 3)."""
-    base_external, base_internal, external, internal = (getattr(g, name) for name in TRIPLES)
-    carried = np.vstack([external, internal]) @ c.rotation.T + c.position
-    return np.vstack([base_external, base_internal, carried, c.internal_point])

@@ -54,7 +54,6 @@ class Numbers:
 def numbers_of(variant: Variant, c: Configuration) -> Numbers:
     """Return the numbers of a single configuration."""
     g = variant.geometry
-    lengths = np.asarray(leg_lengths(g, c))
     limits = limits_at(variant, c)
     legs, cones = np.full(9, math.inf), set()
     for one in limits:
@@ -66,7 +65,7 @@ def numbers_of(variant: Variant, c: Configuration) -> Numbers:
     return Numbers(
         condition_number=float(condition_number(g, c, variant.length)),
         singular_values=np.asarray(singular_values(g, c, variant.length)),
-        leg_lengths=lengths,
+        leg_lengths=np.asarray(leg_lengths(g, c)),
         leg_margins=legs,
         determinants=singularity_margins(g, c),
         limits=(*_worst(limits), *_of_design(variant, limits)),
@@ -83,7 +82,7 @@ def limits_at(variant: Variant, c: Configuration) -> list[PoseLimit]:
     lengths = leg_lengths(g, c)
     limited = {(one.part, one.side) for one in limits if one.name in OF_LENGTHS}
     for k, leg in enumerate(LEGS):
-        for side, end in (("min", float(variant.leg_low[k])), ("max", float(variant.leg_high[k]))):
+        for side, end in (("min", variant.leg_low[k]), ("max", variant.leg_high[k])):
             if 0.0 < end < math.inf and (leg, side) not in limited:
                 margin = margin_of("length", side, end, lengths[:, k])
                 limits.append(PoseLimit(RANGE, leg, side, end, lengths[:, k], margin))

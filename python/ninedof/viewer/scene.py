@@ -12,16 +12,16 @@ from ninedof.motion.rotations import to_quaternions
 from ninedof.plot import style
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.leg_names import LEGS
+from ninedof.robot.plates import points_of
 from ninedof.statics.statics import Ellipsoid
 from ninedof.support.arrays import Floats
 from ninedof.viewer import shapes
 from ninedof.viewer.body import Body
 from ninedof.viewer.html import RED
-from ninedof.viewer.machine import machine_points
 from ninedof.viewer.numbers import Numbers
 from ninedof.viewer.state import State
 
-STARTS, ENDS = [0, 1, 2, 9, 10, 11, 3, 4, 5], [6, 7, 8, 12, 12, 12, 12, 12, 12]  # of legs, in `machine_points`
+STARTS, ENDS = [0, 1, 2, 9, 10, 11, 3, 4, 5], [6, 7, 8, 12, 12, 12, 12, 12, 12]  # of legs, in `points_of`
 EXTENT = 4.0  # of any machine in the scene, whose lights and clipping planes are made for such sizes
 GROUND, CELL = 8.0, 0.5  # sides of the ground
 GIZMOS = {"platform": 0.62, "O": 0.37}  # lengths of the arrows of the handles
@@ -67,7 +67,7 @@ class Scene:
         turn = to_quaternions(c.rotation[None])[0]
         for name in {"/platform", "/platform edges", "/platform gizmo", "/platform axes"} - held:
             self._set(name, position=self.scale * c.position, wxyz=turn)
-        points = self.scale * machine_points(g, c)
+        points = self.scale * points_of(g, c)
         for name in {"/O gizmo", "/O", "/labels/O"} - held:
             self._set(name, position=points[12])
         apart = float(np.linalg.norm(self.scale * c.position - points[12]))
@@ -176,7 +176,7 @@ class Scene:
                 edges, lines.astype(np.float32), colors=(0, 0, 0), thickness=0.009
             )
             if name == "/base":
-                self._set("/ground", position=np.array([0.0, 0.0, float(vertices[:, 2].min()) - 0.01]))
+                self._set("/ground", position=np.array([0.0, 0.0, vertices[:, 2].min() - 0.01]))
 
     def _legs(self, points: Floats, out: tuple[bool, ...]) -> None:
         start = points[STARTS]
@@ -212,7 +212,7 @@ class Scene:
 
     def _ellipsoid(self, shape: Ellipsoid | None, c: Configuration) -> None:
         """Show an ellipsoid about the platform, its longest axis an eighth of the machine; none if infinite."""
-        longest = 0.0 if shape is None else float(shape.semi_axes.max())
+        longest = 0.0 if shape is None else shape.semi_axes.max()
         self._set("/ellipsoid", visible=0.0 < longest < np.inf)
         if shape is not None and 0.0 < longest < np.inf:
             turn = to_quaternions((shape.directions * np.sign(np.linalg.det(shape.directions)))[None])[0]

@@ -45,9 +45,6 @@ def start(host: str, port: int) -> Any:
         raise ValueError(f"viser: got {viser.__version__}, whose requests are not guarded, expected another release")
     # Any page could ask by a message for a tunnel that hands the viewer to the whole world.
     server.request_share_url = server.disconnect_share_url = lambda verbose=False: None
-    if port not in (0, server.get_port()):  # taken a moment ago: viser goes on to the next ones
-        stop(server)
-        raise ValueError(_in_use(port))
     return server
 
 
@@ -129,15 +126,12 @@ def _silence() -> Iterator[None]:
         console.quiet = quiet
 
 
-def _in_use(port: int) -> str:
-    return f"port: got {port}, which is in use or reserved, expected a free one, or 0 for any"
-
-
 def _require_free(host: str, port: int) -> None:
     try:
         family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
         socket.create_server((host, port), family=family).close()
     except (OSError, UnicodeError) as error:
         if isinstance(error, OSError) and error.errno in (errno.EADDRINUSE, errno.EACCES):
-            raise ValueError(_in_use(port)) from None
+            words = "which is in use or reserved, expected a free one, or 0 for any"
+            raise ValueError(f"port: got {port}, {words}") from None
         raise ValueError(f"host: got {host!r}, expected an address of this machine ({error})") from None

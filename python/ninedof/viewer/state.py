@@ -150,21 +150,21 @@ class State:
         """Move O; where it was placed at its best it then stays."""
         if self.rule == "best":
             self.rule = "held"
-        self._place(Configuration(self.configuration.position, self.configuration.rotation, point))
+        self.set_configuration(Configuration(self.configuration.position, self.configuration.rotation, point))
 
     def set_rule(self, rule: str) -> None:
         """Set where O is when the platform moves: one of `RULES`, from where O is now."""
         self.rule = choice("O", rule, RULES)
-        self._place(self.configuration)
+        self.set_configuration(self.configuration)
         self.set_pose()
 
     def set_configuration(self, c: Configuration) -> None:
         """Show a configuration as it is, such as an assembly mode; O stays there until the platform moves."""
-        self._place(c)
+        self.configuration = self._placed = c
 
     def go_home(self) -> None:
         """Return to the neutral pose."""
-        self._place(self.variant.home)
+        self.set_configuration(self.variant.home)
         if self.rule == "best":
             self.set_pose()
 
@@ -266,10 +266,6 @@ class State:
 
     # --- within -------------------------------------------------------------------------------------------------------
 
-    def _place(self, c: Configuration) -> None:
-        """Show a configuration, from whose O the rule begins."""
-        self.configuration = self._placed = c
-
     def _change(self, variables: dict[str, float], length: float | None) -> None:
         try:
             variant = self.machine.variant(variables, length)
@@ -281,7 +277,7 @@ class State:
         if new is not old:
             shift, arm = c.position - old.position, c.internal_point - old.internal_point
             turn = c.rotation @ old.rotation.T @ new.rotation
-            self._place(Configuration(new.position + shift, turn, new.internal_point + arm))
+            self.set_configuration(Configuration(new.position + shift, turn, new.internal_point + arm))
         if self.rule == "best":
             self.set_pose()
 
