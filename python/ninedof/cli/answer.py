@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import MISSING, fields
+from dataclasses import fields
 from inspect import Parameter, Signature, get_annotations
 from pathlib import Path
-from typing import Any, NamedTuple, get_type_hints
+from typing import Any, NamedTuple, NoReturn, get_type_hints
 
 import typer
 
@@ -40,9 +40,8 @@ class Answer(NamedTuple):
 def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
     """Return a command of a call that takes a struct of options; options that it shares with others come last."""
     kind: Any = next(iter(get_type_hints(call).values()))
-    marks = get_type_hints(kind, include_extras=True)
-    defaults = {one.name: Parameter.empty if one.default is MISSING else one.default for one in fields(kind)}
-    names = dict.fromkeys(name for part in kind.__mro__ for name in get_annotations(part))
+    hints, names = get_type_hints(kind), dict.fromkeys(name for part in kind.__mro__ for name in get_annotations(part))
+    marks = {one.name: one.metadata["typer"] for one in fields(kind)}
 
     def parsed(**values: Any) -> None:
         options: Any = kind(**values)
@@ -51,13 +50,8 @@ def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
             answer.show(options.json)
 
     parsed.__name__, parsed.__doc__ = call.__name__, call.__doc__
-    parsed.__signature__ = Signature(  # type: ignore[attr-defined]  # what typer reads
-        [
-            Parameter(name, Parameter.KEYWORD_ONLY, default=defaults[name], annotation=marks[name])
-            for name in names
-            if name in defaults
-        ]
-    )
+    parameters = [Parameter(n, Parameter.KEYWORD_ONLY, default=marks[n], annotation=hints[n]) for n in names]
+    parsed.__signature__ = Signature(parameters)  # type: ignore[attr-defined]  # what typer reads
     parsed.__annotations__ = {}
     return parsed
 
@@ -90,6 +84,21 @@ def write_job(
         raise
     screen.print(*parts)
     return record
+
+
+def finish_job(
+    screen: Screen,
+    folder: Path,
+    answer: Answer,
+    write: Callable[[Draw], Path],
+    draw: Draw | None = None,
+    report: bool = False,
+) -> NoReturn:
+    """Write a job, print what is in its run folder, and end with the status of the answer."""
+    record = write_job(screen, answer, write, draw, report)
+    screen.print(folder_words(folder))
+    screen.data({**answer.data, "record": str(record)})
+    raise typer.Exit(answer.status)
 
 
 def _report(folder: Path, screen: Screen) -> list[Path]:

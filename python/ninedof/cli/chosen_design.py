@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from ninedof.cli.options import SIDES, HexagonalOptions
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.design.duty import Tool
 from ninedof.design.study import Study
@@ -33,6 +33,11 @@ class Chosen(NamedTuple):
     def design(self) -> Design:
         """The design alone."""
         return Design(*self[:5])
+
+    @property
+    def machine(self) -> Result | Design:
+        """The result, or the design alone without one."""
+        return self.result or self.design
 
     @property
     def study(self) -> Study | None:
@@ -75,17 +80,19 @@ def named_design(name: str | None) -> Chosen:
     return Chosen(best.geometry, best.configuration, best.characteristic_length, study.unit, study.tool, run)
 
 
-def chosen_design(name: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Chosen:
+def chosen_design(name: str | None, options: HexagonalOptions) -> Chosen:
     """Return the design that an argument DESIGN names, or that of the sides and heights of the hexagonal family."""
-    values = {side: value for side, value in sides.items() if value is not None}
-    if name is not None:
-        if values or theta_z_deg is not None:
-            raise ValueError(f"design: got {name} and {', '.join(values) or '--theta-z-deg'}, expected one of the two")
-        return named_design(name)
-    missing = [f"--{side}" for side, value in sides.items() if value is None]
-    if missing:
-        raise ValueError(f"design: got no {', '.join(missing)}, expected a design file or all of a1 a2 b1 b2 zp zs")
-    return Chosen(*hexagonal_design(values | {"theta_z": math.radians(theta_z_deg or 0.0)}))
+    values = options.given()
+    if name is None:
+        if missing := [f"--{side}" for side in SIDES if side not in values]:
+            expected = "expected a design file or all of a1 a2 b1 b2 zp zs"
+            raise ValueError(f"design: got no {', '.join(missing)}, {expected}")
+        chosen = Chosen(*hexagonal_design(values | {"theta_z": math.radians(values.get("theta_z_deg", 0.0))}))
+    elif values:
+        raise ValueError(f"design: got {name} and {', '.join(values)}, expected one of the two")
+    else:
+        chosen = named_design(name)
+    return with_length(chosen, options.lc)
 
 
 def with_length(chosen: Chosen, lc: str | None) -> Chosen:

@@ -1,73 +1,91 @@
-"""Options that several commands share, and the structs that hold those of a command."""
+"""Structs of the options of a command, and what those that several commands share mean."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import Any, TypeVar, dataclass_transform
 
 import typer
 
 Two = tuple[float, float]
 Three = tuple[float, float, float]
+T = TypeVar("T")
 
-Json = Annotated[
-    bool, typer.Option("--json", help="Print the result as JSON on standard output, text on standard error.")
-]
-Threads = Annotated[
-    int | None, typer.Option(help="Threads; one per processor by default. The result does not depend on it.")
-]
+SIDES = ("a1", "a2", "b1", "b2", "zp", "zs")
+
+THREADS = "Threads; one per processor by default. The result does not depend on it."
 DESIGN = "a design file (TOML), a run folder (its best design), or RUN#7 (point 7 of a front, counted from 1)"
-Design = Annotated[str, typer.Argument(help=f"{DESIGN[0].upper()}{DESIGN[1:]}.")]
-DesignOrPublished = Annotated[
-    str | None, typer.Argument(help=f"{DESIGN[0].upper()}{DESIGN[1:]}; the published design if none is given.")
-]
-Lc = Annotated[
-    str | None,
-    typer.Option(help="Characteristic length: a number, optimal, natural, mean_leg or platform_radius; the design's."),
-]
-StudyFile = Annotated[Path | None, typer.Argument(help="A study file (TOML). The paper's study if none is given.")]
-Out = Annotated[
-    Path | None,
-    typer.Option(help="Run folder; runs/<time> by default. The same command goes on with an unfinished run there."),
-]
-Plot = Annotated[Path | None, typer.Option(help="Draw the plates over each other: a .png, .svg or .pdf file.")]
-Starts = Annotated[int | None, typer.Option(help="Starts, in place of the study's.")]
-Figures = Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")]
-Report = Annotated[bool, typer.Option("--report/--no-report", help="Write the report, with the figures.")]
-Scheduler = Annotated[
-    str | None, typer.Option(help="Address of a Dask scheduler, as tcp://host:8786; its workers compute the chunks.")
-]
-LOAD = typer.Option(
-    help='A load "mx my mz fx fy fz" on the platform: moment about p and force; of the study. Repeatable.'
-)
-LEG_ERROR = typer.Option(help="Tolerance of the leg lengths; of the study.")
-JOINT_ERROR = typer.Option(help="Tolerance of the joint centres, a radius; of the study.")
-LEG_STIFFNESS = typer.Option(help="Stiffness of each leg, force/length.")
-LegLimits = Annotated[
-    Two | None, typer.Option(metavar="LOW HIGH", help="Limits of all nine legs; those of the run's study by default.")
-]
-
-BaseSide1 = Annotated[float | None, typer.Option(help="Base side (eq. 37).")]
-BaseSide2 = Annotated[float | None, typer.Option(help="Base side.")]
-PlatformSide1 = Annotated[float | None, typer.Option(help="Platform side (eq. 38).")]
-PlatformSide2 = Annotated[float | None, typer.Option(help="Platform side.")]
-Height = Annotated[float | None, typer.Option(help="Height of the platform.")]
-InternalHeight = Annotated[float | None, typer.Option(help="Height of the internal point.")]
-TwistDeg = Annotated[float | None, typer.Option(help="Twist of the platform, degrees; 0 by default.")]
+ONE_DESIGN = f"A{DESIGN[1:]}."
+DESIGN_OR_PUBLISHED = f"A{DESIGN[1:]}; the published design if none is given."
+LC = "Characteristic length: a number, optimal, natural, mean_leg or platform_radius; the design's."
+PLOT = "Draw the plates over each other: a .png, .svg or .pdf file."
+STARTS = "Starts, in place of the study's."
+REPORT = "Write the report, with the figures."
+LOAD = 'A load "mx my mz fx fy fz" on the platform: moment about p and force; of the study. Repeatable.'
+LEG_ERROR = "Tolerance of the leg lengths; of the study."
+JOINT_ERROR = "Tolerance of the joint centres, a radius; of the study."
+LEG_STIFFNESS = "Stiffness of each leg, force/length."
+LEG_LIMITS = "Limits of all nine legs; those of the run's study by default."
 
 
-@dataclass(frozen=True, kw_only=True)
+def option(words: str | None, default: Any = None, *names: str, metavar: str | None = None) -> Any:
+    """Return a field of a struct that is an option, with its words in --help; `...` as the default: it is required."""
+    return field(default=default, metadata={"typer": typer.Option(default, *names, help=words, metavar=metavar)})
+
+
+def triple(words: str) -> Any:
+    """Return an option that takes three numbers."""
+    return option(words, metavar="X Y Z")
+
+
+def ends(words: str | None = None) -> Any:
+    """Return an option that takes the two ends of a range."""
+    return option(words, metavar="LOW HIGH")
+
+
+def argument(words: str, default: Any = ..., metavar: str | None = None) -> Any:
+    """Return a field of a struct that is an argument."""
+    return field(default=default, metadata={"typer": typer.Argument(default, help=words, metavar=metavar)})
+
+
+@dataclass_transform(kw_only_default=True, frozen_default=True)
+def struct(kind: type[T]) -> type[T]:
+    """Make a class the struct of the options of a command: each of its fields is an `option` or an `argument`."""
+    return dataclass(frozen=True, kw_only=True)(kind)
+
+
+@struct
 class Options:
     """Options of a command that prints."""
 
-    json: Json = False
+    json: bool = option("Print the result as JSON on standard output, text on standard error.", False, "--json")
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class JobOptions(Options):
     """Options of a command that makes a run folder."""
 
-    out: Out = None
-    figures: Figures = True
-    report: Report = True
+    out: Path | None = option(
+        "Run folder; runs/<time> by default. The same command goes on with an unfinished run there."
+    )
+    figures: bool = option("Draw the figures.", True, "--figures/--no-figures")
+    report: bool = option(REPORT, True, "--report/--no-report")
+
+
+@struct
+class HexagonalOptions(Options):
+    """Sides and heights of a hexagonal design, and the characteristic length."""
+
+    a1: float | None = option("Base side (eq. 37).")
+    a2: float | None = option("Base side.")
+    b1: float | None = option("Platform side (eq. 38).")
+    b2: float | None = option("Platform side.")
+    zp: float | None = option("Height of the platform.")
+    zs: float | None = option("Height of the internal point.")
+    theta_z_deg: float | None = option("Twist of the platform, degrees; 0 by default.")
+    lc: str | None = option(LC)
+
+    def given(self) -> dict[str, float]:
+        """Return the sides, heights and twist that are given."""
+        return {name: x for name in (*SIDES, "theta_z_deg") if (x := getattr(self, name)) is not None}

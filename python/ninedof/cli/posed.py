@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.options import Design, Options, Three
+from ninedof.cli.options import ONE_DESIGN, Options, Three, argument, option, struct, triple
 from ninedof.cli.screen import DONE, bold
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.redundancy.redundancy import best_internal_point
@@ -29,30 +28,26 @@ NO_SIDE = 1e-12  # a determinant that is zero but for rounding
 SAME = 1e-9  # relative: poses that differ by less coincide
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class PoseOptions(Options):
     """A design and one pose."""
 
-    design: Design
-    position: Annotated[
-        Three | None,
-        typer.Option(metavar="X Y Z", help="Position of the platform, base frame; the neutral one by default."),
-    ] = None
-    rotation_deg: Annotated[
-        Three | None,
-        typer.Option(metavar="X Y Z", help="Rotation vector from the neutral orientation, base axes, degrees."),
-    ] = None
-    internal_point: Annotated[
-        str | None,
-        typer.Option(
-            help='O at that pose: carried (default), shifted, held, best, a fraction between the plates, or "X Y Z".'
-        ),
-    ] = None
+    design: str = argument(ONE_DESIGN)
+    position: Three | None = triple("Position of the platform, base frame; the neutral one by default.")
+    rotation_deg: Three | None = triple("Rotation vector from the neutral orientation, base axes, degrees.")
+    internal_point: str | None = option(
+        'O at that pose: carried (default), shifted, held, best, a fraction between the plates, or "X Y Z".'
+    )
 
     def named(self) -> list[str]:
         """Return the options that say where to look."""
         names = ("position", "rotation_deg", "internal_point")
         return [f"--{name.replace('_', '-')}" for name in names if getattr(self, name) is not None]
+
+    def at(self) -> DesignAtPoses:
+        """Return the design at the poses of the options."""
+        chosen = named_design(self.design)
+        return DesignAtPoses(chosen, self.poses(chosen))
 
     def poses(self, chosen: Chosen) -> Configuration:
         """Return a stack of one configuration, by default the neutral one."""
@@ -66,13 +61,11 @@ class PoseOptions(Options):
         return Configuration(p[None], q[None], s[None])
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class PosesOptions(PoseOptions):
     """A design and one pose, or the poses of its study."""
 
-    all_poses: Annotated[
-        bool, typer.Option("--all-poses", help="All poses of the run's study, the neutral one first.")
-    ] = False
+    all_poses: bool = option("All poses of the run's study, the neutral one first.", False, "--all-poses")
 
     def poses(self, chosen: Chosen) -> Configuration:
         """Return a stack of configurations: of the study, or one, by default the neutral one."""
@@ -91,12 +84,6 @@ class DesignAtPoses:
 
     chosen: Chosen
     c: Configuration
-
-    @staticmethod
-    def at(options: PoseOptions) -> DesignAtPoses:
-        """Return the design and the poses of the options."""
-        chosen = named_design(options.design)
-        return DesignAtPoses(chosen, options.poses(chosen))
 
     def first(self, k: int) -> int:
         """Return the first pose that coincides with one: poses of a study may, and are named and printed once."""
@@ -198,12 +185,6 @@ def rule_option(text: str) -> str | float:
         raise ValueError(f"--internal-point: got {text!r}, expected {', '.join(RULES)} or a fraction") from None
 
 
-def load_option(text: str) -> list[float]:
-    """Return the load given by --load."""
-    return several("--load", text, "mx my mz fx fy fz")
-
-
-def at_worst(values: Any) -> tuple[float, int]:
-    """Return the largest value and its pose."""
-    at = int(np.argmax(values))
-    return float(values[at]), at
+def loads_option(texts: Iterable[str] | None) -> list[list[float]]:
+    """Return the loads given by --load."""
+    return [several("--load", text, "mx my mz fx fy fz") for text in texts or ()]

@@ -5,15 +5,14 @@ from __future__ import annotations
 from asyncio import CancelledError
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ninedof.cli.answer import Answer, folder_words, write_job
-from ninedof.cli.options import JobOptions, Scheduler
+from ninedof.cli.answer import Answer, finish_job
+from ninedof.cli.options import JobOptions, option, struct
 from ninedof.cli.screen import Screen
 from ninedof.design.indices import size_of
 from ninedof.records.folder import run_folder
@@ -30,11 +29,11 @@ if TYPE_CHECKING:
 MOST_PRINTED = 10_000  # numbers in JSON; larger results are in the file only
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class Job(JobOptions):
     """The options that a sweep and an atlas share."""
 
-    scheduler: Scheduler = None
+    scheduler: str | None = option("Address of a Dask scheduler, as tcp://host:8786; its workers compute the chunks.")
 
     @cached_property
     def screen(self) -> Screen:
@@ -79,9 +78,7 @@ class Job(JobOptions):
             return [file for name, figure in draw() for file in plot.save(figure, place, name)]
 
         write, report = partial(write_run, result, folder, question=stated, results=data), self.report and self.figures
-        record = write_job(self.screen, Answer([table], data), write, drawn if self.figures else None, report)
-        self.screen.print(folder_words(folder))
-        self.screen.data({**data, "record": str(record)})
+        finish_job(self.screen, folder, Answer([table], data), write, drawn if self.figures else None, report)
 
 
 def describe(result: SweepResult, name: str) -> dict[str, Any]:

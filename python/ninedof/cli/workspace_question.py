@@ -10,7 +10,19 @@ from typing import Annotated, Any
 import typer
 
 from ninedof.cli.chosen_design import Chosen
-from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, Threads, Three, Two
+from ninedof.cli.options import (
+    DESIGN_OR_PUBLISHED,
+    LC,
+    THREADS,
+    JobOptions,
+    Three,
+    Two,
+    argument,
+    ends,
+    option,
+    struct,
+    triple,
+)
 from ninedof.cli.posed import length_at_home, rule_option
 from ninedof.design.indices import computed
 from ninedof.design.limit_numbers import CONES, LEGS, SPREADS
@@ -48,78 +60,56 @@ CRITERIA = {  # by the names of the options
 }
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class WorkspaceOptions(JobOptions):
     """The options of `ninedof workspace`."""
 
-    design: DesignOrPublished = None
-    archetype: Annotated[
-        str, typer.Option(help="constant_orientation, orientation, reachable, inclusive or dexterous.")
-    ] = "constant_orientation"
-    x: Ends = None
-    y: Ends = None
-    z: Ends = None
-    legs: Annotated[Two | None, typer.Option(metavar="LOW HIGH", help="Limits of all nine legs; HIGH may be inf.")] = (
-        None
+    design: str | None = argument(DESIGN_OR_PUBLISHED, None)
+    archetype: str = option(
+        "constant_orientation, orientation, reachable, inclusive or dexterous.", "constant_orientation"
     )
-    external: Annotated[Two | None, typer.Option(metavar="LOW HIGH", help="Of the external legs, besides.")] = None
-    upper: Annotated[Two | None, typer.Option(metavar="LOW HIGH", help="Of the upper internal legs, besides.")] = None
-    lower: Annotated[Two | None, typer.Option(metavar="LOW HIGH", help="Of the lower internal legs, besides.")] = None
-    condition: Annotated[float | None, typer.Option(help="Greatest condition number.")] = None
-    base_cone_deg: Annotated[float | None, typer.Option(help="Greatest angle at a base joint from home.")] = None
-    platform_cone_deg: Annotated[float | None, typer.Option(help="The same at a platform joint.")] = None
-    base_cone_axis: Annotated[
-        Three | None,
-        typer.Option(metavar="X Y Z", help="Axis of the cones of the base, in place of the legs at home."),
-    ] = None
-    platform_cone_axis: Annotated[Three | None, typer.Option(metavar="X Y Z", help="The same at the platform.")] = None
-    clearance: Annotated[float | None, typer.Option(help="Least distance of legs that share no joint.")] = None
-    singularity_free: Annotated[
-        bool | None,
-        typer.Option(
-            "--singularity-free/--any-singularity", help="Connected with home, on its side of every singularity."
-        ),
-    ] = None
-    study_limits: Annotated[
-        bool, typer.Option("--study-limits/--no-study-limits", help="Take the limits of the run's study.")
-    ] = True
-    actuators: Annotated[
-        str,
-        typer.Option(
-            help="Legs of a study that compares lengths: permitted (as long as its limits leave them), or needed (as "
-            "its poses need them)."
-        ),
-    ] = ACTUATORS[0]
-    angle_deg: Annotated[float | None, typer.Option(help="Region: rotations of at most this angle.")] = None
-    tilt_deg: Annotated[float | None, typer.Option(help="Region: tilts of at most this angle.")] = None
-    torsion_deg: Annotated[float | None, typer.Option(help="Region: torsions of at most this angle.")] = None
-    orientations: Annotated[int | None, typer.Option(help="Number of rotations of a set.")] = None
-    position: Annotated[
-        Three | None,
-        typer.Option(metavar="X Y Z", help="Position of the platform, for orientation; the home position by default."),
-    ] = None
-    internal_point: Annotated[
-        str | None,
-        typer.Option(
-            help="Position of O: carried, shifted, held, best, or a fraction between the plates; "
-            "by default as in the region of the run's study, else the design's."
-        ),
-    ] = None
-    lc: Lc = None
-    method: Annotated[str, typer.Option(help="octree, grid or sample.")] = "octree"
-    tolerance: Annotated[float, typer.Option(help="Wanted error, as a share of the volume.")] = 1e-3
-    resolution: Annotated[int | None, typer.Option(help="Cells along each side before any is divided.")] = None
-    points: Annotated[int | None, typer.Option(help="Poses of the audit, or of each shift of a sample.")] = None
-    seed: Annotated[int | None, typer.Option(help="Of the audit and of a sample; 0 by default.")] = None
-    index: Annotated[
-        list[str] | None, typer.Option(help=f"An index over the workspace, may be repeated: {', '.join(computed())}.")
-    ] = None
-    certify: Annotated[
-        bool, typer.Option("--certify", help="Prove bounds of the volume, and boxes where every pose is allowed.")
-    ] = False
-    gap: Annotated[float | None, typer.Option(help="Of the bounds, relative to the upper one; 0.05 by default.")] = None
-    time: Annotated[float | None, typer.Option(help="Seconds for the proof; 60 by default.")] = None
-    threads: Threads = None
+    x: Two | None = ends()
+    y: Two | None = ends()
+    z: Two | None = ends()
+    legs: Two | None = ends("Limits of all nine legs; HIGH may be inf.")
+    external: Two | None = ends("Of the external legs, besides.")
+    upper: Two | None = ends("Of the upper internal legs, besides.")
+    lower: Two | None = ends("Of the lower internal legs, besides.")
+    condition: float | None = option("Greatest condition number.")
+    base_cone_deg: float | None = option("Greatest angle at a base joint from home.")
+    platform_cone_deg: float | None = option("The same at a platform joint.")
+    base_cone_axis: Three | None = triple("Axis of the cones of the base, in place of the legs at home.")
+    platform_cone_axis: Three | None = triple("The same at the platform.")
+    clearance: float | None = option("Least distance of legs that share no joint.")
+    singularity_free: bool | None = option(
+        "Connected with home, on its side of every singularity.", None, "--singularity-free/--any-singularity"
+    )
+    study_limits: bool = option("Take the limits of the run's study.", True, "--study-limits/--no-study-limits")
+    actuators: str = option(
+        "Legs of a study that compares lengths: permitted (as long as its limits leave them), or needed (as "
+        "its poses need them).",
+        ACTUATORS[0],
+    )
+    angle_deg: float | None = option("Region: rotations of at most this angle.")
+    tilt_deg: float | None = option("Region: tilts of at most this angle.")
+    torsion_deg: float | None = option("Region: torsions of at most this angle.")
+    orientations: int | None = option("Number of rotations of a set.")
+    position: Three | None = triple("Position of the platform, for orientation; the home position by default.")
+    internal_point: str | None = option(
+        "Position of O: carried, shifted, held, best, or a fraction between the plates; "
+        "by default as in the region of the run's study, else the design's."
+    )
+    lc: str | None = option(LC)
+    method: str = option("octree, grid or sample.", "octree")
+    tolerance: float = option("Wanted error, as a share of the volume.", 1e-3)
+    resolution: int | None = option("Cells along each side before any is divided.")
+    points: int | None = option("Poses of the audit, or of each shift of a sample.")
+    seed: int | None = option("Of the audit and of a sample; 0 by default.")
+    index: list[str] | None = option(f"An index over the workspace, may be repeated: {', '.join(computed())}.")
+    certify: bool = option("Prove bounds of the volume, and boxes where every pose is allowed.", False, "--certify")
+    gap: float | None = option("Of the bounds, relative to the upper one; 0.05 by default.")
+    time: float | None = option("Seconds for the proof; 60 by default.")
+    threads: int | None = option(THREADS)
 
 
 @dataclass(frozen=True)

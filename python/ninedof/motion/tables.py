@@ -81,6 +81,13 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
     return Table("Limits of the study along the path", heads, rows)
 
 
+def motion_tables(motion: Mapping[str, Any]) -> list[Table]:
+    """Return the tables of a motion: legs, drives where there are forces, limits where a study has some."""
+    drives = drives_table(motion)
+    limits = [limits_table(motion)] if motion.get("limits") else []
+    return [legs_table(motion), *([] if drives is None else [drives]), *limits]
+
+
 def motion_words(followed: Followed, motion: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield remarks on the tables, one sentence each: words to be stressed, and the rest."""
     kappa, near = motion["condition_number"], motion["nearest_singularity"]

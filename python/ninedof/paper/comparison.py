@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,12 +18,25 @@ from ninedof.paper.published import KAPPA, published_geometry, published_variabl
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.progress import Progress
-from ninedof.tables import RIGHT, Column, Line, Table
+from ninedof.tables import Line, Table, columns
 
 TITLES = {
     "published, read so that it gives 3.9110": "published\nreproduced",
     "best with the same base and height": "same base\nand height",
     "best with the base at most twice the platform": "base at most\n2 x platform",
+}
+PRINTED = {  # the names of the rows, and what the paper prints
+    "base a1, a2": "0, -",
+    "platform b1, b2": "5.8124, -",
+    "base / platform": "-",
+    "height zp": f"{published.ZP:.4f}",
+    "height of O, zs": "-",
+    "external legs l": "-",
+    "upper internal q": "-",
+    "lower internal r": "-",
+    "condition number": f"{KAPPA:.4f}",
+    "below 3.9110 by": "-",
+    "limits reached": "-",
 }
 
 
@@ -122,13 +135,12 @@ def _optimum_row(title: str, result: Result) -> Row | None:
 
 
 def _row(title: str, variables: dict[str, float], active: tuple[str, ...]) -> Row:
-    g = Geometry.hexagonal(**{name: variables[name] for name in published.PLATES})
-    c = Configuration.neutral(variables["zp"], variables["zs"], variables["theta_z"])
+    point = Study.paper().evaluate(variables)
+    g, c = point.geometry, point.configuration
     kappa = float(condition_number(g, c))
     legs = dict(zip("lqr", leg_lengths(g, c)[[0, 3, 6]].tolist(), strict=True))
-    margin = Study.paper().evaluate(variables).margins["radius_ratio"]  # 1 - ratio / 2
-    ratio, gain = 2.0 * (1.0 - margin), 100.0 * (1.0 - kappa / KAPPA)
-    return Row(title, variables, kappa, legs, float(ratio), gain, active, g, c)
+    ratio = 2.0 * (1.0 - point.margins["radius_ratio"])  # the margin is 1 - ratio / 2
+    return Row(title, variables, kappa, legs, ratio, 100.0 * (1.0 - kappa / KAPPA), active, g, c)
 
 
 def _why(best_zs: float, same: Result) -> str:
@@ -150,34 +162,28 @@ def _why(best_zs: float, same: Result) -> str:
 
 def comparison_table(designs: Iterable[Mapping[str, Any]]) -> Table:
     """Return the published optimum beside ours, one design per column."""
-    columns = [row for row in designs if row["title"] in TITLES]
-    heads = ["published\nas printed", *(TITLES[row["title"]] for row in columns)]
-
-    def line(label: str, printed: str, texts: Iterable[str]) -> Line:
-        return Line(label, [printed, *texts])
-
-    def pair(names: Sequence[str]) -> Iterable[str]:
-        return (", ".join(_short(row["variables"][name]) for name in names) for row in columns)
-
-    rows: list[Any] = [
-        line("base a1, a2", "0, -", pair(["a1", "a2"])),
-        line("platform b1, b2", "5.8124, -", pair(["b1", "b2"])),
-        line("base / platform", "-", (f"{row['radius_ratio']:.4f}" for row in columns)),
-        line("height zp", f"{published.ZP:.4f}", (f"{row['variables']['zp']:.4f}" for row in columns)),
-        line("height of O, zs", "-", (f"{row['variables']['zs']:.4f}" for row in columns)),
-        (),
-    ]
-    for label, leg in (("external legs l", "l"), ("upper internal q", "q"), ("lower internal r", "r")):
-        rows.append(line(label, "-", (f"{row['leg_lengths'][leg]:.4f}" for row in columns)))
-    gains = [row["gain_percent"] for row in columns]
-    rows += [
-        (),
-        line("condition number", f"{KAPPA:.4f}", (f"{row['condition_number']:.6f}" for row in columns)),
-        line("below 3.9110 by", "-", ("-" if abs(gain) < 0.005 else f"{gain:.2f} %" for gain in gains)),
-        line("limits reached", "-", ("\n".join(_active(row)) or "nothing" for row in columns)),
-    ]
+    rows = [row for row in designs if row["title"] in TITLES]
+    heads = ["published\nas printed", *(TITLES[row["title"]] for row in rows)]
+    texts = zip(PRINTED.items(), *map(_texts, rows), strict=True)
+    lines = [Line(label, [printed, *others]) for (label, printed), *others in texts]
     title = "The published optimum beside ours, lengths in units of l_c"
-    return Table(title, [Column(), *(Column(head, "", RIGHT) for head in heads)], rows)
+    return Table(title, columns("", *(f">{head}" for head in heads)), [*lines[:5], (), *lines[5:8], (), *lines[8:]])
+
+
+def _texts(row: Mapping[str, Any]) -> list[str]:
+    """Return the column of a design, a text for each name in PRINTED."""
+    values, legs, gain = row["variables"], row["leg_lengths"], row["gain_percent"]
+    return [
+        f"{_short(values['a1'])}, {_short(values['a2'])}",
+        f"{_short(values['b1'])}, {_short(values['b2'])}",
+        f"{row['radius_ratio']:.4f}",
+        f"{values['zp']:.4f}",
+        f"{values['zs']:.4f}",
+        *(f"{legs[leg]:.4f}" for leg in "lqr"),
+        f"{row['condition_number']:.6f}",
+        "-" if abs(gain) < 0.005 else f"{gain:.2f} %",
+        "\n".join(_active(row)) or "nothing",
+    ]
 
 
 def _active(row: Mapping[str, Any]) -> list[str]:

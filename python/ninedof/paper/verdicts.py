@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from ninedof.paper.published import (
     solved,
 )
 from ninedof.robot.configuration import Configuration
-from ninedof.tables import Column, Table
+from ninedof.tables import Table, columns, grouped
 
 TWIST = 0.05  # rad, towards a lower condition number
 
@@ -65,72 +65,70 @@ def verdicts(threads: int | None = None) -> tuple[Verdict, ...]:
             "a minimum exists",
             f"{open_study.status}: falling as {', '.join(open_study.causes)} grow, "
             f"{kappa['eqs. (8)-(9) alone']:.4f} so far",
-            _verdict(open_study.status == "unbounded", "no minimum without a bound on size", "not refuted"),
+            "no minimum without a bound on size" if open_study.status == "unbounded" else "not refuted",
         ),
         (
             "eq. (39a)",
             "a1 = 0.0000",
             f"a1 = {best['a1']:.4f}",
-            _verdict(coupled, "reproduced: coupled joints are best", "not reproduced"),
+            "reproduced: coupled joints are best" if coupled else "not reproduced",
         ),
         (
             "eq. (39b)",
             "b1 = 5.8124",
             f"base side {best['a2']:.4f}",
-            _verdict(abs(best["a2"] - B1) > 5e-5, "a base side, and not the best in its class", "reproduced"),
+            "a base side, and not the best in its class" if abs(best["a2"] - B1) > 5e-5 else "reproduced",
         ),
         (
             "eq. (39c)",
             "zp = 3.9828",
             f"zp = {best['zp']:.4f}",
-            _verdict(abs(best["zp"] - ZP) > 5e-5, "not the best height; a2, b2 and zs are missing", "reproduced"),
+            "not the best height; a2, b2 and zs are missing" if abs(best["zp"] - ZP) > 5e-5 else "reproduced",
         ),
         (
             "eqs. (37)-(39)",
             "a the base, b the platform",
             f"k >= {kappa['as printed']:.4f} with these values",
-            _verdict(kappa["as printed"] > KAPPA, "impossible as printed: a and b are swapped", "possible"),
+            "impossible as printed: a and b are swapped" if kappa["as printed"] > KAPPA else "possible",
         ),
         (
             "eq. (40)",
             "k = 3.9110",
             f"3.9110 at zs = {below:.4f} and {above:.4f}; {kappa_at(best_zs):.4f} at {best_zs:.4f}",
-            _verdict(crossing, "reproduced with base side 5.8124, platform side 2.9062", "not reproduced"),
+            "reproduced with base side 5.8124, platform side 2.9062" if crossing else "not reproduced",
         ),
         (
             "eq. (40)",
             "the optimum",
             f"{kappa['same base and height']:.4f} same base and height, {kappa['base no larger']:.4f} base no larger, "
             f"{least:.6f} base at most twice the platform",
-            _verdict(beaten, "not an optimum in any of these classes", "an optimum in one of these classes"),
+            "not an optimum in any of these classes" if beaten else "an optimum in one of these classes",
         ),
         (
             "eq. (41)",
             "a1 = 0, b1 = 2.9 m at l_c = 0.5",
             f"{0.5 * B1:.4f} m",
-            _verdict(abs(0.5 * B1 - 2.9) < 0.05, "consistent with eq. (39), rounded", "inconsistent"),
+            "consistent with eq. (39), rounded" if abs(0.5 * B1 - 2.9) < 0.05 else "inconsistent",
         ),
         (
             "sec. 5",
             "flight simulators: fixed base twice the mobile one, 2 a2 = b1",
             f"limits reached at {least:.6f}: {', '.join(same_class.active or ())}",
-            _verdict(
-                "radius_ratio" in (same_class.active or ()),
-                "right as a limit, with a the platform; a larger base would be better still",
-                "the limit does not bind",
-            ),
+            "right as a limit, with a the platform; a larger base would be better still"
+            if "radius_ratio" in (same_class.active or ())
+            else "the limit does not bind",
         ),
         (
             "sec. 5",
             "one side much shorter, near the triangle, is best",
             f"a1 = {best['a1']:.4f}, b2 = {best['b2']:.4f}",
-            _verdict(coupled, "confirmed: the triangle itself", "not confirmed"),
+            "confirmed: the triangle itself" if coupled else "not confirmed",
         ),
         (
             "sec. 4",
             "Q = 1 at the optimum",
             f"{kappa['the same, theta_z free']:.6f} with theta_z free",
-            _verdict(kappa["the same, theta_z free"] < least - 1e-6, "a twist gains a little", "confirmed"),
+            "a twist gains a little" if kappa["the same, theta_z free"] < least - 1e-6 else "confirmed",
         ),
     ]
     return tuple(Verdict(*row) for row in rows)
@@ -143,15 +141,8 @@ def _slope(name: str, value: float) -> str:
     return f"dk/d{name} = {value:+.4f}"
 
 
-def _verdict(holds: bool, yes: str, no: str) -> str:
-    return yes if holds else no
-
-
 def verdicts_table(rows: Iterable[Mapping[str, str]]) -> Table:
     """Return every number of the paper beside ours."""
-    names = ("where", "printed", "ours", "verdict")
-    lines: list[Any] = []
-    for row in rows:
-        lines += [tuple(row[name] for name in names), ()]
-    title = "The paper's numbers and ours, lengths in units of l_c"
-    return Table(title, [Column(name) for name in names], lines)
+    names = Verdict._fields
+    lines = grouped(([row[name] for name in names] for row in rows), 1)
+    return Table("The paper's numbers and ours, lengths in units of l_c", columns(*names), list(lines))

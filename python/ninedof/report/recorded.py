@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ninedof.design.limits import kind_of
-from ninedof.motion.tables import drives_table, legs_table, limits_table
+from ninedof.motion.tables import motion_tables
 from ninedof.paper.verdicts import verdicts_table
 from ninedof.redundancy.rules import where_o
 from ninedof.report import origin
@@ -60,18 +60,12 @@ def _motion(motion: dict[str, Any], unit: str) -> tuple[str, Html, list[Any]]:
         ("never move", ", ".join(motion["idle_legs"]) or "none: all nine legs move"),
         ("tracked back from the leg lengths", f"{until}, largest difference {motion['tracking_error']:.1e}"),
     ]
-    drives = drives_table(motion)
-    tables = [
-        legs_table(motion),
-        *([] if drives is None else [drives]),
-        *([limits_table(motion)] if motion.get("limits") else []),
-    ]
     sentence = (
         f"What do the nine legs do along {motion['poses']} poses from t = {motion['begin']:g} to {motion['end']:g}, "
         f"and which limits break? O is {where_o(motion['internal_point'])}."
     )
     top = [("limits broken", broken), ("worst condition number", f"{kappa['worst']:.4f}")]
-    return sentence, joined(facts(rows), *map(html_of, tables)), top
+    return sentence, joined(facts(rows), *map(html_of, motion_tables(motion))), top
 
 
 def _listed(names: Any) -> str:

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.support.arguments import cleaned, path_argument
-from ninedof.support.arrays import blocks
 from ninedof.support.json import decode, encode
 
 if TYPE_CHECKING:
@@ -240,14 +239,8 @@ def _pack(arrays: Mapping[str, Any], compressed: bool, salt: str, file: IO[bytes
     with ZipFile(file, "w", ZIP_DEFLATED if compressed else ZIP_STORED) as archive:
         archive.comment = bytes(DIGITS)
         for name, value in arrays.items():
-            array = np.asanyarray(value)
             with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
-                if not isinstance(array, np.memmap) or not array.flags.c_contiguous:
-                    np.lib.format.write_array(member, array, allow_pickle=False)
-                    continue
-                np.lib.format.write_array_header_1_0(member, np.lib.format.header_data_from_array_1_0(array))
-                for _, piece in blocks(array):  # one that is mapped from a file may be larger than the memory
-                    member.write(piece.tobytes())
+                np.lib.format.write_array(member, np.asanyarray(value), allow_pickle=False)  # in pieces
     digest = _digest(file, salt)
     file.seek(-DIGITS, os.SEEK_END)
     file.write(digest)

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import IO, Any, Self
+from typing import Any, Self
 
 from ninedof.support.arguments import shown
 from ninedof.support.extras import versions
@@ -15,7 +15,6 @@ from ninedof.support.files import (
     PART,
     Arrays,
     json_bytes,
-    part_name,
     read_json,
     read_npz,
     sha256,
@@ -56,34 +55,34 @@ class Store:
         self._run = Path(folder)
         self.folder = self._run / PIECES
         self._unwritten = False
-        self._lock: IO[bytes] | None = None
+        self._lock: int | None = None
         self._made = not self._run.exists()
         own = decode(encode({**question, "ninedof": versions()["ninedof"]}))
         file = self._run / QUESTION
         try:
             require_run_or_nothing(self._run)
             self._run.mkdir(parents=True, exist_ok=True)
+            self._lock = _locked(self._run)
             if not file.exists():
-                _begin(file, {"format": FORMAT, "chunk": chunk, "question": own})
-            self._lock = _locked(file)
+                write_whole(file, json_bytes({"format": FORMAT, "chunk": chunk, "question": own}))
             there = read_json(file, FORMAT)
             self.folder.mkdir(exist_ok=True)
             for part in self.folder.glob(f"{PART}*"):  # of a run that was killed
                 part.unlink(missing_ok=True)
+            if encode(there["question"], sort_keys=True) != encode(own, sort_keys=True):
+                differing = list(differences(there["question"], own))
+                more = f" and {len(differing) - MOST_NAMED} more" * (len(differing) > MOST_NAMED)
+                raise ValueError(
+                    f"out: got {self._run}, which holds the run of another question: "
+                    f"{'; '.join(differing[:MOST_NAMED])}{more}; expected a new folder or the question there"
+                )
         except OSError as error:
+            self.close()
             expected = f"which cannot be used ({error.strerror}), expected a writeable place"
             raise ValueError(f"out: got {self._run}, {expected}") from None
         except ValueError:
             self.close()
             raise
-        if encode(there["question"], sort_keys=True) != encode(own, sort_keys=True):
-            self.close()
-            differing = list(differences(there["question"], own))
-            more = f" and {len(differing) - MOST_NAMED} more" * (len(differing) > MOST_NAMED)
-            raise ValueError(
-                f"out: got {self._run}, which holds the run of another question: "
-                f"{'; '.join(differing[:MOST_NAMED])}{more}; expected a new folder or the question there"
-            )
         self.chunk: int = there["chunk"]
         self._salt = sha256(encode(there, sort_keys=True).encode()).hexdigest()
 
@@ -108,7 +107,8 @@ class Store:
     def close(self) -> None:
         """Let another run have the folder."""
         if self._lock is not None:
-            self._lock.close()
+            os.close(self._lock)
+            self._lock = None
 
     def kept(self) -> bool:
         """Return whether there are pieces."""
@@ -142,31 +142,18 @@ class Store:
             self._unwritten = True
 
 
-def _begin(file: Path, entries: Mapping[str, Any]) -> None:
-    """Write a question unless there is one: of two runs that begin in a folder at once one is refused."""
-    part = write_whole(file.with_name(part_name(file.name)), json_bytes(entries))
-    try:
-        os.link(part, file)
-    except FileExistsError:
-        return
-    except OSError:  # a file system without links
-        os.replace(part, file)
-    finally:
-        part.unlink(missing_ok=True)
-
-
-def _locked(file: Path) -> IO[bytes] | None:
-    """Keep a second run out of a folder while this one has the question open; None where no system call does."""
+def _locked(folder: Path) -> int | None:
+    """Keep a second run out of a folder while this one has it open; None where no system call does."""
     if sys.platform == "win32":
         return None
     import fcntl
 
-    opened = file.open("rb")
+    opened = os.open(folder, os.O_RDONLY)
     try:
         fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        opened.close()
-        raise ValueError(f"out: got {file.parent}, which another run is using, expected another folder") from None
+        os.close(opened)
+        raise ValueError(f"out: got {folder}, which another run is using, expected another folder") from None
     return opened
 
 

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from ninedof.tables.table import DEGREES, RIGHT, SHORT, Column, Line, Table, grouped
+from ninedof.tables.table import DEGREES, RIGHT, SHORT, Column, Line, Table, columns, grouped
 
-__all__ = ["DEGREES", "RIGHT", "SHORT", "Column", "Line", "Table", "grouped"]
+__all__ = ["DEGREES", "RIGHT", "SHORT", "Column", "Line", "Table", "columns", "grouped"]

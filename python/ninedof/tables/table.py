@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeGuard
 from ninedof.support.units import with_unit
 from ninedof.tables.numbers import DEGREES, PAGE, RIGHT, SHORT, WORDS, cell
 
-__all__ = ["DEGREES", "RIGHT", "SHORT", "WORDS", "Cell", "Column", "Line", "Part", "Table", "grouped"]
+__all__ = ["DEGREES", "RIGHT", "SHORT", "WORDS", "Cell", "Column", "Line", "Part", "Table", "columns", "grouped"]
 
 Cell: TypeAlias = str | float | int | None
 
@@ -23,6 +23,11 @@ class Column(NamedTuple):
     format: str = WORDS
     """WORDS to the left, RIGHT for text to the right; SHORT for numbers with the decimals of the largest of their unit,
     DEGREES for radians shown in degrees, or a format of Python such as ".6f"."""
+
+
+def columns(*heads: str) -> list[Column]:
+    """Return columns of text for their heads: to the left, or to the right with ">" before the head."""
+    return [Column(head.lstrip(">"), "", RIGHT if head.startswith(">") else WORDS) for head in heads]
 
 
 class Line(NamedTuple):

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import JOINT_ERROR, LEG_ERROR, Two
-from ninedof.cli.posed import DesignAtPoses, PosesOptions, at_worst
-from ninedof.design.duty import Tolerances
+from ninedof.cli.options import JOINT_ERROR, LEG_ERROR, Two, option, struct
+from ninedof.cli.posed import DesignAtPoses, PosesOptions
 from ninedof.sheet.allotment import tolerances_for
 from ninedof.statics.accuracy import DISTRIBUTIONS, MOST_SAMPLES, ErrorBounds, error_bounds, error_samples
-from ninedof.support.arguments import choice, finite, whole
+from ninedof.support.arguments import finite, whole
 from ninedof.support.units import amount, unit_entry
-from ninedof.tables import RIGHT, Column, Line, Table
+from ninedof.tables import Line, Table, columns
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -34,72 +31,58 @@ EXAMPLES = """[bold]Examples[/bold]
 GROUPS = ("turn about", "p along", "O along")  # in the order of the components
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class AccuracyOptions(PosesOptions):
     """The options."""
 
-    leg_error: Annotated[float | None, LEG_ERROR] = None
-    joint_error: Annotated[float | None, JOINT_ERROR] = None
-    distribution: Annotated[
-        str, typer.Option(help="Of the errors behind the standard deviation: uniform or normal (three sigma).")
-    ] = DISTRIBUTIONS[0]
-    within: Annotated[
-        float | None, typer.Option(help="Largest displacement of p that is allowed: prints the tolerances for it.")
-    ] = None
-    within_deg: Annotated[float | None, typer.Option(help="The same of the angle the platform turns, degrees.")] = None
-    weights: Annotated[
-        Two, typer.Option(metavar="JOINTS LEGS", help="Parts of the allowed error that joints and legs may make.")
-    ] = (1.0, 1.0)
-    samples: Annotated[
-        int | None, typer.Option(help="Random robots within the tolerances, without linearization, at one pose.")
-    ] = None
+    leg_error: float | None = option(LEG_ERROR)
+    joint_error: float | None = option(JOINT_ERROR)
+    distribution: str = option(
+        "Of the errors behind the standard deviation: uniform or normal (three sigma).", DISTRIBUTIONS[0]
+    )
+    within: float | None = option("Largest displacement of p that is allowed: prints the tolerances for it.")
+    within_deg: float | None = option("The same of the angle the platform turns, degrees.")
+    weights: Two = option(
+        "Parts of the allowed error that joints and legs may make.", (1.0, 1.0), metavar="JOINTS LEGS"
+    )
+    samples: int | None = option("Random robots within the tolerances, without linearization, at one pose.")
 
 
 def accuracy(options: AccuracyOptions) -> Answer:
     """Print the errors of platform and O for tolerances of legs and joints, worst case and standard deviation."""
-    given = {"leg_error": options.leg_error, "joint_error": options.joint_error}
-    for name, value in given.items():
-        if value is not None:
-            finite(f"--{name.replace('_', '-')}", value, 0.0)
     if options.samples is not None:
         whole("--samples", options.samples, 1, MOST_SAMPLES)
         if options.all_poses:
             raise ValueError("--samples: got it with --all-poses, expected one pose")
-    at = DesignAtPoses.at(options)
+    at = options.at()
     if options.within is not None or options.within_deg is not None:
         return _allotted(options, at)
-    choice("--distribution", options.distribution, DISTRIBUTIONS)
     g, unit, duty = at.chosen.geometry, at.chosen.unit, at.chosen.duty.tolerances
-    stated = {"leg_error": duty.legs, "joint_error": duty.joints}
-    errors = {name: stated[name] if value is None else value for name, value in given.items()}
-    if not any(errors.values()):
+    legs = duty.legs if options.leg_error is None else finite("--leg-error", options.leg_error, 0.0)
+    joints = duty.joints if options.joint_error is None else finite("--joint-error", options.joint_error, 0.0)
+    if not legs and not joints:
         raise ValueError("accuracy: got neither --leg-error nor --joint-error, expected a tolerance")
-    bounds = error_bounds(g, at.c, errors["leg_error"], errors["joint_error"], options.distribution)
-    rows = [(*row[:3], at.first(row[3])) if row else () for row in _rows(bounds, unit)]
-    deviation = f"standard deviation\n({options.distribution} errors)"
-    columns = [
-        Column(),
-        Column("largest", "", RIGHT),
-        Column(deviation, "", RIGHT),
-        Column("pose", "", "d"),
-    ]
+    bounds = error_bounds(g, at.c, legs, joints, options.distribution)
+    rows = list(_rows(bounds, at))
+    used = [row[3] for row in rows if row]
+    heads = columns("", ">largest", f">standard deviation\n({options.distribution} errors)", ">pose")
     if len(at.c) == 1:
-        columns, rows = columns[:3], [row[:3] for row in rows]
-    sizes = (f"{name.split('_')[0]}s {amount(f'{value:g}', unit)}" for name, value in errors.items())
-    source = " of the study" * (None in given.values() and bool(duty != Tolerances()))
-    parts: list[Any] = [f"tolerances{source}: {', '.join(sizes)}", Table("Errors of first order", columns, rows)]
-    data: dict[str, Any] = errors | {
+        heads, rows = heads[:3], [row[:3] for row in rows]
+    sizes = f"legs {amount(f'{legs:g}', unit)}, joints {amount(f'{joints:g}', unit)}"
+    source = " of the study" * (bool(duty) and None in (options.leg_error, options.joint_error))
+    parts: list[Any] = [f"tolerances{source}: {sizes}", Table("Errors of first order", heads, rows)]
+    data: dict[str, Any] = {
+        "leg_error": legs,
+        "joint_error": joints,
         "position": bounds.position,
         "rotation_deg": np.degrees(bounds.rotation),
         "internal_point": bounds.internal_point,
         "covariance": bounds.covariance,
     }
     if options.samples is not None:
-        data["samples"] = _quantiles(
-            error_samples(g, at.c[0], errors["leg_error"], errors["joint_error"], options.samples), unit
-        )
+        data["samples"] = _quantiles(error_samples(g, at.c[0], legs, joints, options.samples), unit)
         parts += data["samples"]["words"]
-    return at.answer(parts, data, (row[3] for row in rows if len(row) > 3))
+    return at.answer(parts, data, used)
 
 
 def _allotted(options: AccuracyOptions, at: DesignAtPoses) -> Answer:
@@ -110,10 +93,12 @@ def _allotted(options: AccuracyOptions, at: DesignAtPoses) -> Answer:
     if named := options.named():
         raise ValueError(f"{named[0]}: got it with --within, expected none: it is about all poses of the study")
     turn = None if options.within_deg is None else math.radians(options.within_deg)
-    design, unit = at.chosen.result or at.chosen.design, at.chosen.unit
+    design, unit = at.chosen.machine, at.chosen.unit
     kept = tolerances_for(design, options.within, turn, options.weights)
-    rows = [Line("joint centres, radius", [f"{kept.joints:.4g}"], unit=unit)]
-    rows += [Line("leg lengths, plus or minus", [f"{kept.legs:.4g}"], unit=unit)]
+    rows = [
+        Line("joint centres, radius", [f"{kept.joints:.4g}"], unit=unit),
+        Line("leg lengths, plus or minus", [f"{kept.legs:.4g}"], unit=unit),
+    ]
     limits = [] if options.within is None else [f"p errs by at most {amount(f'{options.within:g}', unit)}"]
     limits += [] if turn is None else [f"the platform turns by at most {options.within_deg:g}°"]
     study = at.chosen.study
@@ -121,22 +106,22 @@ def _allotted(options: AccuracyOptions, at: DesignAtPoses) -> Answer:
         "the neutral pose" if study is None else "the region" if study.objective.region else "the poses of the study"
     )
     title = f"Tolerances with which {' and '.join(limits)}, to first order, over {where}"
-    return Answer([Table(title, [Column(), Column("", "", RIGHT)], rows)], unit_entry(unit) | kept.to_dict())
+    return Answer([Table(title, columns("", ">"), rows)], unit_entry(unit) | kept.to_dict())
 
 
-def _rows(bounds: ErrorBounds, unit: str) -> Iterator[tuple[Any, ...]]:
+def _rows(bounds: ErrorBounds, at: DesignAtPoses) -> Iterator[tuple[Any, ...]]:
     """Yield the largest error of each component over the poses, its standard deviation there, and that pose."""
-    deviation = np.sqrt(np.diagonal(bounds.covariance, axis1=-2, axis2=-1))
-    for k in range(9):
-        value, at = at_worst(bounds.components[:, k])
-        texts = (_text(x, k < 3, unit) for x in (value, float(deviation[at, k])))
-        yield f"{GROUPS[k // 3]} {'xyz'[k % 3]}", *texts, at
+    unit, deviation = at.chosen.unit, np.sqrt(np.diagonal(bounds.covariance, axis1=-2, axis2=-1))
+    for k, values in enumerate(bounds.components.T):
+        pose = int(np.argmax(values))
+        texts = (_text(x, k < 3, unit) for x in (values[pose], deviation[pose, k]))
+        yield f"{GROUPS[k // 3]} {'xyz'[k % 3]}", *texts, at.first(pose)
         if k % 3 == 2:
             yield ()
     names = {"turn": bounds.rotation, "displacement of p": bounds.position, "displacement of O": bounds.internal_point}
     for name, values in names.items():
-        value, at = at_worst(values)
-        yield f"any {name}", _text(value, name == "turn", unit), None, at
+        pose = int(np.argmax(values))
+        yield f"any {name}", _text(values[pose], name == "turn", unit), None, at.first(pose)
 
 
 def _text(value: float, angle: bool, unit: str) -> str:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Any, NoReturn
 
 import typer
 
 from ninedof.cli.changes import changes_option
-from ninedof.cli.options import Options, Threads
+from ninedof.cli.options import THREADS, Options, argument, option, struct
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
@@ -22,7 +21,7 @@ from ninedof.records.admissible import admissible_file, load_admissible, save_ad
 from ninedof.records.load import load
 from ninedof.support.command import goes_on
 from ninedof.support.units import amount, with_unit
-from ninedof.tables import RIGHT, Column, Table
+from ninedof.tables import Table, columns
 
 PLACE = 4
 WORDS = {"exists": "yes", "none": "no"}
@@ -40,26 +39,20 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --around    how far each may go"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class AdmissibleOptions(Options):
     """The options."""
 
-    of: Annotated[str, typer.Argument(metavar="STUDY|RUN", help="A study file, a run folder, or RUN#7 of a front.")]
-    vary: Annotated[
-        list[str], typer.Option(help="A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH.")
-    ]
-    set: Annotated[list[str] | None, typer.Option(help="Another variable: zs=320, or zs=+10%. Repeatable.")] = None
-    condition: Annotated[float | None, typer.Option(help="A bound of the condition number besides the limits.")] = None
-    time: Annotated[float, typer.Option(help="Seconds; what is proved by then is kept.")] = 300.0
-    resolution: Annotated[float, typer.Option(help="The least size of a box, as a part of each range.")] = 0.01
-    around: Annotated[bool, typer.Option("--around", help="How far each variable may go at once, from the design.")] = (
-        False
-    )
-    certificate: Annotated[Path | None, typer.Option(help="A file of the boxes with reasons for `ninedof check`.")] = (
-        None
-    )
-    out: Annotated[Path | None, typer.Option(help="A folder for the answer; that of the run by default.")] = None
-    threads: Threads = None
+    of: str = argument("A study file, a run folder, or RUN#7 of a front.", metavar="STUDY|RUN")
+    vary: list[str] = option("A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH.", ...)
+    set: list[str] | None = option("Another variable: zs=320, or zs=+10%. Repeatable.")
+    condition: float | None = option("A bound of the condition number besides the limits.")
+    time: float = option("Seconds; what is proved by then is kept.", 300.0)
+    resolution: float = option("The least size of a box, as a part of each range.", 0.01)
+    around: bool = option("How far each variable may go at once, from the design.", False, "--around")
+    certificate: Path | None = option("A file of the boxes with reasons for `ninedof check`.")
+    out: Path | None = option("A folder for the answer; that of the run by default.")
+    threads: int | None = option(THREADS)
 
 
 def admissible(options: AdmissibleOptions) -> None:
@@ -83,15 +76,7 @@ def admissible(options: AdmissibleOptions) -> None:
     goes_on()
     with screen.bar("boxes", "designs") as bar:
         found = admissible_of(
-            of,
-            vary,
-            at=at,
-            condition_number=options.condition,
-            time_limit=options.time,
-            resolution=options.resolution,
-            threads=options.threads or 0,
-            resume=earlier,
-            progress=bar,
+            of, vary, at=at, condition_number=options.condition, **_how(options), resume=earlier, progress=bar
         )
     data = {"shares": dict(found.shares), "excluded": found.excluded, "designs": found.designs, "boxes": found.boxes}
     screen.print(*found.sentences())
@@ -117,20 +102,16 @@ def _rows(screen: Screen, study: Study, options: AdmissibleOptions, vary: Ranges
         if getattr(options, name):
             raise ValueError(f"--{name}: got it for a study with actuators, expected the run of `optimize`")
     with _as_options(), screen.bar("boxes", "actuators") as bar:
-        found = admissible_actuators(
-            study,
-            vary,
-            at=at,
-            time_limit=options.time,
-            resolution=options.resolution,
-            threads=options.threads or 0,
-            progress=bar,
-        )
-    heads = [Column("legs"), Column("actuator"), Column("a design exists"), Column("for example")]
+        found = admissible_actuators(study, vary, at=at, **_how(options), progress=bar)
+    heads = columns("legs", "actuator", "a design exists", "for example")
     rows = [(one.kind, one.row.name, WORDS.get(one.state, one.state), _example(one, study)) for one in found.rows]
     screen.print(Table("", heads, rows))
     screen.data({"rows": [one.to_dict() for one in found.rows]})
     raise typer.Exit(INTERRUPTED if found.interrupted else DONE)
+
+
+def _how(options: AdmissibleOptions) -> dict[str, Any]:
+    return {"time_limit": options.time, "resolution": options.resolution, "threads": options.threads or 0}
 
 
 def _example(one: AdmissibleRow, study: Study) -> str:
@@ -183,10 +164,10 @@ def _around(screen: Screen, found: AdmissibleSet) -> dict[str, list[float]] | No
         words = str(error)
         screen.print(f"No box around the design is proved. {words[:1].upper()}{words[1:]}.")
         return None
-    heads = [Column("proved, all at once"), Column("design", "", RIGHT), Column("from", "", RIGHT)]
+    heads = columns("proved, all at once", ">design", ">from", ">to")
     rows = []
     for name, ends in room.items():
         low, high, at = (f"{found.study.shown(name, x):.6g}" for x in (*ends, found.of.at[name]))
         rows.append((with_unit(name, found.study.unit_of(name)), at, low, high))
-    screen.print(Table("", [*heads, Column("to", "", RIGHT)], rows))
+    screen.print(Table("", heads, rows))
     return {name: list(ends) for name, ends in room.items()}

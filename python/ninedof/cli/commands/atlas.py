@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 
+from ninedof.cli.options import option, struct
 from ninedof.cli.sweep_job import Job
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.study import Study
@@ -28,12 +27,12 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof atlas --designs 100000000 --out atlas        a hundred million; again after an interruption"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class Atlas(Job):
     """The options."""
 
-    designs: Annotated[int, typer.Option(help="Number of designs.")] = 1_000_000
-    seed: Annotated[int, typer.Option(help="Shifts the sequence of designs.")] = 0
+    designs: int = option("Number of designs.", 1_000_000)
+    seed: int = option("Shifts the sequence of designs.", 0)
 
 
 def atlas(job: Atlas) -> None:

@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import Annotated, Any
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
-import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import with_length
-from ninedof.cli.options import Lc, LegLimits
+from ninedof.cli.options import LC, LEG_LIMITS, Two, ends, option, struct
 from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.conditioning.conditioning import condition_number
@@ -22,7 +21,7 @@ from ninedof.sheet.pose_words import decimals_of, fixed, vector_words
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount, with_unit
-from ninedof.tables import RIGHT, Column, Table
+from ninedof.tables import Table, columns
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -34,21 +33,22 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof best runs/20260101-120000#7 --criterion singularity --legs 200 650 --json | jq .value"""
 
 WORDS = {"condition_number": "condition number", "singularity": "least |det|", "leg_centring": "leg centring"}
+YZ = (">\ny", ">\nz")  # heads behind one of x
 SHOWN = 12  # poses, the worst ones
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class BestOptions(PosesOptions):
     """The options."""
 
-    criterion: Annotated[str, typer.Option(help=f"One of {', '.join(CRITERIA)}.")] = "condition_number"
-    legs: LegLimits = None
-    lc: Lc = None
+    criterion: str = option(f"One of {', '.join(CRITERIA)}.", "condition_number")
+    legs: Two | None = ends(LEG_LIMITS)
+    lc: str | None = option(LC)
 
 
 def best(options: BestOptions) -> Answer:
     """Print the best place of O at a pose, reached from where it is without passing a singularity."""
-    at = DesignAtPoses.at(options)
+    at = options.at()
     at = replace(at, chosen=with_length(at.chosen, options.lc))
     chosen, c = at.chosen, at.c
     limits: Any = chosen.permitted_lengths if options.legs is None else options.legs
@@ -110,7 +110,7 @@ def _table(at: DesignAtPoses, result: InternalPoint, now: Floats | None, words: 
     order = np.arange(len(c)) if now is None else np.argsort(-now if small else now, kind="stable")
     decimals = decimals_of(c.position, points)
     p, o = (f"{with_unit(name, at.chosen.unit)}\nx" for name in ("p", "best O"))
-    heads = [Column(head, "", RIGHT) for head in (p, "\ny", "\nz", "now", "best", o, "\ny", "\nz")]
+    heads = columns(">pose", f">{p}", *YZ, ">now", ">best", f">{o}", *YZ, "why")
     rows = []
     for k in order[:SHOWN].tolist():
         place, centre = (
@@ -123,10 +123,9 @@ def _table(at: DesignAtPoses, result: InternalPoint, now: Floats | None, words: 
         status = str(result.status[k])
         why = ", ".join([*([] if status == "found" else [status]), *result.active[k]])
         rows.append((str(k), *place, *values, *centre, why))
-    columns = [Column("pose", "", RIGHT), *heads, Column("why")]
     if not any(row[-1] for row in rows):
-        columns, rows = columns[:-1], [row[:-1] for row in rows]
-    return Table(f"Best places of O by {words}", columns, rows)
+        heads, rows = heads[:-1], [row[:-1] for row in rows]
+    return Table(f"Best places of O by {words}", heads, rows)
 
 
 def _point(values: Floats, unit: str) -> str:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
 from ninedof.cli.answer import Answer, write_job
-from ninedof.cli.options import Options, Threads
+from ninedof.cli.options import THREADS, Options, argument, option, struct
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.result import Result
 from ninedof.proof.machine import tolerances_of
@@ -23,7 +22,7 @@ from ninedof.support.arguments import finite
 from ninedof.support.command import ended_by_time, goes_on
 from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, with_unit
-from ninedof.tables import RIGHT, Column, Table
+from ninedof.tables import Table, columns
 
 PLACE = 4
 LARGEST = "max"
@@ -38,28 +37,29 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof certify runs/20260101-120000                again: goes on where time was over"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class CertifyOptions(Options):
     """The options."""
 
-    run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")]
-    condition: Annotated[float | None, typer.Option(help="A bound of the condition number to be proved too.")] = None
-    gap: Annotated[float, typer.Option(help="Relative width of the enclosure of the worst condition number.")] = 0.05
-    time: Annotated[float, typer.Option(help="Seconds for the condition number; each limit has 5 at least.")] = 300.0
-    tolerance: Annotated[
-        str | None, typer.Option(help="Of joints and legs as built, a length, or max: the largest that is proved.")
-    ] = None
-    slack: Annotated[float, typer.Option(help="By which limits may be passed, relative.")] = 1e-6
-    threads: Threads = None
+    run: str = argument("A run folder, or RUN#7: point 7 of a front, counted from 1.")
+    condition: float | None = option("A bound of the condition number to be proved too.")
+    gap: float = option("Relative width of the enclosure of the worst condition number.", 0.05)
+    time: float = option("Seconds for the condition number; each limit has 5 at least.", 300.0)
+    tolerance: str | None = option("Of joints and legs as built, a length, or max: the largest that is proved.")
+    slack: float = option("By which limits may be passed, relative.", 1e-6)
+    threads: int | None = option(THREADS)
 
 
 def certify(options: CertifyOptions) -> None:
     """Prove that a machine keeps its limits at every pose of its region, not only at those looked at."""
     screen = Screen(options.json)
-    finite("--time", options.time, 0.0)
-    if options.condition is not None:
-        finite("--condition", options.condition, 1.0)
     run = options.run
+    how: dict[str, Any] = {
+        "condition_number": options.condition,
+        "slack": options.slack,
+        "time_limit": options.time,
+        "threads": options.threads or 0,
+    }
     tolerance = None if options.tolerance is None or options.tolerance == LARGEST else _length(options.tolerance)
     result = load(run)
     if not isinstance(result, Result):
@@ -74,13 +74,7 @@ def certify(options: CertifyOptions) -> None:
     goes_on()
     if options.tolerance == LARGEST:
         with screen.bar("boxes", "certify") as bar:
-            built = result.largest_tolerance(
-                condition_number=options.condition,
-                slack=options.slack,
-                time_limit=options.time,
-                threads=options.threads or 0,
-                progress=bar,
-            )
+            built = result.largest_tolerance(**how, progress=bar)
     else:
         built = tolerances_of(tolerance, result.study)
     if earlier is not None and earlier.tolerances != built:  # a proof of other machines is kept, and not gone on with
@@ -96,15 +90,7 @@ def certify(options: CertifyOptions) -> None:
     try:
         with screen.bar("boxes", "certify") as bar:
             certificate = result.certify(
-                condition_number=options.condition,
-                gap=options.gap,
-                time_limit=options.time,
-                slack=options.slack,
-                tolerance=built,
-                threads=options.threads or 0,
-                resume=earlier,
-                progress=bar,
-                keep=keep,
+                **how, gap=options.gap, tolerance=built, resume=earlier, progress=bar, keep=keep
             )
     except KeyboardInterrupt:
         what = "what is proved so far is kept" if states else "the run folder is as it was"
@@ -152,7 +138,7 @@ def _largest(certificate: MachineCertificate) -> str:
 
 def certificate_table(certificate: MachineCertificate) -> Table:
     """Return what is proved of legs, limits and condition number at every pose."""
-    heads = [Column("at every pose"), Column("limit"), Column("proved", "", RIGHT), Column("margin", "", RIGHT)]
+    heads = columns("at every pose", "limit", ">proved", ">margin", "")
     unit, rows = certificate.unit, list[Any]()
     for leg, (low, high) in zip(LEGS, certificate.lengths, strict=True):
         rows.append((with_unit(leg, unit), "", f"{outward(low, False)} to {outward(high, True)}", "", ""))
@@ -168,4 +154,4 @@ def certificate_table(certificate: MachineCertificate) -> Table:
     if not any(one.name == "condition_number" for one in certificate.limits):
         proved = f"≤ {outward(high, True)}" if math.isfinite(high) else "nothing"
         rows.append(("condition number", "", proved, "", ""))
-    return Table("", [*heads, Column()], rows)
+    return Table("", heads, rows)

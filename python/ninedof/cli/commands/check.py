@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
-
-import typer
+from typing import Any
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import Options
+from ninedof.cli.options import Options, argument, struct
 from ninedof.cli.screen import DONE, NO_RESULT, REFUSED, Screen, bold
 from ninedof.proof.optimum import check_certificate
 from ninedof.proof.optimum_proof import FILE
@@ -26,11 +23,11 @@ EXAMPLES = f"""[bold]Examples[/bold]
   ninedof check designs.certificate"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class CheckOptions(Options):
     """The options."""
 
-    certificate: Annotated[Path, typer.Argument(help=f"A certificate, or a run folder that has {FILE}.")]
+    certificate: Path = argument(f"A certificate, or a run folder that has {FILE}.")
 
 
 def check(options: CheckOptions) -> Answer:

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated
-
-import typer
+from pathlib import Path
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.compared import compared, plot_argument
-from ninedof.cli.options import DESIGN, Options, Plot
+from ninedof.cli.options import DESIGN, PLOT, Options, argument, option, struct
 from ninedof.sheet.comparison import compare as compare_designs
 
 PLACE = 3
@@ -21,19 +18,19 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof compare front#1 front#7 design.toml --plot plates.png"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class CompareOptions(Options):
     """The options."""
 
-    designs: Annotated[list[str], typer.Argument(help=f"Two or three of: {DESIGN}.")]
-    plot: Plot = None
+    designs: list[str] = argument(f"Two or three of: {DESIGN}.")
+    plot: Path | None = option(PLOT)
 
 
 def compare(options: CompareOptions) -> Answer:
     """Print two or three machines beside each other: numbers, limits, what differs in their studies."""
     plot_argument(options.plot)
     chosen = [named_design(name) for name in options.designs]
-    comparison = compare_designs(*(one.result or one.design for one in chosen))
+    comparison = compare_designs(*(one.machine for one in chosen))
     legend = [f"{letter}: {name}" for letter, name in zip(comparison.names, options.designs, strict=True)]
     answer = compared(comparison, options.plot, legend)
     data = answer.data | {"designs": list(options.designs)}

@@ -3,29 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Annotated, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
-import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.changes import changes_option
-from ninedof.cli.chosen_design import Chosen, chosen_design, with_length
+from ninedof.cli.chosen_design import Chosen, chosen_design, named_design
 from ninedof.cli.compared import compared, plot_argument
-from ninedof.cli.options import (
-    DESIGN,
-    BaseSide1,
-    BaseSide2,
-    Height,
-    InternalHeight,
-    Lc,
-    Options,
-    PlatformSide1,
-    PlatformSide2,
-    Plot,
-    TwistDeg,
-)
+from ninedof.cli.options import ONE_DESIGN, PLOT, HexagonalOptions, argument, option, struct
 from ninedof.cli.posed import beyond_words
 from ninedof.design.indices import computed
 from ninedof.optimize.result import Status
@@ -35,7 +22,7 @@ from ninedof.sheet.sheet import sheet
 from ninedof.sheet.tables import limits_table, poses_table
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.units import unit_entry
-from ninedof.tables import RIGHT, Column, Line, Table
+from ninedof.tables import Line, Table, columns
 
 PLACE = 3
 DETERMINANTS = "singularity margins: det N, B, C"
@@ -52,24 +39,15 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof evaluate runs/20260101-120000#7    the design of point 7 of a front"""
 
 
-@dataclass(frozen=True, kw_only=True)
-class EvaluateOptions(Options):
+@struct
+class EvaluateOptions(HexagonalOptions):
     """The options."""
 
-    design: Annotated[str | None, typer.Argument(help=f"{DESIGN[0].upper()}{DESIGN[1:]}.")] = None
-    a1: BaseSide1 = None
-    a2: BaseSide2 = None
-    b1: PlatformSide1 = None
-    b2: PlatformSide2 = None
-    zp: Height = None
-    zs: InternalHeight = None
-    theta_z_deg: TwistDeg = None
-    lc: Lc = None
-    changes: Annotated[
-        list[str] | None,
-        typer.Option("--set", help="What if? A variable of the run's study: a2=900 or a2=+10%. Repeatable."),
-    ] = None
-    plot: Plot = None
+    design: str | None = argument(ONE_DESIGN, None)
+    changes: list[str] | None = option(
+        "What if? A variable of the run's study: a2=900 or a2=+10%. Repeatable.", None, "--set"
+    )
+    plot: Path | None = option(PLOT)
 
 
 def evaluate(options: EvaluateOptions) -> Answer:
@@ -78,8 +56,7 @@ def evaluate(options: EvaluateOptions) -> Answer:
         return _changed(options)
     if options.plot is not None:
         raise ValueError("--plot: got it without --set, expected both")
-    sides = {name: getattr(options, name) for name in ("a1", "a2", "b1", "b2", "zp", "zs")}
-    chosen = with_length(chosen_design(options.design, sides, options.theta_z_deg), options.lc)
+    chosen = chosen_design(options.design, options)
     values = unit_entry(chosen.unit) | indices(chosen.design)
     parts: list[Any] = [_table(values, chosen)]
     if values["singular"]:
@@ -101,12 +78,9 @@ def evaluate(options: EvaluateOptions) -> Answer:
 def _changed(options: EvaluateOptions) -> Answer:
     """Return the run beside its design with other values of some variables."""
     plot_argument(options.plot)
-    given = [
-        name for name in ("a1", "a2", "b1", "b2", "zp", "zs", "theta_z_deg", "lc") if getattr(options, name) is not None
-    ]
-    if given:
+    if given := [*options.given(), *(["lc"] if options.lc else [])]:
         raise ValueError(f"--set: got --{given[0].replace('_', '-')} beside it, expected a run alone")
-    result = None if options.design is None else chosen_design(options.design, {}, None).result
+    result = named_design(options.design).result if options.design else None
     if result is None:
         raise ValueError(f"--set: got {options.design or 'no design'}, expected a run, whose study has variables")
     changes = changes_option(options.changes or ())
@@ -132,7 +106,7 @@ def _table(values: dict[str, Any], chosen: Chosen) -> Table:
         if math.isfinite(at["length"]):
             words = f"{_digits(at['length'])}: k = {_digits(at['condition_number'])}"
             rows.append(Line(f"at the {kind} length", [words], unit=chosen.unit))
-    return Table("Indices", [Column(), Column("", "", RIGHT)], rows)
+    return Table("Indices", columns("", ">"), rows)
 
 
 def _digits(value: float) -> str:

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.options import Design, Options
+from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct
 from ninedof.export.export import export as write
 from ninedof.export.export import formats
 from ninedof.export.model import Format
@@ -31,23 +27,17 @@ EXAMPLES = """[bold]Examples[/bold]
 WORDS = "; ".join(f"{name}: {row.words}" for name, row in formats().items())
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class ExportOptions(Options):
     """The options."""
 
-    design: Design
-    to: Annotated[str | None, typer.Option(help=f"{WORDS}. Follows from the suffix of --out if that is given.")] = None
-    out: Annotated[
-        Path | None, typer.Option(help="The file; in this folder, with the name of the design, by default.")
-    ] = None
-    leg_mass: Annotated[float | None, typer.Option(help="mjcf, urdf, sdf: mass of a leg, kg; 1 by default.")] = None
-    platform_mass: Annotated[
-        float | None, typer.Option(help="mjcf, urdf, sdf: mass of the platform, kg; 5 by default.")
-    ] = None
-    gravity: Annotated[float | None, typer.Option(help="mjcf: downward, m/s²; 0 by default.")] = None
-    unit: Annotated[
-        str | None, typer.Option(help="The length unit (mm, cm, m, in, ft); that of the study or file by default.")
-    ] = None
+    design: str = argument(ONE_DESIGN)
+    to: str | None = option(f"{WORDS}. Follows from the suffix of --out if that is given.")
+    out: Path | None = option("The file; in this folder, with the name of the design, by default.")
+    leg_mass: float | None = option("mjcf, urdf, sdf: mass of a leg, kg; 1 by default.")
+    platform_mass: float | None = option("mjcf, urdf, sdf: mass of the platform, kg; 5 by default.")
+    gravity: float | None = option("mjcf: downward, m/s²; 0 by default.")
+    unit: str | None = option("The length unit (mm, cm, m, in, ft); that of the study or file by default.")
 
 
 def export(options: ExportOptions) -> Answer:
@@ -69,7 +59,7 @@ def export(options: ExportOptions) -> Answer:
         own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
     unit = chosen.unit if options.unit is None else unit_argument(options.unit)
     try:
-        path = write(chosen.result or chosen.design, row.name, file, unit=unit, **more)
+        path = write(chosen.machine, row.name, file, unit=unit, **more)
     except MissingExtra as error:
         raise ValueError(str(error)) from None
     return Answer([f"{row.words}: {path}"], {"format": row.name, "file": str(path)})

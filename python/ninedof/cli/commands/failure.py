@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated
-
-import typer
-
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.options import LOAD, Design, Options
-from ninedof.cli.posed import load_option
+from ninedof.cli.options import LOAD, ONE_DESIGN, Options, argument, option, struct
+from ninedof.cli.posed import loads_option
 from ninedof.sheet.failure.failure import failure as failure_of
 from ninedof.sheet.failure.tables import failure_parts
-from ninedof.support.arguments import finite
 
 PLACE = 3
 EXAMPLES = """[bold]Examples[/bold]
@@ -25,17 +19,16 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof failure design.toml --no-pairs --json | jq .locked"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class FailureOptions(Options):
     """The options."""
 
-    design: Design
-    condition: Annotated[
-        float | None,
-        typer.Option(help="The condition number that shares of the region are about; twice the healthy worst."),
-    ] = None
-    load: Annotated[list[str] | None, LOAD] = None
-    pairs: Annotated[bool, typer.Option(help="Lock each pair of legs too.")] = True
+    design: str = argument(ONE_DESIGN)
+    condition: float | None = option(
+        "The condition number that shares of the region are about; twice the healthy worst."
+    )
+    load: list[str] | None = option(LOAD)
+    pairs: bool = option("Lock each pair of legs too.", True)
 
 
 def failure(options: FailureOptions) -> Answer:
@@ -44,11 +37,10 @@ def failure(options: FailureOptions) -> Answer:
     Over the poses of the study, of a region study over its region. Loads and masses of a run's study are taken.
     """
     chosen = named_design(options.design)
-    bound = None if options.condition is None else finite("--condition", options.condition, 1.0)
     result = failure_of(
-        chosen.result or chosen.design,
-        condition_number=bound,
-        loads=[load_option(text) for text in options.load] if options.load else None,
+        chosen.machine,
+        condition_number=options.condition,
+        loads=loads_option(options.load) or None,
         pairs=options.pairs,
     )
     return Answer(failure_parts(result), result.to_dict())

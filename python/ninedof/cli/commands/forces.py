@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import LOAD
-from ninedof.cli.posed import DesignAtPoses, PosesOptions, load_option
+from ninedof.cli.options import LOAD, option, struct
+from ninedof.cli.posed import PosesOptions, loads_option
 from ninedof.cli.screen import bold
 from ninedof.robot.idle import NEVER_CARRY, unloaded_names
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.duty import masses_of, weight_of
 from ninedof.sheet.tables import load_words, weight_words
 from ninedof.statics.dynamics import inverse_dynamics
-from ninedof.tables import RIGHT, Column, Table, grouped
+from ninedof.tables import Table, columns, grouped
 from ninedof.tables.numbers import spread
 
 PLACE = 4
@@ -31,17 +30,17 @@ EXAMPLES = """[bold]Examples[/bold]
 BALANCED = 1e-9  # of the load
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class ForcesOptions(PosesOptions):
     """The options."""
 
-    load: Annotated[list[str] | None, LOAD] = None
+    load: list[str] | None = option(LOAD)
 
 
 def forces(options: ForcesOptions) -> Answer:
     """Print the forces in the legs that balance loads on the platform, positive where a leg pushes."""
-    given = [load_option(text) for text in options.load or ()]
-    at = DesignAtPoses.at(options)
+    given = loads_option(options.load)
+    at = options.at()
     duty = at.chosen.duty
     weight, masses = weight_of(duty, None, None, None), masses_of(duty)
     loads = np.array(given or duty.loads.wrenches or np.zeros((int(masses is not None), 6)))
@@ -50,7 +49,7 @@ def forces(options: ForcesOptions) -> Answer:
     g, gravity = at.chosen.geometry, duty.loads.gravity
     balances = [inverse_dynamics(g, at.c, masses=masses, gravity=gravity, load=row) for row in loads]
     result, unbalanced = (np.stack([getattr(each, name) for each in balances]) for name in ("forces", "unbalanced"))
-    columns = [Column("leg"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(loads) + 1))]
+    heads = columns("leg", *(f">load {k}" for k in range(1, len(loads) + 1)))
     sizes = np.abs(loads).max(axis=1)
     if masses is not None:
         total = masses.platform + 9.0 * (masses.cylinder + masses.rod) + masses.internal_point
@@ -62,7 +61,7 @@ def forces(options: ForcesOptions) -> Answer:
         parts.append(weight_words(weight, duty.tool))
     if masses is not None or not given:
         parts.append(f"from the study: {', '.join(['[loads]'] * (not given) + ['[masses]'] * (masses is not None))}")
-    parts.append(Table("Forces, + pushes", columns, list(grouped(rows))))
+    parts.append(Table("Forces, + pushes", heads, list(grouped(rows))))
     for k, each in enumerate(result, start=1):
         if (names := unloaded_names(each)) and len(names) < len(LEGS):
             parts.append(bold("never carry load", f" {k}: {', '.join(names)}; {NEVER_CARRY}"))

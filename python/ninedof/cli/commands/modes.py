@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.posed import DesignAtPoses, PoseOptions, length_at_home, poses_data, several
+from ninedof.cli.options import option, struct
+from ninedof.cli.posed import PoseOptions, length_at_home, poses_data, several
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.kinematics.kinematics import leg_lengths
@@ -20,7 +19,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.sheet.pose_words import decimals_of, fixed, turn_deg
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry, with_unit
-from ninedof.tables import RIGHT, Column, Table
+from ninedof.tables import Table, columns
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -33,26 +32,23 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof modes design.toml --lengths "5 5 5 3 3 3 4 4 4" --json | jq .count"""
 
+YZ = (">\ny", ">\nz")  # heads behind one of x
 SAME = 1e-6  # of Q, and of p and O over the longest leg
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class ModesOptions(PoseOptions):
     """The options."""
 
-    lengths: Annotated[
-        str | None, typer.Option(help='Nine leg lengths "l1 l2 l3 q1 q2 q3 r1 r2 r3", in place of those of a pose.')
-    ] = None
-    certify: Annotated[
-        bool, typer.Option("--certify", help="Also prove how many there are, and enclose each of them.")
-    ] = False
+    lengths: str | None = option('Nine leg lengths "l1 l2 l3 q1 q2 q3 r1 r2 r3", in place of those of a pose.')
+    certify: bool = option("Also prove how many there are, and enclose each of them.", False, "--certify")
 
 
 def modes(options: ModesOptions) -> Answer:
     """Print every configuration with the leg lengths of a pose: the assembly modes."""
     if options.lengths is not None and options.named():
         raise ValueError("--lengths: got a pose beside it, expected one of the two")
-    at = DesignAtPoses.at(options)
+    at = options.at()
     g, unit = at.chosen.geometry, at.chosen.unit
     lengths = leg_lengths(g, at.c)[0]
     if options.lengths is not None:
@@ -103,11 +99,11 @@ def _proof(proof: ModesCertificate) -> str:
 def _table(result: AssemblyModes, kappa: Floats, this: int, neutral: Floats, unit: str) -> Table:
     """Return a row for each mode: p, the rotation vector from the neutral orientation, O, the condition number."""
     p, o = (f"{with_unit(name, unit)}\nx" for name in ("p", "O"))
-    heads = (p, "\ny", "\nz", "turn °\nx", "\ny", "\nz", o, "\ny", "\nz", "cond.\nno.")
+    heads = columns(">", f">{p}", *YZ, ">turn °\nx", *YZ, f">{o}", *YZ, ">cond.\nno.")
     decimals, turns = decimals_of(result.position, result.internal_point), turn_deg(result, neutral)
     rows = []
     for k in range(len(result)):
         at, centre = ([fixed(x, decimals) for x in row] for row in (result.position[k], result.internal_point[k]))
         turn = [fixed(x, 1) for x in turns[k]]
         rows.append((f"{k + 1}{'*' if k == this else ''}", *at, *turn, *centre, f"{kappa[k]:.4g}"))
-    return Table("", [Column("", "", RIGHT), *(Column(head, "", RIGHT) for head in heads)], rows)
+    return Table("", heads, rows)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
 from ninedof.cli.answer import Answer, folder_words, write_job
-from ninedof.cli.options import JobOptions, Starts, StudyFile, Threads
+from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, struct
 from ninedof.cli.screen import Screen, bold, exit_status
 from ninedof.design.study import Study
 from ninedof.optimize.bounds import applicable_bounds
@@ -47,27 +47,20 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof optimize --json --no-figures | jq .optimization.status"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class OptimizeOptions(JobOptions):
     """The options."""
 
-    study: StudyFile = None
-    starts: Starts = None
-    seed: Annotated[int | None, typer.Option(help="Seed, in place of the study's.")] = None
-    threads: Threads = None
-    time: Annotated[
-        float | None, typer.Option(help="Seconds after which the search ends with the best design so far.")
-    ] = None
-    convergence: Annotated[
-        bool,
-        typer.Option("--convergence", help="Also follow many starts to their ends and draw how they converge."),
-    ] = False
-    check: Annotated[
-        bool, typer.Option("--check", help="Verify the best design by independent methods and print the report.")
-    ] = False
-    certify: Annotated[
-        bool, typer.Option("--certify", help="Also prove how much better a design of the study can be at most.")
-    ] = False
+    study: Path | None = argument("A study file (TOML). The paper's study if none is given.", None)
+    starts: int | None = option(STARTS)
+    seed: int | None = option("Seed, in place of the study's.")
+    threads: int | None = option(THREADS)
+    time: float | None = option("Seconds after which the search ends with the best design so far.")
+    convergence: bool = option(
+        "Also follow many starts to their ends and draw how they converge.", False, "--convergence"
+    )
+    check: bool = option("Verify the best design by independent methods and print the report.", False, "--check")
+    certify: bool = option("Also prove how much better a design of the study can be at most.", False, "--certify")
 
 
 def optimize(options: OptimizeOptions) -> None:

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from ninedof.cli.answer import Answer, folder_words, write_job
-from ninedof.cli.options import Options, Report, Threads
+from ninedof.cli.options import REPORT, THREADS, Options, option, struct
 from ninedof.cli.screen import Screen
 from ninedof.paper.verdicts import verdicts, verdicts_table
 from ninedof.records.folder import run_folder
@@ -26,14 +22,14 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof paper --figures --out figures    Figs. 1 to 7, drawn anew"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class PaperOptions(Options):
     """The options."""
 
-    figures: Annotated[bool, typer.Option("--figures", help="Draw the seven figures of the paper too.")] = False
-    out: Annotated[Path | None, typer.Option(help="Folder of the figures; runs/<time> by default.")] = None
-    threads: Threads = None
-    report: Report = True
+    figures: bool = option("Draw the seven figures of the paper too.", False, "--figures")
+    out: Path | None = option("Folder of the figures; runs/<time> by default.")
+    threads: int | None = option(THREADS)
+    report: bool = option(REPORT, True, "--report/--no-report")
 
 
 def paper(options: PaperOptions) -> None:

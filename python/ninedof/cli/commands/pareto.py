@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-import typer
-
-from ninedof.cli.answer import Answer, folder_words, write_job
+from ninedof.cli.answer import Answer, finish_job
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.options import JobOptions, Starts, Threads
+from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, struct
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.design.study import Study
@@ -42,31 +40,24 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof pareto study.toml --against leg_ratio --out front     again after an interruption"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class ParetoOptions(JobOptions):
     """The options."""
 
-    study: Annotated[
-        Path | None,
-        typer.Argument(help="A study file (TOML), or a run folder: its study. The paper's study if none is given."),
-    ] = None
-    against: Annotated[
-        str | None,
-        typer.Option(
-            help='The limit that is swept: a constraint ("leg_ratio", "leg_ratio at neutral", "base_cone_deg"), '
-            "condition_limit, or tolerance: what accuracy costs. By default radius_ratio, of a run the limit of "
-            "greatest price."
-        ),
-    ] = None
-    value: Annotated[
-        list[float] | None,
-        typer.Option(
-            help="A limit to solve, angles in degrees; may be repeated. By default the command selects the limits."
-        ),
-    ] = None
-    points: Annotated[int, typer.Option(help="Number of limits, if the command selects them.")] = 13
-    starts: Starts = None
-    threads: Threads = None
+    study: Path | None = argument(
+        "A study file (TOML), or a run folder: its study. The paper's study if none is given.", None
+    )
+    against: str | None = option(
+        'The limit that is swept: a constraint ("leg_ratio", "leg_ratio at neutral", "base_cone_deg"), '
+        "condition_limit, or tolerance: what accuracy costs. By default radius_ratio, of a run the limit of "
+        "greatest price."
+    )
+    value: list[float] | None = option(
+        "A limit to solve, angles in degrees; may be repeated. By default the command selects the limits."
+    )
+    points: int = option("Number of limits, if the command selects them.", 13)
+    starts: int | None = option(STARTS)
+    threads: int | None = option(THREADS)
 
 
 def pareto(options: ParetoOptions) -> None:
@@ -96,16 +87,12 @@ def pareto(options: ParetoOptions) -> None:
     if front.interrupted:
         count = "1 limit is" if len(front) == 1 else f"{len(front)} limits are"
         parts.append(bold("interrupted", f": {count} solved so far and kept in {directory}"))
-    data = {"front": front.to_dict()}
     with_figures = options.figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
     draw = partial(_draw, front, screen) if with_figures else None
     report = options.figures and options.report and not front.interrupted
-    record = write_job(screen, Answer(parts, data), partial(write_run, front, directory), draw, report)
-    screen.print(folder_words(directory))
-    screen.data(data | {"record": str(record)})
-    if front.interrupted:
-        raise typer.Exit(INTERRUPTED)
-    raise typer.Exit(DONE if any(not math.isnan(value) for value in front.objectives) else NO_RESULT)
+    status = NO_RESULT if all(map(math.isnan, front.objectives)) else DONE
+    answer = Answer(parts, {"front": front.to_dict()}, INTERRUPTED if front.interrupted else status)
+    finish_job(screen, directory, answer, partial(write_run, front, directory), draw, report)
 
 
 def _study_of(study: Path | None) -> tuple[Study, Result | None]:

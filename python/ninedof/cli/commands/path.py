@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 
-from ninedof.cli.answer import Answer, folder_words, write_job
+from ninedof.cli.answer import Answer, finish_job
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
-from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, LegLimits, Three, Two
+from ninedof.cli.options import (
+    DESIGN_OR_PUBLISHED,
+    LC,
+    LEG_LIMITS,
+    JobOptions,
+    Three,
+    Two,
+    argument,
+    ends,
+    option,
+    struct,
+    triple,
+)
 from ninedof.cli.posed import rule_option
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.design.study import Study
 from ninedof.motion import Followed, Trajectory, follow
-from ninedof.motion.tables import drives_table, legs_table, limits_table, motion_words
+from ninedof.motion.tables import motion_tables, motion_words
 from ninedof.records.folder import run_folder
 from ninedof.records.motion import plain, write_motion
 from ninedof.robot.configuration import arrays_of
@@ -41,49 +52,32 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof path --line 0.5 0 0.2 --force 0 0 -9.81 --json | jq .motion.legs.l1"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class PathOptions(JobOptions):
     """The options."""
 
-    design: DesignOrPublished = None
-    file: Annotated[
-        Path | None,
-        typer.Argument(
-            help="Poses (CSV): columns t x y z (or x_rel y_rel z_rel, from the neutral pose), and for the rotation "
-            "qw qx qy qz, rx ry rz or yaw pitch roll, in degrees as rx_deg, yaw_deg."
-        ),
-    ] = None
-    circle: Annotated[
-        float | None, typer.Option(metavar="RADIUS", help="A horizontal circle about the neutral pose.")
-    ] = None
-    line: Annotated[
-        Three | None, typer.Option(metavar="X Y Z", help="A line from the neutral pose, from rest to rest.")
-    ] = None
-    spiral: Annotated[
-        Two | None, typer.Option(metavar="RADIUS HEIGHT", help="Three turns outwards and up, from rest to rest.")
-    ] = None
-    duration: Annotated[float | None, typer.Option(help="Of a circle, line or spiral; 1 by default.")] = None
-    points: Annotated[int | None, typer.Option(help="Poses of a circle, line or spiral; 1001 by default.")] = None
-    internal_point: Annotated[
-        str | None,
-        typer.Option(
-            help="Position of O: carried, shifted, held, best, or a fraction between the plates; by default as in the "
-            "region of the run's study, else carried."
-        ),
-    ] = None
-    legs: LegLimits = None
-    force: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Force on the platform at its origin.")] = None
-    moment: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Moment on the platform.")] = None
-    mass: Annotated[
-        float | None, typer.Option(help="Mass of the platform: weight and inertia are added to the load; of the study.")
-    ] = None
-    centre: Annotated[
-        Three | None, typer.Option(metavar="X Y Z", help="Its centre in the frame of the plate; of the study.")
-    ] = None
-    gravity: Annotated[
-        Three | None, typer.Option(metavar="X Y Z", help="Force per mass, base axes; 0 0 -9.81 by default.")
-    ] = None
-    lc: Lc = None
+    design: str | None = argument(DESIGN_OR_PUBLISHED, None)
+    file: Path | None = argument(
+        "Poses (CSV): columns t x y z (or x_rel y_rel z_rel, from the neutral pose), and for the rotation "
+        "qw qx qy qz, rx ry rz or yaw pitch roll, in degrees as rx_deg, yaw_deg.",
+        None,
+    )
+    circle: float | None = option("A horizontal circle about the neutral pose.", metavar="RADIUS")
+    line: Three | None = triple("A line from the neutral pose, from rest to rest.")
+    spiral: Two | None = option("Three turns outwards and up, from rest to rest.", metavar="RADIUS HEIGHT")
+    duration: float | None = option("Of a circle, line or spiral; 1 by default.")
+    points: int | None = option("Poses of a circle, line or spiral; 1001 by default.")
+    internal_point: str | None = option(
+        "Position of O: carried, shifted, held, best, or a fraction between the plates; by default as in the "
+        "region of the run's study, else carried."
+    )
+    legs: Two | None = ends(LEG_LIMITS)
+    force: Three | None = triple("Force on the platform at its origin.")
+    moment: Three | None = triple("Moment on the platform.")
+    mass: float | None = option("Mass of the platform: weight and inertia are added to the load; of the study.")
+    centre: Three | None = triple("Its centre in the frame of the plate; of the study.")
+    gravity: Three | None = triple("Force per mass, base axes; 0 0 -9.81 by default.")
+    lc: str | None = option(LC)
 
     @property
     def shapes(self) -> dict[str, Any]:
@@ -134,25 +128,14 @@ def path(options: PathOptions) -> None:
         )
     of_study = path_limits(study, result, home) if study else None
     motion = plain(result, of_study)
-    drives = drives_table(motion)
-    parts: list[Any] = [
-        legs_table(motion),
-        *([] if drives is None else [drives]),
-        *([limits_table(motion)] if motion.get("limits") else []),
-    ]
-    parts += [bold(*words) for words in motion_words(result, motion)]
+    parts: list[Any] = [*motion_tables(motion), *(bold(*words) for words in motion_words(result, motion))]
     if masses is not None and options.mass is None:
         stated = [*stated, "[masses]"]
     parts += [f"from the study: {', '.join(stated)}"] if stated else []
-
-    def write(draw: Any) -> Path:
-        return write_motion(result, directory, draw, question, of_study)
-
     drawing = partial(_draw, result, screen, of_study) if options.figures else None
-    record = write_job(screen, Answer(parts, {"motion": motion}), write, drawing, options.figures and options.report)
-    screen.print(folder_words(directory))
-    screen.data({"motion": motion, "record": str(record)})
-    raise typer.Exit(DONE if result.tracked and not motion["breaks"] else NO_RESULT)
+    write = partial(write_motion, result, directory, question=question, limits=of_study)
+    answer = Answer(parts, {"motion": motion}, DONE if result.tracked and not motion["breaks"] else NO_RESULT)
+    finish_job(screen, directory, answer, write, drawing, options.figures and options.report)
 
 
 def _trajectory(chosen: Chosen, options: PathOptions) -> Trajectory:

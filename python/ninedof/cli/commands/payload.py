@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.options import LOAD, Design, Options, Three
-from ninedof.cli.posed import load_option
+from ninedof.cli.options import LOAD, ONE_DESIGN, Options, Three, argument, option, struct, triple
+from ninedof.cli.posed import loads_option
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.payload import Payload, largest_payload
 from ninedof.sheet.pose_words import pose_words
-from ninedof.tables import RIGHT, Column, Table, grouped
+from ninedof.tables import Table, columns, grouped
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -29,23 +27,17 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof payload runs/20260101-120000 --force 500 --pull 200 --centre 0 0 40 --json | jq .mass"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class PayloadOptions(Options):
     """The options."""
 
-    design: Design
-    force: Annotated[
-        float | None,
-        typer.Option(
-            help="Greatest force of a leg, pushing, and pulling without --pull; N for kg. That of the study by default."
-        ),
-    ] = None
-    pull: Annotated[float | None, typer.Option(help="Greatest force of a leg that pulls.")] = None
-    centre: Annotated[
-        Three | None,
-        typer.Option(metavar="X Y Z", help="Of the payload in the frame of the plate; its origin by default."),
-    ] = None
-    load: Annotated[list[str] | None, LOAD] = None
+    design: str = argument(ONE_DESIGN)
+    force: float | None = option(
+        "Greatest force of a leg, pushing, and pulling without --pull; N for kg. That of the study by default."
+    )
+    pull: float | None = option("Greatest force of a leg that pulls.")
+    centre: Three | None = triple("Of the payload in the frame of the plate; its origin by default.")
+    load: list[str] | None = option(LOAD)
 
 
 def payload(options: PayloadOptions) -> Answer:
@@ -54,9 +46,9 @@ def payload(options: PayloadOptions) -> Answer:
     Loads, masses and gravity of a run's study act besides it. A region is searched: no proof.
     """
     chosen = named_design(options.design)
-    loads = [load_option(text) for text in options.load] if options.load else None
+    loads = loads_option(options.load) or None
     centre = options.centre or (0.0, 0.0, 0.0)
-    found = largest_payload(chosen.result or chosen.design, options.force, options.pull, centre, loads)
+    found = largest_payload(chosen.machine, options.force, options.pull, centre, loads)
     stated = [f"from the study: force at most {found.limits[0][0]:g}"] if options.force is None else []
     return Answer([*_parts(found, chosen), *stated], found.to_dict(), DONE if found.fits else NO_RESULT)
 
@@ -73,8 +65,6 @@ def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
         yield f"worst pose: {pose_words(found.configuration, neutral, chosen.unit)}"
         rows = [(leg, f"{force:.5g}") for leg, force in zip(LEGS, found.forces, strict=True)]
         under = "with the payload" if found.fits else "without a payload"
-        yield Table(
-            f"Leg forces there, {under}, + pushes", [Column("leg"), Column("force", "", RIGHT)], list(grouped(rows))
-        )
+        yield Table(f"Leg forces there, {under}, + pushes", columns("leg", ">force"), list(grouped(rows)))
     if found.region is not None:
         yield f"searched, not proved: {found.region.looked_at} poses of the region looked at, {found.region.region}"

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import Options
+from ninedof.cli.options import Options, argument, option, struct
 from ninedof.report.report import report as write_report
 from ninedof.support.files import own_or_new
 
@@ -24,14 +20,12 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof report front#3                              point 3 of a trade-off"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class ReportOptions(Options):
     """The options."""
 
-    run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")]
-    out: Annotated[
-        Path | None, typer.Option(help="File to write; report.html in the run folder, or report-7.html, by default.")
-    ] = None
+    run: str = argument("A run folder, or RUN#7: point 7 of a front, counted from 1.")
+    out: Path | None = option("File to write; report.html in the run folder, or report-7.html, by default.")
 
 
 def report(options: ReportOptions) -> Answer:

@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
-
-import typer
+from typing import Any
 
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.options import JOINT_ERROR, LEG_ERROR, LEG_STIFFNESS, LOAD, Design, Options
-from ninedof.cli.posed import load_option, several
+from ninedof.cli.options import (
+    JOINT_ERROR,
+    LEG_ERROR,
+    LEG_STIFFNESS,
+    LOAD,
+    ONE_DESIGN,
+    Options,
+    argument,
+    option,
+    struct,
+)
+from ninedof.cli.posed import loads_option, several
 from ninedof.cli.screen import Screen
 from ninedof.sheet.sheet import sheet as sheet_of
 from ninedof.sheet.tables import sheet_parts
@@ -33,40 +40,26 @@ EXAMPLES = """[bold]Examples[/bold]
 VECTORS = {"twist": "wx wy wz vx vy vz", "twist_rate": "ax ay az ax ay az", "centre": "x y z", "gravity": "x y z"}
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class SheetOptions(Options):
     """The options."""
 
-    design: Design
-    speed: Annotated[
-        float | None, typer.Option(help="Platform speed for the leg speeds, length/time; of the study, or 1.")
-    ] = None
-    turn_deg: Annotated[
-        float | None, typer.Option(help="Angular speed beside it, degrees/time; of the study, or 0.")
-    ] = None
-    internal: Annotated[
-        str | None, typer.Option(help="How O moves: least, held, shifted or carried; as in the poses by default.")
-    ] = None
-    twist: Annotated[
-        str | None,
-        typer.Option(help='A motion "wx wy wz vx vy vz": angular velocity (rad/time) and velocity of the platform.'),
-    ] = None
-    twist_rate: Annotated[str | None, typer.Option(help="Its time derivative, 0 by default.")] = None
-    load: Annotated[list[str] | None, LOAD] = None
-    mass: Annotated[
-        float | None, typer.Option(help="Mass of the platform: its weight is added to each load; of the study.")
-    ] = None
-    centre: Annotated[
-        str | None, typer.Option(help='Its centre "x y z" in the frame of the plate; of the study, or its origin.')
-    ] = None
-    gravity: Annotated[
-        str | None,
-        typer.Option(help='Force per mass "x y z", base axes; of the study, or "0 0 -9.81": newtons for kg.'),
-    ] = None
-    leg_error: Annotated[float | None, LEG_ERROR] = None
-    joint_error: Annotated[float | None, JOINT_ERROR] = None
-    leg_stiffness: Annotated[float | None, LEG_STIFFNESS] = None
-    csv: Annotated[Path | None, typer.Option(help="Write the table of the legs to this file.")] = None
+    design: str = argument(ONE_DESIGN)
+    speed: float | None = option("Platform speed for the leg speeds, length/time; of the study, or 1.")
+    turn_deg: float | None = option("Angular speed beside it, degrees/time; of the study, or 0.")
+    internal: str | None = option("How O moves: least, held, shifted or carried; as in the poses by default.")
+    twist: str | None = option(
+        'A motion "wx wy wz vx vy vz": angular velocity (rad/time) and velocity of the platform.'
+    )
+    twist_rate: str | None = option("Its time derivative, 0 by default.")
+    load: list[str] | None = option(LOAD)
+    mass: float | None = option("Mass of the platform: its weight is added to each load; of the study.")
+    centre: str | None = option('Its centre "x y z" in the frame of the plate; of the study, or its origin.')
+    gravity: str | None = option('Force per mass "x y z", base axes; of the study, or "0 0 -9.81": newtons for kg.')
+    leg_error: float | None = option(LEG_ERROR)
+    joint_error: float | None = option(JOINT_ERROR)
+    leg_stiffness: float | None = option(LEG_STIFFNESS)
+    csv: Path | None = option("Write the table of the legs to this file.")
 
 
 def sheet(options: SheetOptions) -> None:
@@ -82,11 +75,11 @@ def sheet(options: SheetOptions) -> None:
     }
     turn = options.turn_deg
     result = sheet_of(
-        chosen.result or chosen.design,
+        chosen.machine,
         linear_speed=options.speed,
         angular_speed=None if turn is None else math.radians(finite("--turn-deg", turn, 0.0)),
         internal=options.internal,
-        loads=[load_option(text) for text in options.load] if options.load else None,
+        loads=loads_option(options.load) or None,
         mass=options.mass,
         leg_errors=options.leg_error,
         joint_errors=options.joint_error,

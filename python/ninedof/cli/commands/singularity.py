@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 
 from ninedof.cli.answer import Answer
+from ninedof.cli.options import option, struct
 from ninedof.cli.posed import DesignAtPoses, PosesOptions, several
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import arrays_of
@@ -43,15 +42,14 @@ GROUPS = {
 }
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class SingularityOptions(PosesOptions):
     """The options."""
 
-    direction: Annotated[
-        str | None,
-        typer.Option(help='A motion "wx wy wz px py pz sx sy sz" of platform and O, radians and lengths, base axes.'),
-    ] = None
-    most: Annotated[float, typer.Option(help="End of it, in multiples of the motion.")] = 1.0
+    direction: str | None = option(
+        'A motion "wx wy wz px py pz sx sy sz" of platform and O, radians and lengths, base axes.'
+    )
+    most: float = option("End of it, in multiples of the motion.", 1.0)
 
 
 def singularity(options: SingularityOptions) -> Answer:
@@ -64,7 +62,7 @@ def singularity(options: SingularityOptions) -> Answer:
     motion = None if options.direction is None else np.array(several("--direction", options.direction, words))
     if motion is not None and not motion.any():
         raise ValueError(f"--direction: got {options.direction!r}, expected a motion that is not zero")
-    at = DesignAtPoses.at(options)
+    at = options.at()
     here = singularity_of(at.chosen.geometry, at.c)
     parts: list[Any] = []
     for name, values in here.margins._asdict().items():

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import LEG_STIFFNESS
-from ninedof.cli.posed import DesignAtPoses, PosesOptions
+from ninedof.cli.options import LEG_STIFFNESS, option, struct
+from ninedof.cli.posed import PosesOptions
 from ninedof.sheet.sheet import sheet
 from ninedof.statics.statics import stiffness as stiffness_of
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import Floats
 from ninedof.support.units import per, times
-from ninedof.tables import RIGHT, Column, Table, grouped
+from ninedof.tables import Table, columns, grouped
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -26,21 +25,21 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof stiffness runs/20260101-120000#7 --leg-stiffness 2e4 --json | jq .least"""
 
-COLUMNS = ("turn x", "turn y", "turn z", "p x", "p y", "p z")
+COLUMNS = (">turn x", ">turn y", ">turn z", ">p x", ">p y", ">p z")
 ROWS = ("mx", "my", "mz", "fx", "fy", "fz")
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class StiffnessOptions(PosesOptions):
     """The options."""
 
-    leg_stiffness: Annotated[float, LEG_STIFFNESS]
+    leg_stiffness: float = option(LEG_STIFFNESS, ...)
 
 
 def stiffness(options: StiffnessOptions) -> Answer:
     """Print the stiffness matrix of the platform, legs locked and O free to settle, and the least stiffness."""
     finite("--leg-stiffness", options.leg_stiffness, 0.0)
-    at = DesignAtPoses.at(options)
+    at = options.at()
     unit = at.chosen.unit
     result = stiffness_of(at.chosen.geometry, at.c, options.leg_stiffness)
     least = sheet(at.chosen.geometry, at.c, leg_stiffness=options.leg_stiffness).stiffness
@@ -63,4 +62,4 @@ def _matrix(k: Floats) -> Table:
     tiny = 1e-12 * float(np.abs(k).max())
     rows = [(name, *("0" if abs(x) <= tiny else f"{x:.4g}" for x in row)) for name, row in zip(ROWS, k, strict=True)]
     title = "Stiffness: moment and force for a turn (rad) and a displacement of p"
-    return Table(title, [Column(), *(Column(name, "", RIGHT) for name in COLUMNS)], list(grouped(rows)))
+    return Table(title, columns("", *COLUMNS), list(grouped(rows)))

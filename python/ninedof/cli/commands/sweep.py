@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 
-from ninedof.cli import options
-from ninedof.cli.chosen_design import chosen_design, named_design, with_length
+from ninedof.cli.chosen_design import Chosen, chosen_design, named_design, with_length
+from ninedof.cli.options import DESIGN, SIDES, THREADS, HexagonalOptions, argument, option, struct
 from ninedof.cli.sweep_job import Job, describe, json_data
 from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
 from ninedof.design.indices import computed
@@ -27,7 +25,6 @@ from ninedof.sweep.poses import COORDINATES, ROTATION
 from ninedof.sweep.tables import summary_table
 
 FIGURES = ("figure-6", "figure-7")
-SIDES = ("a1", "a2", "b1", "b2", "zp", "zs")
 OF_POSES = ("absolute", "internal_point", "threads")
 NONE_WITH_FIGURES = ("over", "index", *OF_POSES, "lc", "chunk", "theta_z_deg", *SIDES)
 PLACE = 4
@@ -44,115 +41,89 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof sweep runs/20260101-120000 --over platform_internal_angle_deg=-60:60:121 --index leg_ratio"""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sweep(Job):
+@struct
+class Sweep(HexagonalOptions, Job):
     """The options."""
 
-    what: Annotated[
-        str | None,
-        typer.Argument(
-            help=f"figure-6, figure-7, or {options.DESIGN}. By default the published design at its best zs."
-        ),
-    ] = None
-    over: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,..., up to three times. Names: x_p y_p z_p theta_x theta_y "
-            "theta_z x_s y_s z_s, or variables of the design's family, as a1 a2 b1 b2 zp zs. Angles in radians, or in "
-            "degrees with _deg behind the name."
-        ),
-    ] = None
-    index: Annotated[
-        list[str] | None,
-        typer.Option(
-            help=f"The index, condition_number by default; may be repeated. One of "
-            f"{', '.join(computed())}; over designs also six_legged."
-        ),
-    ] = None
-    absolute: Annotated[
-        bool, typer.Option("--absolute", help="Values are the coordinates themselves, not displacements.")
-    ] = False
-    internal_point: Annotated[
-        str | None, typer.Option(help="Position of O while the platform moves: held (default), carried or best.")
-    ] = None
-    a1: options.BaseSide1 = None
-    a2: options.BaseSide2 = None
-    b1: options.PlatformSide1 = None
-    b2: options.PlatformSide2 = None
-    zp: options.Height = None
-    zs: options.InternalHeight = None
-    theta_z_deg: options.TwistDeg = None
-    lc: options.Lc = None
-    points: Annotated[int | None, typer.Option(help="Points of each curve of a figure.")] = None
-    chunk: Annotated[int | None, typer.Option(help="Points per chunk. The result does not depend on it.")] = None
-    threads: options.Threads = None
-
-    @property
-    def sides(self) -> dict[str, float | None]:
-        """Sides and heights of a hexagonal design."""
-        return {name: getattr(self, name) for name in SIDES}
+    what: str | None = argument(
+        f"figure-6, figure-7, or {DESIGN}. By default the published design at its best zs.", None
+    )
+    over: list[str] | None = option(
+        "NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,..., up to three times. Names: x_p y_p z_p theta_x theta_y "
+        "theta_z x_s y_s z_s, or variables of the design's family, as a1 a2 b1 b2 zp zs. Angles in radians, or in "
+        "degrees with _deg behind the name."
+    )
+    index: list[str] | None = option(
+        f"The index, condition_number by default; may be repeated. One of "
+        f"{', '.join(computed())}; over designs also six_legged."
+    )
+    absolute: bool = option("Values are the coordinates themselves, not displacements.", False, "--absolute")
+    internal_point: str | None = option("Position of O while the platform moves: held (default), carried or best.")
+    points: int | None = option("Points of each curve of a figure.")
+    chunk: int | None = option("Points per chunk. The result does not depend on it.")
+    threads: int | None = option(THREADS)
 
 
 def sweep(job: Sweep) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
     thread_argument(job.threads)
-    what, note = job.what, ""
+    what, chosen, note = job.what, None, ""
     if what in FIGURES:
         _expect_none(f"with {what}", job, NONE_WITH_FIGURES)
         call: Callable[..., SweepResult] = partial(sweep_figure, what.removeprefix("figure-"), job.points)
         title = what.replace("figure-", "Fig. ")
     else:
-        grid = _grid(what, job.over or [], job)
+        grid = _grid(job)
         title = f"over {', '.join(grid)}"
+        chosen = None if what is None else chosen_design(what, job)
         if all(plain_name(name) in COORDINATES for name in grid):
             title += "" if job.absolute else ", from the neutral pose"
-            note = _note(what, f"with O {job.internal_point or 'held'}, in one orientation")
-            call = _over_poses(what, job, grid)
+            note = _note(chosen, f"with O {job.internal_point or 'held'}, in one orientation")
+            call = _over_poses(chosen, job, grid)
         else:
             _expect_none("in a sweep over designs", job, OF_POSES)
-            design, own = swept_design(what, job.sides, job.theta_z_deg, grid, job.lc)
-            note = _note(what, "at the neutral pose alone")
+            design, own = swept_design(what, chosen, job, grid)
+            note = _note(chosen, "at the neutral pose alone")
             own["chunk"] = job.chunk
             call = partial(sweep_designs, design, grid, job.index or "condition_number", **own)
     result, folder = job.compute(call, title)
     title += f"; {note}" * bool(note)
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
     table = summary_table(summary, title, result.units)
-    data = json_data(result, summary)
-    stated = {} if what is None or what in FIGURES else named_design(what).stated
-    job.write(result, folder, data, table, lambda: _figures(result, what, note), stated)
+    stated = None if chosen is None else chosen.stated
+    job.write(result, folder, json_data(result, summary), table, lambda: _figures(result, what, note), stated)
 
 
-def _note(what: str | None, where: str) -> str:
+def _note(chosen: Chosen | None, where: str) -> str:
     """Return where a sweep evaluates a design whose study is about a region or poses; "" for other designs."""
-    study = None if what is None else named_design(what).study
+    study = None if chosen is None else chosen.study
     if study is None or not (study.objective.poses or study.objective.region):
         return ""
     return f"{where}, not over the {'region' if study.objective.region else 'poses'} of the study"
 
 
-def _over_poses(what: str | None, job: Sweep, grid: Mapping[str, Values]) -> Callable[..., SweepResult]:
-    """Return the sweep over coordinates of the design that is named, or of the published one at its best zs."""
-    published = what is None and job.theta_z_deg is None and not any(v is not None for v in job.sides.values())
-    chosen = named_design(None) if published else chosen_design(what, job.sides, job.theta_z_deg)
-    design = with_length(chosen, job.lc)
+def _over_poses(chosen: Chosen | None, job: Sweep, grid: Mapping[str, Values]) -> Callable[..., SweepResult]:
+    """Return the sweep over coordinates of a design, or of the published one at its best zs."""
+    if chosen is None:
+        chosen = chosen_design(None, job) if job.given() else with_length(named_design(None), job.lc)
     return partial(
         sweep_poses,
-        design.geometry,
-        design.configuration,
+        chosen.geometry,
+        chosen.configuration,
         grid,
         job.index or "condition_number",
         relative=not job.absolute,
         internal_point=job.internal_point or "held",
-        characteristic_length=design.characteristic_length,
-        unit=design.unit,
+        characteristic_length=chosen.characteristic_length,
+        unit=chosen.unit,
         chunk=job.chunk,
         threads=job.threads,
     )
 
 
-def _grid(what: str | None, over: Sequence[str], job: Sweep) -> dict[str, Values]:
+def _grid(job: Sweep) -> dict[str, Values]:
     """Return the axes of --over."""
+    what, over = job.what, job.over or ()
     if what is not None and what.startswith("figure-") and not Path(what).exists():
         raise ValueError(f"sweep: got {what}, expected one of {', '.join(FIGURES)}, or a design")
     if not over:

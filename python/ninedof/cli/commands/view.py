@@ -5,13 +5,9 @@ from __future__ import annotations
 import sys
 import warnings
 import webbrowser
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
 
-import typer
-
-from ninedof.cli.options import DesignOrPublished
+from ninedof.cli.options import DESIGN_OR_PUBLISHED, argument, option, struct
 from ninedof.support.extras import MissingExtra
 from ninedof.viewer import view as view_of
 
@@ -25,18 +21,18 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof view                                        the published design"""
 
 
-@dataclass(frozen=True, kw_only=True)
+@struct
 class ViewOptions:
     """The options."""
 
-    design: DesignOrPublished = None
-    path: Annotated[Path | None, typer.Option(help="Poses to play: a CSV file as of `ninedof path`.")] = None
-    host: Annotated[
-        str, typer.Option(help="Address to listen at; 0.0.0.0 is reached from the whole network, without a password.")
-    ] = "127.0.0.1"
-    port: Annotated[int, typer.Option(help="Port; 0 takes any free one.")] = 8080
-    dark: Annotated[bool, typer.Option("--dark", help="Dark colours.")] = False
-    browser: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False
+    design: str | None = argument(DESIGN_OR_PUBLISHED, None)
+    path: Path | None = option("Poses to play: a CSV file as of `ninedof path`.")
+    host: str = option(
+        "Address to listen at; 0.0.0.0 is reached from the whole network, without a password.", "127.0.0.1"
+    )
+    port: int = option("Port; 0 takes any free one.", 8080)
+    dark: bool = option("Dark colours.", False, "--dark")
+    browser: bool = option("Open the page in the browser.", False, "--open")
 
 
 def view(options: ViewOptions) -> None:

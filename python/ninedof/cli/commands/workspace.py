@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import Any, TypeVar
 
-import typer
-
-from ninedof.cli.answer import Answer, folder_words, write_job
+from ninedof.cli.answer import Answer, finish_job, write_job
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.cli.workspace_figures import draw
@@ -68,11 +65,9 @@ def workspace(options: WorkspaceOptions) -> None:
 
         result = _piece(store, 0, WorkspaceMap, search)
 
-    def write(drawing: Any) -> Path:
-        return write_run(result, directory, drawing, record)
-
     # At once: an interruption of what follows does not lose the map.
-    write_job(screen, Answer(_parts(result, question, chosen), {"workspace": result.to_dict()}), lambda _: write(None))
+    keep = Answer(_parts(result, question, chosen), {"workspace": result.to_dict()})
+    write_job(screen, keep, lambda _: write_run(result, directory, None, record))
     if (proof := question.proof) is not None and not result.interrupted:
 
         def prove() -> CertifiedWorkspace:
@@ -84,7 +79,8 @@ def workspace(options: WorkspaceOptions) -> None:
         if result.method != "sample":
             proved = proved.with_estimate(result.volume, result.error)
         result = replace(result, certified=proved)
-        write_job(screen, Answer(proved.sentences(), {"workspace": result.to_dict()}), lambda _: write(None))
+        keep = Answer(proved.sentences(), {"workspace": result.to_dict()})
+        write_job(screen, keep, lambda _: write_run(result, directory, None, record))
     data: dict[str, Any] = {"workspace": result.to_dict()}
     if region is not None and places_o(region) and not result.interrupted:
         keywords = question.keywords
@@ -94,10 +90,9 @@ def workspace(options: WorkspaceOptions) -> None:
     stopped = result.interrupted or (result.certified is not None and result.certified.interrupted)
     with_figures = options.figures and result.volume > 0.0 and not stopped and result.method != "sample"
     drawing = partial(draw, result, screen, home, None if result.of_angles else region) if with_figures else None
-    path = write_job(screen, Answer([], data), write, drawing, options.figures and options.report and not stopped)
-    screen.print(folder_words(directory))
-    screen.data(data | {"record": str(path)})
-    raise typer.Exit(INTERRUPTED if stopped else DONE if result.volume > 0.0 else NO_RESULT)
+    answer = Answer([], data, INTERRUPTED if stopped else DONE if result.volume > 0.0 else NO_RESULT)
+    write = partial(write_run, result, directory, question=record)
+    finish_job(screen, directory, answer, write, drawing, options.figures and options.report and not stopped)
 
 
 def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -> S:
