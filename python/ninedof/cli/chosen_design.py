@@ -5,49 +5,44 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+import ninedof as nd
 from ninedof.cli.options import SIDES, HexagonalOptions
 from ninedof.conditioning.characteristic_length import KINDS
-from ninedof.design.duty import Tool
-from ninedof.design.study import Study
-from ninedof.optimize.result import Result, with_fixed_design
+from ninedof.optimize.result import with_fixed_design
 from ninedof.paper.published import published_variables
-from ninedof.pareto import Front
-from ninedof.records.design_file import Design, hexagonal_design
-from ninedof.records.load import load
-from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
+from ninedof.records.design_file import hexagonal_design
 from ninedof.support.arrays import Floats
 
 
 class Chosen(NamedTuple):
     """A design at its neutral pose, and the result of its study, if there is one."""
 
-    geometry: Geometry
-    configuration: Configuration
+    geometry: nd.Geometry
+    configuration: nd.Configuration
     characteristic_length: float | str
     unit: str = ""
-    tool: Tool = Tool()
-    result: Result | None = None
+    tool: nd.Tool = nd.Tool()
+    result: nd.Result | None = None
 
     @property
-    def design(self) -> Design:
+    def design(self) -> nd.Design:
         """The design alone."""
-        return Design(*self[:5])
+        return nd.Design(*self[:5])
 
     @property
-    def machine(self) -> Result | Design:
+    def machine(self) -> nd.Result | nd.Design:
         """The result, or the design alone without one."""
         return self.result or self.design
 
     @property
-    def study(self) -> Study | None:
+    def study(self) -> nd.Study | None:
         """The study that it is from."""
         return None if self.result is None else self.result.study
 
     @property
-    def duty(self) -> Study:
+    def duty(self) -> nd.Study:
         """The study that says what the machine is for; one of the tool alone without a study."""
-        return self.study or Study(tool=self.tool)
+        return self.study or nd.Study(tool=self.tool)
 
     @property
     def stated(self) -> dict[str, Any]:
@@ -65,12 +60,12 @@ def named_design(name: str | None) -> Chosen:
     """Return the design that an argument DESIGN names; the published design at its best zs without one."""
     if name is None:
         return Chosen(*hexagonal_design(published_variables()))
-    run = load(name)
-    if isinstance(run, Design):
+    run = nd.load(name)
+    if isinstance(run, nd.Design):
         return Chosen(*run)
-    if isinstance(run, Front):
+    if isinstance(run, nd.Front):
         raise ValueError(f"{name}: got a front, expected one of its points: {name}#1 to {name}#{len(run)}")
-    if not isinstance(run, Result):
+    if not isinstance(run, nd.Result):
         raise ValueError(f"{name}: got a run without a design, expected one of `ninedof optimize` or `ninedof pareto`")
     run = with_fixed_design(run)
     best = run.best

@@ -26,7 +26,8 @@ from ninedof.support.starting import ending
 PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 ClickException = BadParameter.__mro__[2]  # what typer raises for options that it cannot read
 SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
-OPTIONS = {"condition_number": "condition", "time_limit": "time"}  # arguments whose option has another name
+# Arguments whose option has another name.
+OPTIONS = {"at": "set", "condition_number": "condition", "time_limit": "time"}
 ONE_PRESS = 0.1  # seconds: a terminal and a program in between may both hand on one Ctrl-C
 
 
@@ -133,5 +134,5 @@ def as_typed(message: str, arguments: Sequence[str]) -> str:
     """Return a message on an argument that begins with its name, "leg_mass: got 0", with the option as it was typed."""
     name, _, rest = message.partition(": ")
     option = f"--{OPTIONS.get(name, name).replace('_', '-')}"
-    typed = any(word == option or word.startswith(f"{option}=") for word in arguments)
+    typed = name in OPTIONS or any(word == option or word.startswith(f"{option}=") for word in arguments)
     return f"{option}: {rest}" if typed else message

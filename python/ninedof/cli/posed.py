@@ -9,17 +9,14 @@ from typing import Any
 
 import numpy as np
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design
 from ninedof.cli.options import ONE_DESIGN, Options, Three, argument, option, struct, triple
 from ninedof.cli.screen import DONE, bold
-from ninedof.conditioning.characteristic_length import characteristic_length
-from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.redundancy.rules import RULES
-from ninedof.robot.configuration import Configuration, arrays_of
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.configuration import arrays_of
 from ninedof.sheet.pose_words import pose_words
-from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arguments import vector
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry
@@ -49,7 +46,7 @@ class PoseOptions(Options):
         chosen = named_design(self.design)
         return DesignAtPoses(chosen, self.poses(chosen))
 
-    def poses(self, chosen: Chosen) -> Configuration:
+    def poses(self, chosen: Chosen) -> nd.Configuration:
         """Return a stack of one configuration, by default the neutral one."""
         home = chosen.configuration
         p = home.position if self.position is None else np.array(vector("--position", self.position))
@@ -58,7 +55,7 @@ class PoseOptions(Options):
         s = home.internal_point
         if self.named():
             s = _internal_point(chosen, p, q, self.internal_point or "carried")
-        return Configuration(p[None], q[None], s[None])
+        return nd.Configuration(p[None], q[None], s[None])
 
 
 @struct
@@ -67,7 +64,7 @@ class PosesOptions(PoseOptions):
 
     all_poses: bool = option("All poses of the run's study, the neutral one first.", False, "--all-poses")
 
-    def poses(self, chosen: Chosen) -> Configuration:
+    def poses(self, chosen: Chosen) -> nd.Configuration:
         """Return a stack of configurations: of the study, or one, by default the neutral one."""
         if not self.all_poses:
             return super().poses(chosen)
@@ -83,7 +80,7 @@ class DesignAtPoses:
     """A design at poses."""
 
     chosen: Chosen
-    c: Configuration
+    c: nd.Configuration
 
     def first(self, k: int) -> int:
         """Return the first pose that coincides with one: poses of a study may, and are named and printed once."""
@@ -108,10 +105,10 @@ class DesignAtPoses:
         return Answer([first, *beyond, *parts, *last], unit_entry(unit) | {"poses": poses_data(c)} | dict(data), status)
 
 
-def beyond_words(g: Geometry, home: Configuration, c: Configuration) -> list[Any]:
+def beyond_words(g: nd.Geometry, home: nd.Configuration, c: nd.Configuration) -> list[Any]:
     """Return a line for each determinant whose sign at some pose of a stack is not that of the neutral pose."""
     parts = []
-    for name, here, there in zip("NBC", singularity_margins(g, c), singularity_margins(g, home), strict=True):
+    for name, here, there in zip("NBC", nd.singularity_margins(g, c), nd.singularity_margins(g, home), strict=True):
         beyond = np.flatnonzero((here * np.sign(there) < -NO_SIDE) & (abs(there) > NO_SIDE)).tolist()
         if beyond:
             ends = ("positive", "negative") if there > 0.0 else ("negative", "positive")
@@ -127,11 +124,11 @@ def length_at_home(chosen: Chosen) -> float:
     """Return the characteristic length as a number: a kind is taken at the neutral pose."""
     length = chosen.characteristic_length
     if isinstance(length, str):
-        return float(characteristic_length(chosen.geometry, chosen.configuration, length))
+        return float(nd.characteristic_length(chosen.geometry, chosen.configuration, length))
     return length
 
 
-def poses_data(c: Configuration) -> list[dict[str, Floats]]:
+def poses_data(c: nd.Configuration) -> list[dict[str, Floats]]:
     """Return a stack as plain values, one pose after the other."""
     arrays = arrays_of(c)
     return [{name: array[k] for name, array in arrays.items()} for k in range(len(c))]
@@ -145,7 +142,7 @@ def _internal_point(chosen: Chosen, p: Floats, q: Floats, rule: str) -> Floats:
     if rule in fixed:
         return fixed[rule]
     if rule == "best":
-        best = best_internal_point(g, p, q, characteristic_length=length_at_home(chosen), start=carried)
+        best = nd.best_internal_point(g, p, q, characteristic_length=length_at_home(chosen), start=carried)
         if np.isnan(best.configuration.internal_point).any():
             raise ValueError(f"--internal-point: got best, but no place of O is the best there ({best.status})")
         return best.configuration.internal_point

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+import ninedof as nd
 from ninedof.cli.chosen_design import Chosen
 from ninedof.cli.options import (
     DESIGN_OR_PUBLISHED,
@@ -26,10 +27,6 @@ from ninedof.cli.options import (
 from ninedof.cli.posed import length_at_home, rule_option
 from ninedof.design.indices import computed
 from ninedof.design.limit_numbers import CONES, LEGS, SPREADS
-from ninedof.design.region import Region
-from ninedof.design.study import Study
-from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite
 from ninedof.workspace.certified import GAPS, require_certifiable
 from ninedof.workspace.region_share import box_about
@@ -122,7 +119,7 @@ class Question:
     """Names of the criteria that come from the study."""
     left: list[str]
     """Limits of the study that are no criteria of a pose."""
-    region: Region | None
+    region: nd.Region | None
     """The region of the study."""
     proof: dict[str, Any] | None
     """Gap and time of the proof; None without one."""
@@ -175,7 +172,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
 
 
 def criteria_of(
-    study: Study | None, geometry: Geometry, home: Configuration, values: Mapping[str, Any]
+    study: nd.Study | None, geometry: nd.Geometry, home: nd.Configuration, values: Mapping[str, Any]
 ) -> tuple[dict[str, Any], set[str], list[str]]:
     """Return criteria, the names of those that come from the study, and the limits of the study that are none.
 
@@ -203,7 +200,7 @@ def compare_poses(left: Sequence[str], values: Mapping[str, Any]) -> bool:
     return any(name in SPREADS for name in left) and not any(name in values for name in LEGS)
 
 
-def _rule(text: str | None, chosen: Chosen, region: Region | None, position: Any, turns: bool) -> Any:
+def _rule(text: str | None, chosen: Chosen, region: nd.Region | None, position: Any, turns: bool) -> Any:
     """Return the rule for O: that of the option, of the region of a study, or where the design has O.
 
     `position` is the one position of a set of orientations; `turns` says that there are sets of rotations at many,
@@ -217,7 +214,7 @@ def _rule(text: str | None, chosen: Chosen, region: Region | None, position: Any
     return rule_of_region(chosen.geometry, chosen.configuration, region, rule, position)
 
 
-def _place(options: WorkspaceOptions, chosen: Chosen, region: Region | None) -> dict[str, Any]:
+def _place(options: WorkspaceOptions, chosen: Chosen, region: nd.Region | None) -> dict[str, Any]:
     """Return the box, by default that about a region, or the fixed position and rotation, of an archetype."""
     home, ends = chosen.configuration, [options.x, options.y, options.z]
     if options.archetype == "orientation":

@@ -25,12 +25,13 @@ def of_front(front: Front, record: Any) -> Page:
         "proof": proof.of_front(front),
         "again": origin.of_front(front, record),
     }
-    first, sheet, body, hint = preferred(front), None, None, ""
+    of_first: tuple[Any, ...] = ()
+    first, shown, hint = preferred(front), None, ""
     if first is not None:
         best = front.results[first.number - 1]
-        sheet = best.sheet()
+        shown, sheet = best.best, best.sheet()
         body, words = quick_body(best, f"RUN#{first.number}")
-        hint = f"Point {first.number}. {words}"
+        of_first, hint = (sheet, body), f"Point {first.number}. {words}"
         sentence = f"Of point {first.number}, {first.words}. Each point has its own: ninedof sheet RUN#1 for the first."
         sections["sheet"] = joined(paragraphs([sentence]), sheet_html(sheet))
     machines: list[dict[str, Any]] = []
@@ -39,9 +40,9 @@ def of_front(front: Front, record: Any) -> Page:
         if result.best is None or math.isnan(value):
             continue
         title = f"point {k}: {limit} {limit_text(front, x)}"
-        is_first = first is not None and k == first.number
+        is_first = result.best is shown
         start = len(machines) if is_first else start
-        machines.append(design_machine(title, result.best, result.study, *((sheet, body) if is_first else ())))
+        machines.append(design_machine(title, result.best, result.study, *(of_first if is_first else ())))
     if machines:
         sections["machine"] = paragraphs([hint])
     values = [x for x in front.objectives if not math.isnan(x)]
@@ -52,6 +53,5 @@ def of_front(front: Front, record: Any) -> Page:
     ]
     headline = f"{front.study.words[:1].upper()}{front.study.words[1:]} against {limit}"
     view = scene.scene(machines, front.study.unit, start) if machines else None
-    shown = None if first is None else front.results[first.number - 1].best
     machine = None if shown is None else (shown.geometry, shown.configuration)
     return Page("trade-off", headline, figures, sections, view, bool(values) and not front.interrupted, machine)

@@ -14,10 +14,8 @@ from ninedof.report import origin, proof, scene
 from ninedof.report.body import quick_body
 from ninedof.report.page import Page
 from ninedof.report.question import question
-from ninedof.robot.configuration import Configuration
 from ninedof.sheet.sheet import Sheet
 from ninedof.sheet.tables import sheet_parts
-from ninedof.support.arrays import Floats
 from ninedof.tables.html import Html, beside, bullets, facts, html_of, joined, paragraphs, tag
 
 NO_CLAIM = "The best design found is shown below. It is not claimed to be an optimum."
@@ -36,7 +34,7 @@ def of_result(
     """
     best, study = result.best, result.study
     sections = {"question": question(study), "answer": _answer(result)}
-    view, sheet = None, None
+    view, sheet, machine, words = None, None, None, f"{study.words}: no design"
     if best is not None and result.status != Status.UNBOUNDED:  # without a least value there is no design to build
         sheet = result.sheet()
         body, hint = quick_body(result, run)
@@ -45,13 +43,11 @@ def of_result(
         others = enumerate(result.candidates[1:SHOWN], start=2)
         machines += [design_machine(f"optimum no. {k}", other, study) for k, other in others]
         view = scene.scene(machines, study.unit)
+        machine, words = (best.geometry, best.configuration), result.words
     sections["proof"] = proof.of_result(result, certificate)
     sections["again"] = again or origin.of_study(study, "ninedof optimize study.toml", record)
-    words = f"{study.words}: no design" if sheet is None else result.words
-    headline = words[:1].upper() + words[1:]
-    machine = None if best is None or view is None else (best.geometry, best.configuration)
-    good, figures = result.status == Status.OPTIMAL, _key_figures(result, sheet)
-    return Page("optimization", headline, figures, sections, view, good, machine)
+    headline, good = words[:1].upper() + words[1:], result.status == Status.OPTIMAL
+    return Page("optimization", headline, _key_figures(result, sheet), sections, view, good, machine)
 
 
 def sheet_html(sheet: Sheet) -> Html:
@@ -63,17 +59,12 @@ def design_machine(
     title: str, one: Candidate, study: Study, sheet: Sheet | None = None, body: Mapping[str, Any] | None = None
 ) -> dict[str, Any]:
     """Return a design for the view: with the worst poses of its sheet and a body, or at its neutral pose."""
-    lines, length = region_of(study, one.configuration), one.characteristic_length
+    region, length = study.objective.region, one.characteristic_length
+    lines = [] if region is None else region_lines(region, one.configuration)
     if sheet is None:
         return scene.machine(title, one.geometry, one.configuration, length, lines=lines)
     poses = scene.worst_poses(sheet)
     return scene.machine(title, one.geometry, sheet.configurations, length, poses, lines, body)
-
-
-def region_of(study: Study, home: Configuration) -> list[Floats]:
-    """Return the region of a study about a home pose as lines; none without a region."""
-    region = study.objective.region
-    return [] if region is None else region_lines(region, home)
 
 
 def _answer(result: Result) -> Html:

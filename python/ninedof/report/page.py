@@ -11,6 +11,7 @@ from importlib.resources import files
 from string import Template
 from typing import Any
 
+from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.tables.html import Html, facts, joined, safe, tag
@@ -42,7 +43,7 @@ class Page:
     headline: str
     figures: Sequence[tuple[object, object]]
     """Names and values under the headline."""
-    sections: Mapping[str, Html]
+    sections: dict[str, Html]
     """By the names in TITLES; the section "machine" has the view and a sentence below it."""
     shown: Mapping[str, Any] | None = None
     """The contents of the view; None without a machine."""
@@ -51,17 +52,20 @@ class Page:
     """The machine of the drawing."""
 
 
-def title_block(study: Any, name: str, created: str) -> Html:
+def title_block(study: Study, name: str, created: str) -> Html:
     """Return the block of a drawing: project, author and revision of a study, lines to write on where it has none."""
-    about = getattr(study, "about", None)
-    rows = [(word, getattr(about, word, "") or BLANK) for word in ("project", "author", "revision")]
-    if rows[0][1] == BLANK:
-        rows[0] = ("project", name)
-    unit = getattr(study, "unit", "")
-    return facts([*rows, ("date", created[:10]), ("run", name), *([("lengths in", unit)] if unit else [])])
+    about = study.about
+    rows = [
+        ("project", about.project or name),
+        ("author", about.author or BLANK),
+        ("revision", about.revision or BLANK),
+        ("date", created[:10]),
+        ("run", name),
+    ]
+    return facts([*rows, *([("lengths in", study.unit)] if study.unit else [])])
 
 
-def page(contents: Page, name: str, created: str, drawn: Mapping[str, Html], study: Any = None) -> str:
+def page(contents: Page, name: str, created: str, drawn: Mapping[str, Html], study: Study) -> str:
     """Return the HTML of a page of a run.
 
     `drawn` has the sections made of figures, and as "still" what stands for the view where scripts are off.

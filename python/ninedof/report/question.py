@@ -11,7 +11,7 @@ from ninedof.optimize.tables import listed_variables
 from ninedof.redundancy.rules import MEANING, WORDS
 from ninedof.support.angles import degrees_of
 from ninedof.support.units import amount
-from ninedof.tables import RIGHT, Column, Line, Table
+from ninedof.tables import Line, Table, columns
 from ninedof.tables.html import Html, html_of, joined, paragraphs
 
 FAMILIES = {
@@ -33,15 +33,15 @@ def sentences(study: Study) -> Iterator[str]:
     yield f"Which design has the least {study.words}? The family of designs is “{study.family}”{family}."
     objective = study.objective
     if objective.region is not None:
-        yield f"Every limit is to hold in all of this region. {_where_o(objective.region.internal_point)}"
+        rule = objective.region.internal_point
+        least = ", where the worst of the index and all limits is least" * (rule == "best")
+        yield f"Every limit is to hold in all of this region. O is {WORDS[rule]}: {MEANING[rule]}{least}."
     elif objective.poses:
         yield f"Every limit is to hold at each of the {len(objective.poses)} poses; between them nothing is asked."
     else:
         yield "One pose is asked for, the neutral one."
-    for name, limit in (
-        ("any pose", objective.condition_limit),
-        ("the neutral pose", objective.neutral_condition_limit),
-    ):
+    limits = {"any pose": objective.condition_limit, "the neutral pose": objective.neutral_condition_limit}
+    for name, limit in limits.items():
         if limit is not None:
             yield f"The condition number at {name} is at most {limit:g}."
     length = study.characteristic_length
@@ -62,17 +62,17 @@ def variables_table(study: Study) -> Table:
         bound = study.variables[name]
         low, *high = (_end(study.shown(name, end)) for end in (bound if isinstance(bound, tuple) else (bound,)))
         rows.append(Line(name, [low, *(high or ["fixed"])], unit=study.unit_of(name)))
-    return Table("Variables", [Column("variable"), Column("least", "", RIGHT), Column("greatest", "", RIGHT)], rows)
+    return Table("Variables", columns("variable", ">least", ">greatest"), rows)
 
 
 def limits_table(study: Study) -> Table:
     """Return the limits; a note where there is none."""
     several = bool(study.objective.poses) or study.objective.region is not None
     rows = [_limit_row(limit, study.unit, several) for limit in study.limits]
-    columns = [Column("limit"), Column("least", "", RIGHT), Column("greatest", "", RIGHT), Column("how")]
+    heads = columns("limit", ">least", ">greatest", "how")
     if not any(row[-1] for row in rows):
-        rows, columns = [row[:-1] for row in rows], columns[:-1]
-    return Table("Limits", columns, rows, () if rows else ["No limit is set beside these bounds and 0 < zs < zp."])
+        rows, heads = [row[:-1] for row in rows], heads[:-1]
+    return Table("Limits", heads, rows, () if rows else ["No limit is set beside these bounds and 0 < zs < zp."])
 
 
 def _limit_row(limit: Limit, unit: str, several: bool) -> tuple[str, ...]:
@@ -89,9 +89,3 @@ def _option(value: object) -> str:
 
 def _end(value: float) -> str:
     return f"{value:.6g}" if math.isfinite(value) else "none"
-
-
-def _where_o(rule: str) -> str:
-    """Return where O is in a region, in a sentence."""
-    least = ", where the worst of the index and all limits is least" * (rule == "best")
-    return f"O is {WORDS[rule]}: {MEANING[rule]}{least}."

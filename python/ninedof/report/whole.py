@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -34,8 +33,8 @@ STILL = "mechanism"
 def page_of_result(run: Result | Front, name: str) -> str:
     """Return the page of a result in memory."""
     record = Record("front" if isinstance(run, Front) else "optimization", run.study, {})
-    result = run if isinstance(run, Result) else None
-    return _text(_page_of(run, record, name), record, None, name, result)
+    contents = of_front(run, record) if isinstance(run, Front) else of_result(run, record)
+    return _text(contents, record, None, name, run)
 
 
 def page_of_path(place: Path, point: str, run: str | os.PathLike[str]) -> str:
@@ -44,11 +43,21 @@ def page_of_path(place: Path, point: str, run: str | os.PathLike[str]) -> str:
     name = folder.resolve().name + (f"#{point}" if point else "")
     record = load_record(place)
     contents = None if record.kind in FROM_RECORD and not point else load(run)
-    whole = load(place) if point else None
-    certificate = _certificate_of(contents, run) if isinstance(contents, Result) else None
-    contents_page = _page_of(contents, record, name, point, whole, certificate)
-    result = contents if isinstance(contents, Result) else None
-    return _text(contents_page, record, None if point else folder, name, result)
+    if isinstance(contents, Result):
+        whole = load(place) if point else None
+        again = origin.of_front(whole, record, point) if isinstance(whole, Front) else None
+        certificate = _certificate_of(contents, run)
+        page_ = of_result(contents, record, f"RUN#{point}" if point else "RUN", again, certificate)
+        if record.kind == "comparison" and not point:
+            published = html_of(comparison_table(record.results["designs"]))
+            page_.sections["answer"] = joined(published, page_.sections["answer"])
+    elif isinstance(contents, Front):
+        page_ = of_front(contents, record)
+    elif isinstance(contents, WorkspaceMap):
+        page_ = of_workspace(contents, record)
+    else:
+        page_ = of_recorded(record, name)
+    return _text(page_, record, None if point else folder, name, contents)
 
 
 def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCertificate | None:
@@ -65,46 +74,23 @@ def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCer
     return certificate
 
 
-def _page_of(
-    contents: Any,
-    record: Record,
-    name: str,
-    point: str = "",
-    whole: Any = None,
-    certificate: MachineCertificate | None = None,
-) -> Page:
-    """Return the page of what a record holds, or of one point of the whole."""
-    if isinstance(contents, Front):
-        return of_front(contents, record)
-    if isinstance(contents, WorkspaceMap):
-        return of_workspace(contents, record)
-    if not isinstance(contents, Result):
-        return of_recorded(record, name)
-    again = origin.of_front(whole, record, point) if isinstance(whole, Front) else None
-    page_ = of_result(contents, record, f"RUN#{point}" if point else "RUN", again, certificate)
-    if record.kind != "comparison" or point:
-        return page_
-    published = html_of(comparison_table(record.results["designs"]))
-    return replace(page_, sections={**page_.sections, "answer": joined(published, page_.sections["answer"])})
-
-
 def _stated(question: Mapping[str, Any]) -> Study:
     """Return a study with what the question of a record without one has of it: title block, tool and unit."""
     return Study(**{name: question[name] for name in ("about", "tool", "unit") if name in question})
 
 
-def _text(page_: Page, record: Record, folder: Path | None, name: str, result: Result | None = None) -> str:
+def _text(page_: Page, record: Record, folder: Path | None, name: str, run: Any) -> str:
     study = record.question if isinstance(record.question, Study) else _stated(record.question)
     with TemporaryDirectory() as spare:
         have = {} if folder is None else dict.fromkeys(stems(folder), folder)
-        have = _drawn(page_, result, study, have, Path(spare)) | have
+        have = _drawn(page_, run, study, have, Path(spare)) | have
         drawn = {stem: figure(have[stem], stem) for stem in OWN if stem in have and page_.machine is not None}
         drawn["still"] = image(have[STILL], STILL) if STILL in have else Html()
         drawn["figures"] = Html() if folder is None else figures(folder)
         return page(page_, name, record.created, drawn, study)
 
 
-def _drawn(page_: Page, result: Result | None, study: Study, have: Mapping[str, Path], folder: Path) -> dict[str, Path]:
+def _drawn(page_: Page, run: Any, study: Study, have: Mapping[str, Path], folder: Path) -> dict[str, Path]:
     """Draw what the page shows and the folder of its run does not have; return the folder of each figure."""
     from ninedof import plot
 
@@ -117,7 +103,7 @@ def _drawn(page_: Page, result: Result | None, study: Study, have: Mapping[str, 
         new[STILL] = plot.mechanisms([plot.Robot("neutral pose", g, c)], unit)
     if "drawing" not in have:
         new["drawing"] = plot.drawing(g, c, unit, study.tool)
-    if "region" not in have and result is not None and (of_region := region_map(result)) is not None:
+    if "region" not in have and isinstance(run, Result) and (of_region := region_map(run)) is not None:
         new["region"] = plot.region_map(of_region)
     for stem, one in new.items():
         plot.save(one, folder, stem)

@@ -53,7 +53,7 @@ def test_the_line_to_go_on_is_one_for_a_shell(capsys, monkeypatch):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("ninedof.cli.commands.sweep.sweep_poses", interrupted)
+    monkeypatch.setattr("ninedof.sweep", interrupted)
     status, _, err = run(capsys, "sweep", "--over", "x_p=-1:1:3", "--out", "a [bold]b")
     assert status == 130
     line = ["ninedof", "sweep", "--over", "x_p=-1:1:3", "--out", "a [bold]b"]

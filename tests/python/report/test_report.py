@@ -106,13 +106,12 @@ def test_the_smaller_of_two_figures_is_embedded_and_the_view_has_a_still(page):
 @pytest.mark.parametrize(
     ("about", "project", "others"),
     [
-        (None, "<b>a&b", [BLANK, BLANK]),
         (SimpleNamespace(project="", author="", revision=""), "<b>a&b", [BLANK, BLANK]),
         (SimpleNamespace(project="Polishing <head>", author="M. N.", revision="B"), "Polishing <head>", ["M. N.", "B"]),
     ],
 )
 def test_the_title_block_has_project_author_and_revision(about, project, others):
-    study = SimpleNamespace(unit="mm", **({} if about is None else {"about": about}))
+    study = SimpleNamespace(unit="mm", about=about)
     page = Reader(title_block(study, "<b>a&b", "2026-01-02T03:04:05"))
     words = [word for word in page.words if word.strip()]
     names = ["project", "author", "revision", "date", "run", "lengths in"]
@@ -214,7 +213,7 @@ def test_the_command_of_a_front_asks_for_the_same_limits_to_the_last_bit(monkeyp
         asked.update(study=study, against=against, values=values)
         raise ValueError("enough")
 
-    monkeypatch.setattr("ninedof.cli.commands.pareto.trace_front", trace)
+    monkeypatch.setattr(nd, "pareto", trace)
     monkeypatch.chdir(tmp_path)
     with pytest.raises(SystemExit):
         main(command[1:])

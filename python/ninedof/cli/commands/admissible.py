@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
-import typer
-
+import ninedof as nd
+from ninedof.cli.answer import Answer
 from ninedof.cli.changes import changes_option
 from ninedof.cli.options import THREADS, Options, argument, option, struct
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
-from ninedof.design.study import Study
-from ninedof.optimize.result import Result
-from ninedof.proof.admissible import AdmissibleSet, design_range
-from ninedof.proof.admissible import admissible as admissible_of
-from ninedof.proof.admissible_rows import AdmissibleRow, admissible_actuators
+from ninedof.proof.admissible import design_range
 from ninedof.records.admissible import admissible_file, load_admissible, save_admissible
-from ninedof.records.load import load
 from ninedof.support.command import goes_on
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
@@ -55,7 +49,7 @@ class AdmissibleOptions(Options):
     threads: int | None = option(THREADS)
 
 
-def admissible(options: AdmissibleOptions) -> None:
+def admissible(options: AdmissibleOptions) -> Answer:
     """Divide a box of designs into those proved to keep every limit at every pose, those proved not to, and the rest.
 
     The other variables have the values of the run or of the study. The same command again goes on. For a study with
@@ -64,10 +58,9 @@ def admissible(options: AdmissibleOptions) -> None:
     screen = Screen(options.json)
     of, folder = _of(options)
     vary, at = dict(map(_vary, options.vary)), changes_option(options.set or ())
-    if isinstance(of, Study) and of.actuators:
-        _rows(screen, of, options, vary, at)
-    with _as_options():
-        asked = design_range(of, vary, at, options.condition)
+    if isinstance(of, nd.Study) and of.actuators:
+        return _rows(screen, of, options, vary, at)
+    asked = design_range(of, vary, at, options.condition)
     file = None if folder is None else admissible_file(folder, asked)
     earlier = None if file is None else load_admissible(file, asked)
     if file is not None and earlier is None and file.exists():  # that of another question
@@ -75,74 +68,61 @@ def admissible(options: AdmissibleOptions) -> None:
         screen.print(f"the designs of another question are kept as {other}")
     goes_on()
     with screen.bar("boxes", "designs") as bar:
-        found = admissible_of(
+        found = nd.admissible(
             of, vary, at=at, condition_number=options.condition, **_how(options), resume=earlier, progress=bar
         )
-    data = {"shares": dict(found.shares), "excluded": found.excluded, "designs": found.designs, "boxes": found.boxes}
+    data: dict[str, Any] = {name: getattr(found, name) for name in ("shares", "excluded", "designs", "boxes")}
     screen.print(*found.sentences())
     if file is not None:
         file.parent.mkdir(parents=True, exist_ok=True)
         save_admissible(found, file)
         figures = _draw(found, file) if len(found.vary) > 1 else []
         screen.print(f"designs {file}" + (f", figure {figures[0].stem} (PNG, SVG, PDF)" if figures else ""))
-        data |= {"file": str(file)}
+        data["file"] = str(file)
     if options.certificate is not None:
         found.save_certificate(options.certificate)
         screen.print(f"certificate {options.certificate}")
-        data |= {"certificate": str(options.certificate)}
+        data["certificate"] = str(options.certificate)
     if options.around:
-        data |= {"around": _around(screen, found)}
-    screen.data(data)
-    raise typer.Exit(INTERRUPTED if found.interrupted else DONE)
+        data["around"] = _around(screen, found)
+    return Answer([], data, INTERRUPTED if found.interrupted else DONE)
 
 
-def _rows(screen: Screen, study: Study, options: AdmissibleOptions, vary: Ranges, at: Mapping[str, Any]) -> NoReturn:
-    """Print for which rows of its actuators a study has designs; nothing is kept."""
+def _rows(screen: Screen, study: nd.Study, options: AdmissibleOptions, vary: Ranges, at: Mapping[str, Any]) -> Answer:
+    """Return for which rows of its actuators a study has designs; nothing is kept."""
     for name in ("condition", "around", "certificate", "out"):
         if getattr(options, name):
             raise ValueError(f"--{name}: got it for a study with actuators, expected the run of `optimize`")
-    with _as_options(), screen.bar("boxes", "actuators") as bar:
-        found = admissible_actuators(study, vary, at=at, **_how(options), progress=bar)
+    with screen.bar("boxes", "actuators") as bar:
+        found = nd.admissible_actuators(study, vary, at=at, **_how(options), progress=bar)
     heads = columns("legs", "actuator", "a design exists", "for example")
     rows = [(one.kind, one.row.name, WORDS.get(one.state, one.state), _example(one, study)) for one in found.rows]
-    screen.print(Table("", heads, rows))
-    screen.data({"rows": [one.to_dict() for one in found.rows]})
-    raise typer.Exit(INTERRUPTED if found.interrupted else DONE)
+    data = {"rows": [one.to_dict() for one in found.rows]}
+    return Answer([Table("", heads, rows)], data, INTERRUPTED if found.interrupted else DONE)
 
 
 def _how(options: AdmissibleOptions) -> dict[str, Any]:
     return {"time_limit": options.time, "resolution": options.resolution, "threads": options.threads or 0}
 
 
-def _example(one: AdmissibleRow, study: Study) -> str:
+def _example(one: nd.AdmissibleRow, study: nd.Study) -> str:
     values = ((name, f"{name} = {study.shown(name, value):.5g}") for name, value in (one.design or {}).items())
     return ", ".join(amount(words, study.unit_of(name)) for name, words in values)
 
 
-@contextmanager
-def _as_options() -> Iterator[None]:
-    """Name the option of values of other variables."""
-    try:
-        yield
-    except ValueError as error:
-        if not str(error).startswith("at"):
-            raise
-        raise ValueError(f"--set{str(error).removeprefix('at')}") from None
-
-
-def _draw(found: AdmissibleSet, file: Path) -> list[Path]:
+def _draw(found: nd.AdmissibleSet, file: Path) -> list[Path]:
     from ninedof.plot.admissible import admissible as figure_of
     from ninedof.plot.files import save
 
     return save(figure_of(found), file.parent, file.stem)
 
 
-def _of(options: AdmissibleOptions) -> tuple[Study | Result, Path | None]:
+def _of(options: AdmissibleOptions) -> tuple[nd.Study | nd.Result, Path | None]:
     """Return what is asked about, and the folder of the answer."""
     if (place := Path(options.of)).suffix == ".toml" and place.is_file():
-        return Study.load(place), options.out
-    result = load(options.of)
-    if not isinstance(result, Result):
+        return nd.Study.load(place), options.out
+    result = nd.load(options.of)
+    if not isinstance(result, nd.Result):
         raise ValueError(f"{options.of}: got no design of a study, expected a study file, a run or RUN#7 of a front")
     return result, options.out or Path(options.of.partition("#")[0])
 
@@ -156,7 +136,7 @@ def _vary(text: str) -> tuple[str, tuple[float, float] | None]:
     return name, (low, high) if equals else None
 
 
-def _around(screen: Screen, found: AdmissibleSet) -> dict[str, list[float]] | None:
+def _around(screen: Screen, found: nd.AdmissibleSet) -> dict[str, list[float]] | None:
     """Print how far the design may go; that it lies on a limit is an answer too."""
     try:
         room = found.around()

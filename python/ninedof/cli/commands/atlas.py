@@ -9,13 +9,10 @@ from typing import Any
 
 import numpy as np
 
+import ninedof as nd
 from ninedof.cli.options import option, struct
 from ninedof.cli.sweep_job import Job
 from ninedof.conditioning.hexagonal import HEXAGONAL
-from ninedof.design.study import Study
-from ninedof.optimize.optimize import optimize
-from ninedof.sweep import SweepResult
-from ninedof.sweep import atlas as survey
 from ninedof.sweep.sample import squared_radius_ratio
 from ninedof.sweep.tables import atlas_table
 
@@ -37,7 +34,7 @@ class Atlas(Job):
 
 def atlas(job: Atlas) -> None:
     """Survey the hexagonal family: the distribution of its designs, and the best for each size of the base."""
-    result, folder = job.compute(partial(survey, job.designs, job.seed), f"{job.designs:,} designs")
+    result, folder = job.compute(partial(nd.atlas, job.designs, job.seed), f"{job.designs:,} designs")
     rows = [
         {
             "radius_ratio": float(low),
@@ -51,11 +48,11 @@ def atlas(job: Atlas) -> None:
     job.write(result, folder, data, atlas_table(rows), lambda: _figures(result))
 
 
-def _figures(result: SweepResult) -> Iterator[tuple[str, Any]]:
+def _figures(result: nd.SweepResult) -> Iterator[tuple[str, Any]]:
     """Yield the figure, with the paper's optimum marked."""
     from ninedof import plot
 
-    best = optimize(Study.paper()).best
+    best = nd.optimize(nd.Study.paper()).best
     assert best is not None, "the paper's study has an optimum"
     sides = np.array([[best.variables[name] for name in HEXAGONAL]])
     yield "atlas", plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number))

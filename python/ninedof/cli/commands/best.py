@@ -10,15 +10,14 @@ from typing import Any
 
 import numpy as np
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import with_length
 from ninedof.cli.options import LC, LEG_LIMITS, Two, ends, option, struct
 from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home
 from ninedof.cli.screen import DONE, NO_RESULT
-from ninedof.conditioning.conditioning import condition_number
-from ninedof.redundancy.redundancy import CRITERIA, InternalPoint, best_internal_point
+from ninedof.redundancy.redundancy import CRITERIA
 from ninedof.sheet.pose_words import decimals_of, fixed, vector_words
-from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
@@ -54,7 +53,7 @@ def best(options: BestOptions) -> Answer:
     limits: Any = chosen.permitted_lengths if options.legs is None else options.legs
     length = length_at_home(chosen)
     how = {"criterion": options.criterion, "limits": limits, "characteristic_length": length}
-    result = best_internal_point(chosen.geometry, c.position, c.rotation, **how, start=c.internal_point)
+    result = nd.best_internal_point(chosen.geometry, c.position, c.rotation, **how, start=c.internal_point)
     now = _now(at, options.criterion, length)
     words, small = WORDS[options.criterion], options.criterion == "condition_number"
     if len(c) == 1:
@@ -76,13 +75,13 @@ def best(options: BestOptions) -> Answer:
 def _now(at: DesignAtPoses, criterion: str, length: float) -> Floats | None:
     """Return the criterion where O is; None for one that depends on limits."""
     if criterion == "condition_number":
-        return np.asarray(condition_number(at.chosen.geometry, at.c, length))
+        return np.asarray(nd.condition_number(at.chosen.geometry, at.c, length))
     if criterion == "singularity":
-        return np.asarray(np.min(np.abs(np.stack(singularity_margins(at.chosen.geometry, at.c))), axis=0))
+        return np.asarray(np.min(np.abs(np.stack(nd.singularity_margins(at.chosen.geometry, at.c))), axis=0))
     return None
 
 
-def _over_poses(result: InternalPoint, now: Floats | None, words: str, small: bool) -> Iterator[str]:
+def _over_poses(result: nd.InternalPoint, now: Floats | None, words: str, small: bool) -> Iterator[str]:
     """Yield the worst over all poses, and how the searches ended."""
     if len(result.value) > SHOWN:
         yield f"the {SHOWN} worst of {len(result.value)} poses"
@@ -94,7 +93,7 @@ def _over_poses(result: InternalPoint, now: Floats | None, words: str, small: bo
     yield "; ".join([*ended, ", ".join(f"{count} {status}" for status, count in statuses.items())])
 
 
-def _words(at: DesignAtPoses, result: InternalPoint, now: Floats | None, words: str) -> Iterator[str]:
+def _words(at: DesignAtPoses, result: nd.InternalPoint, now: Floats | None, words: str) -> Iterator[str]:
     """Yield O and the criterion at one pose, as they are and at the best."""
     if now is not None:
         yield f"O now {_point(at.c.internal_point[0], at.chosen.unit)}: {words} {now[0]:.6g}"
@@ -104,7 +103,7 @@ def _words(at: DesignAtPoses, result: InternalPoint, now: Floats | None, words: 
     yield f"{result.status[0]}; limits reached: {', '.join(result.active[0]) or 'nothing'}"
 
 
-def _table(at: DesignAtPoses, result: InternalPoint, now: Floats | None, words: str, small: bool) -> Table:
+def _table(at: DesignAtPoses, result: nd.InternalPoint, now: Floats | None, words: str, small: bool) -> Table:
     """Return O and the criterion, as it is and at the best, for the poses that are worst now."""
     c, points = at.c, result.configuration.internal_point
     order = np.arange(len(c)) if now is None else np.argsort(-now if small else now, kind="stable")

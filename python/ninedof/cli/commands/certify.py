@@ -6,16 +6,13 @@ import math
 from contextlib import suppress
 from typing import Any
 
-import typer
-
+import ninedof as nd
 from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.options import THREADS, Options, argument, option, struct
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
-from ninedof.optimize.result import Result
 from ninedof.proof.machine import tolerances_of
-from ninedof.proof.machine_record import MachineCertificate, outward
-from ninedof.records.certificate import certificate_file, load_certificate, save_certificate
-from ninedof.records.load import load
+from ninedof.proof.machine_record import outward
+from ninedof.records.certificate import certificate_file, save_certificate
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.arguments import finite
@@ -50,7 +47,7 @@ class CertifyOptions(Options):
     threads: int | None = option(THREADS)
 
 
-def certify(options: CertifyOptions) -> None:
+def certify(options: CertifyOptions) -> Answer:
     """Prove that a machine keeps its limits at every pose of its region, not only at those looked at."""
     screen = Screen(options.json)
     run = options.run
@@ -61,14 +58,14 @@ def certify(options: CertifyOptions) -> None:
         "threads": options.threads or 0,
     }
     tolerance = None if options.tolerance is None or options.tolerance == LARGEST else _length(options.tolerance)
-    result = load(run)
-    if not isinstance(result, Result):
+    result = nd.load(run)
+    if not isinstance(result, nd.Result):
         raise ValueError(
             f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
         )
     file = certificate_file(run)
     try:
-        earlier = load_certificate(run) if file.exists() else None
+        earlier = nd.load_certificate(run) if file.exists() else None
     except ValueError as error:
         raise ValueError(f"{error}; once it is removed, the proof begins anew") from None
     goes_on()
@@ -83,7 +80,7 @@ def certify(options: CertifyOptions) -> None:
         earlier = None
     states = []
 
-    def keep(so_far: MachineCertificate) -> None:
+    def keep(so_far: nd.MachineCertificate) -> None:
         with suppress(OSError):  # a full disk: the proof is worth more than its states
             states.append(save_certificate(so_far, file))
 
@@ -107,12 +104,10 @@ def certify(options: CertifyOptions) -> None:
     answer = Answer([certificate_table(certificate), *sentences], data)
     write_job(screen, answer, lambda _: save_certificate(certificate, file))
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
-    screen.data(data | {"file": str(file)})
-    if certificate.interrupted:
-        raise typer.Exit(INTERRUPTED)
-    if certificate.left_count:
+    status = DONE if certificate.proved and not certificate.left_count else NO_RESULT
+    if certificate.left_count and not certificate.interrupted:
         ended_by_time()
-    raise typer.Exit(DONE if certificate.proved and not certificate.left_count else NO_RESULT)
+    return Answer([], data | {"file": str(file)}, INTERRUPTED if certificate.interrupted else status)
 
 
 def _length(given: str) -> float:
@@ -123,7 +118,7 @@ def _length(given: str) -> float:
         raise ValueError(f'--tolerance: got {given!r}, expected a length from 0 on, or "{LARGEST}"') from None
 
 
-def _largest(certificate: MachineCertificate) -> str:
+def _largest(certificate: nd.MachineCertificate) -> str:
     """Return what is said of the largest tolerances."""
     built = certificate.tolerances
     if built:
@@ -136,7 +131,7 @@ def _largest(certificate: MachineCertificate) -> str:
     )
 
 
-def certificate_table(certificate: MachineCertificate) -> Table:
+def certificate_table(certificate: nd.MachineCertificate) -> Table:
     """Return what is proved of legs, limits and condition number at every pose."""
     heads = columns("at every pose", "limit", ">proved", ">margin", "")
     unit, rows = certificate.unit, list[Any]()

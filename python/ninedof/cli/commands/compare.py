@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.compared import compared, plot_argument
 from ninedof.cli.options import DESIGN, PLOT, Options, argument, option, struct
-from ninedof.sheet.comparison import compare as compare_designs
 
 PLACE = 3
 EXAMPLES = """[bold]Examples[/bold]
@@ -30,7 +30,7 @@ def compare(options: CompareOptions) -> Answer:
     """Print two or three machines beside each other: numbers, limits, what differs in their studies."""
     plot_argument(options.plot)
     chosen = [named_design(name) for name in options.designs]
-    comparison = compare_designs(*(one.machine for one in chosen))
+    comparison = nd.compare(*(one.machine for one in chosen))
     legend = [f"{letter}: {name}" for letter, name in zip(comparison.names, options.designs, strict=True)]
     answer = compared(comparison, options.plot, legend)
     data = answer.data | {"designs": list(options.designs)}

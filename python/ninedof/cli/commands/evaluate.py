@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.changes import changes_option
 from ninedof.cli.chosen_design import Chosen, chosen_design, named_design
@@ -15,10 +16,7 @@ from ninedof.cli.compared import compared, plot_argument
 from ninedof.cli.options import ONE_DESIGN, PLOT, HexagonalOptions, argument, option, struct
 from ninedof.cli.posed import beyond_words
 from ninedof.design.indices import computed
-from ninedof.optimize.result import Status
 from ninedof.records.design_file import indices
-from ninedof.sheet.comparison import compare
-from ninedof.sheet.sheet import sheet
 from ninedof.sheet.tables import limits_table, poses_table
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.units import unit_entry
@@ -65,9 +63,9 @@ def evaluate(options: EvaluateOptions) -> Answer:
     if not 0.0 < chosen.configuration.internal_point[2] < chosen.duty.zp(chosen.configuration):
         parts.append("O is not between base and platform: studies require 0 < zs < zp.")
     if chosen.result is not None:
-        if chosen.result.status == Status.INFEASIBLE:
+        if chosen.result.status == nd.Status.INFEASIBLE:
             parts.append(f"{chosen.result.status}: {chosen.result.reason}")
-        of_run = sheet(chosen.result, characteristic_length=chosen.characteristic_length)
+        of_run = nd.sheet(chosen.result, characteristic_length=chosen.characteristic_length)
         parts += beyond_words(chosen.geometry, chosen.configuration, of_run.configurations)
         parts += [poses_table(of_run)] if len(of_run.configurations) > 1 else []
         parts += [limits_table(of_run)] if of_run.limits else []
@@ -84,7 +82,7 @@ def _changed(options: EvaluateOptions) -> Answer:
     if result is None:
         raise ValueError(f"--set: got {options.design or 'no design'}, expected a run, whose study has variables")
     changes = changes_option(options.changes or ())
-    return compared(compare(result, result.with_changes(**changes), names=("run", "changed")), options.plot)
+    return compared(nd.compare(result, result.with_changes(**changes), names=("run", "changed")), options.plot)
 
 
 def _table(values: dict[str, Any], chosen: Chosen) -> Table:

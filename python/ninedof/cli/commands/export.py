@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct
-from ninedof.export.export import export as write
 from ninedof.export.export import formats
 from ninedof.export.model import Format
 from ninedof.support.arguments import choice
@@ -59,7 +59,7 @@ def export(options: ExportOptions) -> Answer:
         own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
     unit = chosen.unit if options.unit is None else unit_argument(options.unit)
     try:
-        path = write(chosen.machine, row.name, file, unit=unit, **more)
+        path = nd.export(chosen.machine, row.name, file, unit=unit, **more)
     except MissingExtra as error:
         raise ValueError(str(error)) from None
     return Answer([f"{row.words}: {path}"], {"format": row.name, "file": str(path)})

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import LOAD, ONE_DESIGN, Options, argument, option, struct
 from ninedof.cli.posed import loads_option
-from ninedof.sheet.failure.failure import failure as failure_of
 from ninedof.sheet.failure.tables import failure_parts
 
 PLACE = 3
@@ -37,7 +37,7 @@ def failure(options: FailureOptions) -> Answer:
     Over the poses of the study, of a region study over its region. Loads and masses of a run's study are taken.
     """
     chosen = named_design(options.design)
-    result = failure_of(
+    result = nd.failure(
         chosen.machine,
         condition_number=options.condition,
         loads=loads_option(options.load) or None,

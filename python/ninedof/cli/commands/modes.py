@@ -6,16 +6,12 @@ from typing import Any
 
 import numpy as np
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import option, struct
 from ninedof.cli.posed import PoseOptions, length_at_home, poses_data, several
 from ninedof.cli.screen import DONE, NO_RESULT
-from ninedof.conditioning.conditioning import condition_number
-from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.position.certificate import ModesCertificate
-from ninedof.position.position import AssemblyModes, forward_position
 from ninedof.proof.machine_record import outward
-from ninedof.robot.configuration import Configuration
 from ninedof.sheet.pose_words import decimals_of, fixed, turn_deg
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry, with_unit
@@ -50,11 +46,11 @@ def modes(options: ModesOptions) -> Answer:
         raise ValueError("--lengths: got a pose beside it, expected one of the two")
     at = options.at()
     g, unit = at.chosen.geometry, at.chosen.unit
-    lengths = leg_lengths(g, at.c)[0]
+    lengths = nd.leg_lengths(g, at.c)[0]
     if options.lengths is not None:
         lengths = np.array(several("--lengths", options.lengths, "l1 l2 l3 q1 q2 q3 r1 r2 r3"))
-    result = forward_position(g, lengths, certify=options.certify)
-    kappa = condition_number(g, result, length_at_home(at.chosen)) if result.count else np.zeros(0)
+    result = nd.forward_position(g, lengths, certify=options.certify)
+    kappa = nd.condition_number(g, result, length_at_home(at.chosen)) if result.count else np.zeros(0)
     this = _this(result, float(lengths.max()), at.c) if options.lengths is None else -1
     certain = "" if result.certain else ", the count is not sure"
     parts: list[Any] = [f"{result.count} assembly modes: {result.status}{certain}"]
@@ -79,7 +75,7 @@ def modes(options: ModesOptions) -> Answer:
     return Answer(parts, unit_entry(unit) | data, DONE if result.count else NO_RESULT)
 
 
-def _this(result: AssemblyModes, size: float, c: Configuration) -> int:
+def _this(result: nd.AssemblyModes, size: float, c: nd.Configuration) -> int:
     """Return the number of the mode that is the given pose, -1 without one."""
     moved = (result.position - c.position[0]) / size, (result.internal_point - c.internal_point[0]) / size
     apart = (*moved, (result.rotation - c.rotation[0]).reshape(-1, 9))
@@ -87,7 +83,7 @@ def _this(result: AssemblyModes, size: float, c: Configuration) -> int:
     return int(near[0]) if len(near) == 1 else -1
 
 
-def _proof(proof: ModesCertificate) -> str:
+def _proof(proof: nd.ModesCertificate) -> str:
     """Return what is proved in a sentence."""
     boxes = f"({proof.boxes} boxes)"
     if proof.complete:
@@ -96,7 +92,7 @@ def _proof(proof: ModesCertificate) -> str:
     return f"proved: {proof.proved} modes; {proof.undecided} boxes are undecided and may hold others {boxes}"
 
 
-def _table(result: AssemblyModes, kappa: Floats, this: int, neutral: Floats, unit: str) -> Table:
+def _table(result: nd.AssemblyModes, kappa: Floats, this: int, neutral: Floats, unit: str) -> Table:
     """Return a row for each mode: p, the rotation vector from the neutral orientation, O, the condition number."""
     p, o = (f"{with_unit(name, unit)}\nx" for name in ("p", "O"))
     heads = columns(">", f">{p}", *YZ, ">turn °\nx", *YZ, f">{o}", *YZ, ">cond.\nno.")

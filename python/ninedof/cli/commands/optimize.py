@@ -11,25 +11,20 @@ from typing import Any
 
 import typer
 
+import ninedof as nd
 from ninedof.cli.answer import Answer, folder_words, write_job
 from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, struct
 from ninedof.cli.screen import Screen, bold, exit_status
-from ninedof.design.study import Study
-from ninedof.optimize.bounds import applicable_bounds
-from ninedof.optimize.check import check as examine
-from ninedof.optimize.optimize import optimize as solve
-from ninedof.optimize.result import Result, Status, with_fixed_design
+from ninedof.optimize.result import with_fixed_design
 from ninedof.optimize.tables import agreement_words, best_prices, candidates_table, proof_words
 from ninedof.paper.comparison import Comparison, compare, comparison_table, comparison_words
 from ninedof.proof.optimum import left_out_of
 from ninedof.records.figures import figures_of
 from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
-from ninedof.sheet.sheet import sheet
 from ninedof.sheet.tables import limits_table
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.arguments import finite
-from ninedof.support.arrays import thread_argument
 from ninedof.support.command import ended_by_time
 from ninedof.support.units import amount, unit_entry
 
@@ -66,9 +61,8 @@ class OptimizeOptions(JobOptions):
 def optimize(options: OptimizeOptions) -> None:
     """Find the best design of a study: by default, the design with the least condition number."""
     screen = Screen(options.json)
-    thread_argument(options.threads)
     file = options.study
-    study = (Study.paper() if file is None else Study.load(file)).with_solver(options.starts, options.seed)
+    study = (nd.Study.paper() if file is None else nd.Study.load(file)).with_solver(options.starts, options.seed)
     if options.convergence and not options.figures:
         raise ValueError("--convergence: got it with --no-figures, expected one of the two")
     if options.time is not None and not finite("--time", options.time) > 0.0:
@@ -89,17 +83,17 @@ def optimize(options: OptimizeOptions) -> None:
     write = partial(write_run, run, directory)
     record = write_job(screen, Answer(answer.parts, data), write, draw, with_figures and options.report)
     if options.check and result.best is not None and not result.interrupted:
-        verdict = examine(result)
+        verdict = nd.check(result)
         screen.print(verdict.report())
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
     screen.print(folder_words(directory))
     screen.data({**data, "record": str(record)})
-    if options.time is not None and result.status == Status.STOPPED and not result.interrupted:
+    if options.time is not None and result.status == nd.Status.STOPPED and not result.interrupted:
         ended_by_time(without="--time")
     raise typer.Exit(exit_status(result, timed=options.time is not None))
 
 
-def _solve(study: Study, file: Path | None, how: dict[str, Any], screen: Screen) -> Comparison | Result:
+def _solve(study: nd.Study, file: Path | None, how: dict[str, Any], screen: Screen) -> Comparison | nd.Result:
     if file is None:
         with screen.bar("starts", "the paper's problem") as bar:
             return compare(study.starts, study.seed, progress=bar, **how)
@@ -110,7 +104,7 @@ def _solve(study: Study, file: Path | None, how: dict[str, Any], screen: Screen)
         ends = amount(f"[{low:g}, {high:g}]", study.unit_of(variable))
         screen.print(f"{variable} is not given: {ends} assumed")
     with screen.bar("starts", file.name) as bar:
-        return solve(replace(study), progress=bar, **how)  # without the notes, which were printed
+        return nd.optimize(replace(study), progress=bar, **how)  # without the notes, which were printed
 
 
 def _comparison_parts(comparison: Comparison) -> Iterator[Any]:
@@ -122,17 +116,17 @@ def _comparison_parts(comparison: Comparison) -> Iterator[Any]:
         yield bold(comparison.result.status, f": {comparison.result.reason}")
 
 
-def _result_parts(result: Result) -> Iterator[Any]:
+def _result_parts(result: nd.Result) -> Iterator[Any]:
     yield bold(result.status, f": {result.reason}")
     shown = with_fixed_design(result)
     if shown is not result:
         yield f"no variable is free; the design of the study has {result.words} {shown.objective:.6f}"
-        yield from [limits_table(sheet(shown))] if result.study.limits else []
+        yield from [limits_table(nd.sheet(shown))] if result.study.limits else []
     if result.candidates:
         yield candidates_table(result)
         *others, agreement = agreement_words(result)
         yield from (*others, *best_prices(result), agreement)
-        yield from (bound.sentence for bound in applicable_bounds(result) if bound.name != "certificate")
+        yield from (bound.sentence for bound in nd.applicable_bounds(result) if bound.name != "certificate")
         yield from architecture_sentences(result, result.study.unit)
         if result.proof is not None:
             yield bold(*proof_words(result))

@@ -11,7 +11,6 @@ from ninedof.cli.screen import Screen
 from ninedof.paper.verdicts import verdicts, verdicts_table
 from ninedof.records.folder import run_folder
 from ninedof.records.record import Record, write_drawn
-from ninedof.support.arrays import thread_argument
 from ninedof.support.store import Store
 
 PLACE = 7
@@ -35,7 +34,6 @@ class PaperOptions(Options):
 def paper(options: PaperOptions) -> None:
     """Print every number of the paper beside ours, and a verdict on each; with --figures, draw its figures anew."""
     screen = Screen(options.json)
-    thread_argument(options.threads)
     if options.out is not None and not options.figures:
         raise ValueError(f"--out: got {options.out} without --figures, expected both")
     if not options.figures:

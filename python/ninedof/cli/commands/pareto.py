@@ -8,21 +8,17 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import ninedof as nd
 from ninedof.cli.answer import Answer, finish_job
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, struct
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
-from ninedof.design.study import Study
-from ninedof.optimize.result import Result
-from ninedof.pareto import Front
-from ninedof.pareto import pareto as trace_front
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limits import TOLERANCE, with_degrees
 from ninedof.records.folder import run_folder
 from ninedof.records.load import split
 from ninedof.records.record import write_run
-from ninedof.support.arrays import thread_argument
 
 PLACE = 2
 EXAMPLES = """[bold]Examples[/bold]
@@ -63,7 +59,6 @@ class ParetoOptions(JobOptions):
 def pareto(options: ParetoOptions) -> None:
     """Compute the least condition number for each value of a limit."""
     screen = Screen(options.json)
-    thread_argument(options.threads)
     least = 0.0 if options.against == TOLERANCE else math.ulp(0.0)  # 0 is the machine as it is drawn
     for limit in options.value or ():
         if not least <= limit < math.inf:
@@ -82,7 +77,7 @@ def pareto(options: ParetoOptions) -> None:
         screen.print(study.length_note)
     with run_folder(options.out) as directory, screen.bar("limits", f"{name}, {against}") as bar:
         how: dict[str, Any] = {"threads": options.threads, "progress": bar.show, "out": directory}
-        front = trace_front(replace(study), against, options.value or None, points=options.points, **how)
+        front = nd.pareto(replace(study), against, options.value or None, points=options.points, **how)
     parts: list[Any] = [front_table(front)] if front.limits else []
     if front.interrupted:
         count = "1 limit is" if len(front) == 1 else f"{len(front)} limits are"
@@ -95,19 +90,19 @@ def pareto(options: ParetoOptions) -> None:
     finish_job(screen, directory, answer, partial(write_run, front, directory), draw, report)
 
 
-def _study_of(study: Path | None) -> tuple[Study, Result | None]:
+def _study_of(study: Path | None) -> tuple[nd.Study, nd.Result | None]:
     """Return the study of a file, or that of a run with its result; that of the paper without either."""
     if study is None:
-        return Study.paper(), None
+        return nd.Study.paper(), None
     place, point = split(str(study))
     if not point and not place.is_dir() and place.suffix != ".json":
-        return Study.load(study), None
+        return nd.Study.load(study), None
     run = named_design(str(study)).result
     assert run is not None  # a run folder
     return run.study, run
 
 
-def _dearest(run: Result) -> str:
+def _dearest(run: nd.Result) -> str:
     """Return the limit of a run whose relaxation buys most."""
     prices = run.prices or {}
     names = [name for name in prices if split_label(name)[0] in names_with_max() or name == "condition_limit"]
@@ -118,7 +113,7 @@ def _dearest(run: Result) -> str:
     return max(names, key=lambda name: prices[name])
 
 
-def _draw(front: Front, screen: Screen, directory: Path) -> list[Path]:
+def _draw(front: nd.Front, screen: Screen, directory: Path) -> list[Path]:
     screen.say("drawing the front")
     from ninedof import plot
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+import ninedof as nd
 from ninedof.cli.answer import Answer, finish_job
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.options import (
@@ -26,15 +27,12 @@ from ninedof.cli.options import (
 )
 from ninedof.cli.posed import rule_option
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
-from ninedof.design.study import Study
-from ninedof.motion import Followed, Trajectory, follow
 from ninedof.motion.tables import motion_tables, motion_words
 from ninedof.records.folder import run_folder
 from ninedof.records.motion import plain, write_motion
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.duty import masses_of
-from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
 
@@ -116,7 +114,7 @@ def path(options: PathOptions) -> None:
         question |= options.shapes | {"duration": trajectory.time[-1], "points": len(trajectory)}
     with run_folder(options.out) as directory, Store(directory, {"kind": "motion", **question}):
         length = chosen.characteristic_length
-        result = follow(
+        result = nd.follow(
             g,
             trajectory,
             home,
@@ -126,7 +124,7 @@ def path(options: PathOptions) -> None:
             masses=masses,
             gravity=gravity,
         )
-    of_study = path_limits(study, result, home) if study else None
+    of_study = nd.path_limits(study, result, home) if study else None
     motion = plain(result, of_study)
     parts: list[Any] = [*motion_tables(motion), *(bold(*words) for words in motion_words(result, motion))]
     if masses is not None and options.mass is None:
@@ -138,7 +136,7 @@ def path(options: PathOptions) -> None:
     finish_job(screen, directory, answer, write, drawing, options.figures and options.report)
 
 
-def _trajectory(chosen: Chosen, options: PathOptions) -> Trajectory:
+def _trajectory(chosen: Chosen, options: PathOptions) -> nd.Trajectory:
     """Return the one trajectory of the options."""
     home, shapes = chosen.configuration, options.shapes
     times = {name: value for name in ("duration", "points") if (value := getattr(options, name)) is not None}
@@ -149,15 +147,15 @@ def _trajectory(chosen: Chosen, options: PathOptions) -> Trajectory:
     if options.file is not None:
         for name, value in times.items():
             raise ValueError(f"--{name}: got {value}, expected none with a file: it has its own times")
-        return Trajectory.load(options.file, home, chosen.unit)
+        return nd.Trajectory.load(options.file, home, chosen.unit)
     ((name, value),) = shapes.items()
-    trajectory: Trajectory = getattr(Trajectory, name)(
+    trajectory: nd.Trajectory = getattr(nd.Trajectory, name)(
         home, *(value if name == "spiral" else (value,)), **times, unit=chosen.unit
     )
     return trajectory
 
 
-def _load(options: PathOptions, duty: Study) -> tuple[Any, Any, list[str]]:
+def _load(options: PathOptions, duty: nd.Study) -> tuple[Any, Any, list[str]]:
     """Return force and moment of the options, or of each load of a study, and what the study states of them."""
     wrenches = duty.loads.wrenches
     if options.force is not None or options.moment is not None or not wrenches:
@@ -166,7 +164,7 @@ def _load(options: PathOptions, duty: Study) -> tuple[Any, Any, list[str]]:
     return rows[..., 3:], rows[..., :3], ["[loads]" if len(wrenches) == 1 else f"{len(wrenches)} loads of [loads]"]
 
 
-def _rule(text: str | None, study: Study | None) -> str | float:
+def _rule(text: str | None, study: nd.Study | None) -> str | float:
     """Return the rule for O: that of the option, or of the region of a study."""
     if text is not None:
         return rule_option(text)
@@ -174,7 +172,7 @@ def _rule(text: str | None, study: Study | None) -> str | float:
     return "carried" if region is None else region.internal_point
 
 
-def _draw(result: Followed, screen: Screen, of_study: PathLimits | None, directory: Path) -> list[Path]:
+def _draw(result: nd.Followed, screen: Screen, of_study: nd.PathLimits | None, directory: Path) -> list[Path]:
     """Draw lengths, condition number and the margins of a study's limits; return the files."""
     screen.say("drawing the motion")
     from ninedof import plot

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import Options, argument, option, struct
-from ninedof.report.report import report as write_report
 from ninedof.support.files import own_or_new
 
 PLACE = 3
@@ -32,6 +32,6 @@ def report(options: ReportOptions) -> Answer:
     """Write a run as one page of HTML: question, answer, the machine to turn by hand, sheet, figures, proof."""
     if options.out is not None:
         own_or_new("--out", options.out, MARK)
-    file = write_report(options.run, options.out)
+    file = nd.report(options.run, options.out)
     size = file.stat().st_size / 1e6
     return Answer([f"report {file}, {size:.2f} MB: open it in a browser"], {"report": str(file)})

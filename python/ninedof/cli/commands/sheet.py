@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+import ninedof as nd
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import (
     JOINT_ERROR,
@@ -20,7 +21,6 @@ from ninedof.cli.options import (
 )
 from ninedof.cli.posed import loads_option, several
 from ninedof.cli.screen import Screen
-from ninedof.sheet.sheet import sheet as sheet_of
 from ninedof.sheet.tables import sheet_parts
 from ninedof.support.arguments import finite
 from ninedof.support.files import own_or_new, write_whole
@@ -74,7 +74,7 @@ def sheet(options: SheetOptions) -> None:
         if (text := getattr(options, name)) is not None
     }
     turn = options.turn_deg
-    result = sheet_of(
+    result = nd.sheet(
         chosen.machine,
         linear_speed=options.speed,
         angular_speed=None if turn is None else math.radians(finite("--turn-deg", turn, 0.0)),

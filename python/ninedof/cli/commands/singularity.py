@@ -7,20 +7,14 @@ from typing import Any
 
 import numpy as np
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import option, struct
 from ninedof.cli.posed import DesignAtPoses, PosesOptions, several
-from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import arrays_of
 from ninedof.sheet.pose_words import pose_words
 from ninedof.sheet.tables import MECHANISMS
-from ninedof.singularity.singularity import singularity as singularity_of
-from ninedof.singularity.singularity_distance import (
-    PARTS,
-    NearestSingularity,
-    distance_to_singularity,
-    nearest_singularity,
-)
+from ninedof.singularity.singularity_distance import PARTS
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 from ninedof.tables import RIGHT, Column, Table
@@ -63,7 +57,7 @@ def singularity(options: SingularityOptions) -> Answer:
     if motion is not None and not motion.any():
         raise ValueError(f"--direction: got {options.direction!r}, expected a motion that is not zero")
     at = options.at()
-    here = singularity_of(at.chosen.geometry, at.c)
+    here = nd.singularity(at.chosen.geometry, at.c)
     parts: list[Any] = []
     for name, values in here.margins._asdict().items():
         k = int(np.argmin(np.abs(values)))
@@ -74,7 +68,7 @@ def singularity(options: SingularityOptions) -> Answer:
 
 def _along(at: DesignAtPoses, motion: Floats, most: float) -> tuple[list[Any], dict[str, Any]]:
     """Return the first singularity on one motion, in words and as data."""
-    result = distance_to_singularity(at.chosen.geometry, at.c, motion, most)
+    result = nd.distance_to_singularity(at.chosen.geometry, at.c, motion, most)
     k = int(np.argmin(result.distance))
     if math.isfinite(result.distance[k]):
         there = pose_words(at.c[k].moved(result.distance[k] * motion), at.chosen.configuration.rotation, at.chosen.unit)
@@ -89,13 +83,13 @@ def _along(at: DesignAtPoses, motion: Floats, most: float) -> tuple[list[Any], d
 def _coordinates(at: DesignAtPoses) -> tuple[list[Any], dict[str, Any]]:
     """Return the distances along the coordinates, and the nearest singularities in any direction."""
     g, c, length_unit = at.chosen.geometry, at.c, at.chosen.unit
-    reach = 2.0 * float(leg_lengths(g, c).max())
+    reach = 2.0 * float(nd.leg_lengths(g, c).max())
     nearest, out, rows = [], {}, list[Any]()
     for part, (name, degree, factor) in GROUPS.items():
         far = math.pi if degree else reach
         motions = np.zeros((6, 9))
         motions[:, PARTS[part] : PARTS[part] + 3] = far * np.concatenate([-np.eye(3), np.eye(3)])
-        result = distance_to_singularity(g, c[:, None], motions)
+        result = nd.distance_to_singularity(g, c[:, None], motions)
         pose, axes = np.argmin(result.distance, axis=0), np.arange(6)
         least, kinds = factor * far * result.distance[pose, axes], result.mechanism[pose, axes]
 
@@ -107,7 +101,7 @@ def _coordinates(at: DesignAtPoses) -> tuple[list[Any], dict[str, Any]]:
             backward, forward = ((text(least[j], 4), str(kinds[j])) for j in (k, k + 3))
             rows.append((f"{name} {axis}", *backward, *forward))
         rows.append(())
-        one = nearest_singularity(g, c, part, far)
+        one = nd.nearest_singularity(g, c, part, far)
         nearest.append(_nearest(name, text(factor * one.distance, 5), one, at))
         out[part + ("_deg" if degree else "")] = {
             "backward": least[:3],
@@ -129,7 +123,7 @@ def _coordinates(at: DesignAtPoses) -> tuple[list[Any], dict[str, Any]]:
     return [Table("Distance to the first singularity", columns, rows), *kinds_words, *nearest], {"distance": out}
 
 
-def _nearest(name: str, distance: str, one: NearestSingularity, at: DesignAtPoses) -> str:
+def _nearest(name: str, distance: str, one: nd.NearestSingularity, at: DesignAtPoses) -> str:
     """Return the nearest singularity of a part in words."""
     if not math.isfinite(one.distance):
         return f"{name} any axis: no singularity found"

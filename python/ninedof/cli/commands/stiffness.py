@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import LEG_STIFFNESS, option, struct
 from ninedof.cli.posed import PosesOptions
-from ninedof.sheet.sheet import sheet
-from ninedof.statics.statics import stiffness as stiffness_of
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import Floats
 from ninedof.support.units import per, times
@@ -41,8 +40,8 @@ def stiffness(options: StiffnessOptions) -> Answer:
     finite("--leg-stiffness", options.leg_stiffness, 0.0)
     at = options.at()
     unit = at.chosen.unit
-    result = stiffness_of(at.chosen.geometry, at.c, options.leg_stiffness)
-    least = sheet(at.chosen.geometry, at.c, leg_stiffness=options.leg_stiffness).stiffness
+    result = nd.stiffness(at.chosen.geometry, at.c, options.leg_stiffness)
+    least = nd.sheet(at.chosen.geometry, at.c, leg_stiffness=options.leg_stiffness).stiffness
     assert least is not None, "a stiffness was given"
     least = least._replace(**{name: one._replace(pose=at.first(one.pose)) for name, one in least._asdict().items()})
     values = [f"{one.value:.5g}{f' (pose {one.pose})' if len(at.c) > 1 else ''}" for one in least]

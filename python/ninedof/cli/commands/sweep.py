@@ -9,17 +9,14 @@ from typing import Any
 
 import numpy as np
 
+import ninedof as nd
 from ninedof.cli.chosen_design import Chosen, chosen_design, named_design, with_length
 from ninedof.cli.options import DESIGN, SIDES, THREADS, HexagonalOptions, argument, option, struct
 from ninedof.cli.sweep_job import Job, describe, json_data
 from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
 from ninedof.design.indices import computed
-from ninedof.paper.sweeps import sweep_figure
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
-from ninedof.support.arrays import thread_argument
-from ninedof.sweep import SweepResult, sweep_designs
-from ninedof.sweep import sweep as sweep_poses
 from ninedof.sweep.axis import Values
 from ninedof.sweep.poses import COORDINATES, ROTATION
 from ninedof.sweep.tables import summary_table
@@ -66,11 +63,10 @@ class Sweep(HexagonalOptions, Job):
 
 def sweep(job: Sweep) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
-    thread_argument(job.threads)
     what, chosen, note = job.what, None, ""
     if what in FIGURES:
         _expect_none(f"with {what}", job, NONE_WITH_FIGURES)
-        call: Callable[..., SweepResult] = partial(sweep_figure, what.removeprefix("figure-"), job.points)
+        call: Callable[..., nd.SweepResult] = partial(nd.sweep_figure, what.removeprefix("figure-"), job.points)
         title = what.replace("figure-", "Fig. ")
     else:
         grid = _grid(job)
@@ -85,7 +81,7 @@ def sweep(job: Sweep) -> None:
             design, own = swept_design(what, chosen, job, grid)
             note = _note(chosen, "at the neutral pose alone")
             own["chunk"] = job.chunk
-            call = partial(sweep_designs, design, grid, job.index or "condition_number", **own)
+            call = partial(nd.sweep_designs, design, grid, job.index or "condition_number", **own)
     result, folder = job.compute(call, title)
     title += f"; {note}" * bool(note)
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
@@ -102,12 +98,12 @@ def _note(chosen: Chosen | None, where: str) -> str:
     return f"{where}, not over the {'region' if study.objective.region else 'poses'} of the study"
 
 
-def _over_poses(chosen: Chosen | None, job: Sweep, grid: Mapping[str, Values]) -> Callable[..., SweepResult]:
+def _over_poses(chosen: Chosen | None, job: Sweep, grid: Mapping[str, Values]) -> Callable[..., nd.SweepResult]:
     """Return the sweep over coordinates of a design, or of the published one at its best zs."""
     if chosen is None:
         chosen = chosen_design(None, job) if job.given() else with_length(named_design(None), job.lc)
     return partial(
-        sweep_poses,
+        nd.sweep,
         chosen.geometry,
         chosen.configuration,
         grid,
@@ -167,7 +163,7 @@ def parse_over(text: str) -> tuple[str, Values]:
         raise ValueError(f"--over: got {text!r}, expected {expected}") from None
 
 
-def _figures(result: SweepResult, what: str | None, note: str) -> Iterator[tuple[str, Any]]:
+def _figures(result: nd.SweepResult, what: str | None, note: str) -> Iterator[tuple[str, Any]]:
     """Yield the name of each figure with the figure: one for each index."""
     from ninedof import plot
     from ninedof.paper import figures

@@ -17,7 +17,6 @@ from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.support.arrays import thread_argument
 from ninedof.support.store import Store
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap, certified_workspace
 from ninedof.workspace import workspace as find_workspace
@@ -50,7 +49,6 @@ def workspace(options: WorkspaceOptions) -> None:
     between the plates. Of a region study, the box is about the region, which is outlined, and O follows its rule.
     """
     screen = Screen(options.json)
-    thread_argument(options.threads)
     chosen = with_length(named_design(options.design), options.lc)
     question = question_of(options, chosen)
     home, region = chosen.configuration, question.region
