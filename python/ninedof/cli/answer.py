@@ -10,7 +10,8 @@ from typing import Any, NamedTuple, NoReturn, get_type_hints
 
 import typer
 
-from ninedof.cli.screen import DONE, Screen
+from ninedof.cli.options import JobOptions
+from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.records.record import FILE as RECORD
 from ninedof.report.report import FILE, report
 from ninedof.support.short import one_line
@@ -29,9 +30,8 @@ class Answer(NamedTuple):
     """For --json."""
     status: int = DONE
 
-    def show(self, json: bool) -> None:
+    def show(self, screen: Screen) -> None:
         """Print it and end with its status."""
-        screen = Screen(json)
         screen.print(*self.parts)
         screen.data(self.data)
         raise typer.Exit(self.status)
@@ -47,7 +47,7 @@ def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
         options: Any = kind(**values)
         answer = call(options)
         if answer is not None:
-            answer.show(options.json)
+            answer.show(options.screen)
 
     parsed.__name__, parsed.__doc__ = call.__name__, call.__doc__
     parameters = [Parameter(n, Parameter.KEYWORD_ONLY, default=marks[n], annotation=hints[n]) for n in names]
@@ -87,15 +87,11 @@ def write_job(
 
 
 def finish_job(
-    screen: Screen,
-    folder: Path,
-    answer: Answer,
-    write: Callable[[Draw], Path],
-    draw: Draw | None = None,
-    report: bool = False,
+    options: JobOptions, folder: Path, answer: Answer, write: Callable[[Draw], Path], draw: Draw | None
 ) -> NoReturn:
-    """Write a job, print what is in its run folder, and end with the status of the answer."""
-    record = write_job(screen, answer, write, draw, report)
+    """Write a job, of an interrupted one without figures, print what its folder has, and end with its status."""
+    screen, with_figures = options.screen, options.figures and answer.status != INTERRUPTED
+    record = write_job(screen, answer, write, draw if with_figures else None, with_figures and options.report)
     screen.print(folder_words(folder))
     screen.data({**answer.data, "record": str(record)})
     raise typer.Exit(answer.status)

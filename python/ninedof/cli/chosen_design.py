@@ -6,7 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 import ninedof as nd
-from ninedof.cli.options import SIDES, HexagonalOptions
+from ninedof.cli.options import HEXAGON, SIDES, HexagonalOptions
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.optimize.result import with_fixed_design
 from ninedof.paper.published import published_variables
@@ -77,7 +77,7 @@ def named_design(name: str | None) -> Chosen:
 
 def chosen_design(name: str | None, options: HexagonalOptions) -> Chosen:
     """Return the design that an argument DESIGN names, or that of the sides and heights of the hexagonal family."""
-    values = options.given()
+    values = options.given(*HEXAGON)
     if name is None:
         if missing := [f"--{side}" for side in SIDES if side not in values]:
             expected = "expected a design file or all of a1 a2 b1 b2 zp zs"

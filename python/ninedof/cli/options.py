@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar, dataclass_transform
 
 import typer
+
+from ninedof.cli.screen import Screen
 
 Two = tuple[float, float]
 Three = tuple[float, float, float]
 T = TypeVar("T")
 
 SIDES = ("a1", "a2", "b1", "b2", "zp", "zs")
+HEXAGON = (*SIDES, "theta_z_deg")
 
 THREADS = "Threads; one per processor by default. The result does not depend on it."
 DESIGN = "a design file (TOML), a run folder (its best design), or RUN#7 (point 7 of a front, counted from 1)"
@@ -61,6 +65,22 @@ class Options:
 
     json: bool = option("Print the result as JSON on standard output, text on standard error.", False, "--json")
 
+    @cached_property
+    def screen(self) -> Screen:
+        """The screen that the command prints on."""
+        return Screen(self.json)
+
+    def given(self, *names: str) -> dict[str, Any]:
+        """Return the options of some names that are given."""
+        return {name: value for name in names if (value := getattr(self, name)) is not None}
+
+    def refuse(self, where: str, *names: str) -> None:
+        """Raise for options that have no effect where they are given."""
+        for name, value in self.given(*names).items():
+            if value is not False:
+                got = "it" if value is True else " ".join(value) if isinstance(value, list) else value
+                raise ValueError(f"--{name.replace('_', '-')}: got {got}, expected none {where}")
+
 
 @struct
 class JobOptions(Options):
@@ -85,7 +105,3 @@ class HexagonalOptions(Options):
     zs: float | None = option("Height of the internal point.")
     theta_z_deg: float | None = option("Twist of the platform, degrees; 0 by default.")
     lc: str | None = option(LC)
-
-    def given(self) -> dict[str, float]:
-        """Return the sides, heights and twist that are given."""
-        return {name: x for name in (*SIDES, "theta_z_deg") if (x := getattr(self, name)) is not None}

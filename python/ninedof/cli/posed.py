@@ -38,8 +38,7 @@ class PoseOptions(Options):
 
     def named(self) -> list[str]:
         """Return the options that say where to look."""
-        names = ("position", "rotation_deg", "internal_point")
-        return [f"--{name.replace('_', '-')}" for name in names if getattr(self, name) is not None]
+        return [f"--{name.replace('_', '-')}" for name in self.given("position", "rotation_deg", "internal_point")]
 
     def at(self) -> DesignAtPoses:
         """Return the design at the poses of the options."""

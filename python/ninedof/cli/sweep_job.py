@@ -5,7 +5,7 @@ from __future__ import annotations
 from asyncio import CancelledError
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import nullcontext
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +13,6 @@ import numpy as np
 
 from ninedof.cli.answer import Answer, finish_job
 from ninedof.cli.options import JobOptions, option, struct
-from ninedof.cli.screen import Screen
 from ninedof.design.indices import size_of
 from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
@@ -34,11 +33,6 @@ class Job(JobOptions):
     """The options that a sweep and an atlas share."""
 
     scheduler: str | None = option("Address of a Dask scheduler, as tcp://host:8786; its workers compute the chunks.")
-
-    @cached_property
-    def screen(self) -> Screen:
-        """The screen it prints on."""
-        return Screen(self.json)
 
     def compute(self, call: Callable[..., SweepResult], title: str) -> tuple[SweepResult, Path]:
         """Compute with a progress bar; return the result and the run folder, which keeps finished chunks."""
@@ -77,8 +71,8 @@ class Job(JobOptions):
 
             return [file for name, figure in draw() for file in plot.save(figure, place, name)]
 
-        write, report = partial(write_run, result, folder, question=stated, results=data), self.report and self.figures
-        finish_job(self.screen, folder, Answer([table], data), write, drawn if self.figures else None, report)
+        write = partial(write_run, result, folder, question=stated, results=data)
+        finish_job(self, folder, Answer([table], data), write, drawn)
 
 
 def describe(result: SweepResult, name: str) -> dict[str, Any]:
@@ -88,21 +82,20 @@ def describe(result: SweepResult, name: str) -> dict[str, Any]:
     """
     values = result[name]
     out: dict[str, Any] = {"points": int(values.size), "infinite": 0, "missing": 0}
-    ends: dict[str, tuple[float, int]] = {}  # the size that is least or greatest so far, and where
+    least, greatest = [], []  # where those of each piece are
     for first, piece in blocks(values):
         missing, infinite = np.isnan(piece), np.isinf(piece)
         out["infinite"] += int(infinite.sum())
         out["missing"] += int(missing.sum())
         finite = np.flatnonzero(~(missing | infinite))
         if finite.size:
-            size = size_of(name, piece[finite])
-            for word, sign, pick in (("least", 1.0, np.argmin), ("greatest", -1.0, np.argmax)):
-                at = int(pick(size))
-                if word not in ends or sign * size[at] < sign * ends[word][0]:
-                    ends[word] = float(size[at]), first + int(finite[at])
-    for word, (_, number) in ends.items():
-        place = np.unravel_index(number, values.shape)
-        out[word] = {"value": float(values[place]), "at": result.at(name, place)}
+            sizes = size_of(name, piece[finite])
+            least.append(first + finite[sizes.argmin()])
+            greatest.append(first + finite[sizes.argmax()])
+    if least:
+        for word, ends, pick in (("least", least, np.argmin), ("greatest", greatest, np.argmax)):
+            place = np.unravel_index(ends[pick(size_of(name, values.flat[ends]))], values.shape)
+            out[word] = {"value": float(values[place]), "at": result.at(name, place)}
     return out
 
 

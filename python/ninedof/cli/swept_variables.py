@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 
 from ninedof.cli.chosen_design import Chosen, length_option
-from ninedof.cli.options import HexagonalOptions
+from ninedof.cli.options import HEXAGON, HexagonalOptions
 from ninedof.design.family_variables import variables_of
 from ninedof.design.study import FAMILIES as FAMILY_NAMES
 from ninedof.design.study import Study
@@ -26,7 +26,7 @@ def swept_design(name: str | None, chosen: Chosen | None, options: HexagonalOpti
     over = [plain_name(swept) for swept in over]
     if chosen is not None:
         return _of_named(name, chosen, over)
-    own = options.given()
+    own = options.given(*HEXAGON)
     twist = own.pop("theta_z_deg", None)
     if both := sorted(set(own) & set(over)):
         raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")

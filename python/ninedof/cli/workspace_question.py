@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
-
-import typer
+from typing import Any
 
 import ninedof as nd
 from ninedof.cli.chosen_design import Chosen
@@ -28,6 +26,7 @@ from ninedof.cli.posed import length_at_home, rule_option
 from ninedof.design.indices import computed
 from ninedof.design.limit_numbers import CONES, LEGS, SPREADS
 from ninedof.support.arguments import choice, finite
+from ninedof.support.units import unit_entry
 from ninedof.workspace.certified import GAPS, require_certifiable
 from ninedof.workspace.region_share import box_about
 from ninedof.workspace.study_question import (
@@ -41,7 +40,6 @@ from ninedof.workspace.study_question import (
     with_leg_limits,
 )
 
-Ends = Annotated[Two | None, typer.Option(metavar="LOW HIGH")]
 CRITERIA = {  # by the names of the options
     "legs": "leg_length",
     "external": "external_length",
@@ -131,7 +129,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     """Return the question that options ask of a design."""
     study, home = chosen.study, chosen.configuration
     region = None if study is None else study.objective.region
-    numbers = _present(options, CRITERIA)
+    numbers = options.given(*CRITERIA)
     values = {CRITERIA[name]: _radians(name, x) if name.endswith("_deg") else x for name, x in numbers.items()}
     criteria, own, left = criteria_of(study if options.study_limits else None, chosen.geometry, home, values)
     choice("--actuators", options.actuators, ACTUATORS)
@@ -146,12 +144,11 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     if not criteria:
         raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
     if options.method == "grid":
-        for name, value in _present(options, ("points", "seed")).items():
-            raise ValueError(f"--{name}: got {value}, expected none with --method grid")
+        options.refuse("with --method grid", "points", "seed")
     of_angles = options.archetype == "orientation"
     at = None if not of_angles else home.position if options.position is None else options.position
     turns = options.archetype not in ("constant_orientation", "orientation")
-    bounds = _present(options, ("angle_deg", "tilt_deg", "torsion_deg"))
+    bounds = options.given("angle_deg", "tilt_deg", "torsion_deg")
     keywords: dict[str, Any] = {
         "archetype": options.archetype,
         "criteria": criteria,
@@ -159,14 +156,11 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
         "internal_point": _rule(options.internal_point, chosen, region, at, turns),
         "method": options.method,
         "tolerance": options.tolerance,
-        **_present(options, ("orientations", "resolution", "points", "seed")),
+        **options.given("orientations", "resolution", "points", "seed", "index"),
+        **unit_entry(chosen.unit),
     }
     if bounds:
         keywords["region"] = {name.removesuffix("_deg"): _radians(name, value) for name, value in bounds.items()}
-    if options.index:
-        keywords["index"] = options.index
-    if chosen.unit:
-        keywords["unit"] = chosen.unit
     proof = _proof(options, keywords["internal_point"])
     return Question(keywords | _place(options, chosen, region), own, left, region, proof, words)
 
@@ -231,7 +225,7 @@ def _place(options: WorkspaceOptions, chosen: Chosen, region: nd.Region | None) 
 
 def _proof(options: WorkspaceOptions, rule: Any) -> dict[str, Any] | None:
     """Return gap and time of the proof; None where none is wanted."""
-    settings = _present(options, ("gap", "time"))
+    settings = options.given("gap", "time")
     if not options.certify:
         for name, value in settings.items():
             raise ValueError(f"--{name}: got {value:g} without --certify, expected both")
@@ -240,10 +234,6 @@ def _proof(options: WorkspaceOptions, rule: Any) -> dict[str, Any] | None:
     finite("--gap", settings.get("gap", 0.5), *GAPS)
     finite("--time", settings.get("time", 0.0), 0.0)
     return {"time_limit" if name == "time" else name: value for name, value in settings.items()}
-
-
-def _present(options: WorkspaceOptions, names: Any) -> dict[str, Any]:
-    return {name: value for name in names if (value := getattr(options, name)) is not None}
 
 
 def _radians(name: str, degrees: float) -> float:

@@ -30,11 +30,11 @@ def of_front(front: Front, record: Any, point: str = "") -> Html:
     for limit in front.limits:
         if math.isfinite(limit):
             command += ["--value", repr(degrees_of(limit) if front.unit == "rad" else limit)]
-    again = of_study(front.study, shlex.join(command), record, SAME_LIMITS)
     sentence = (
         f"Point {point} of a front was solved with its neighbours' designs as starts: this solves the whole front."
     )
-    return joined(paragraphs([sentence]), again) if point else again
+    again = of_study(front.study, shlex.join(command), record, SAME_LIMITS)
+    return joined(paragraphs([sentence] if point else []), again)
 
 
 def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
@@ -44,14 +44,10 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
     text = _flat(tomli_w.dumps(study.to_dict()))
     data = b64encode(text.encode()).decode()
     file = tag("a", "study.toml", href=f"data:text/plain;base64,{data}", download="study.toml")
+    save = "From this page alone: save" if record.command else "Save"
     return joined(
         _made_by(record),
-        tag(
-            "p",
-            f"{'From this page alone: save' if record.command else 'Save'} the study file below as ",
-            file,
-            ", then:",
-        ),
+        tag("p", f"{save} the study file below as ", file, ", then:"),
         listing(command),
         _versions(record, [("starts", study.starts), ("seed", study.seed)]),
         paragraphs([note], class_="note"),
@@ -62,15 +58,11 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
 
 def of_question(question: Mapping[str, Any], record: Any) -> Html:
     """Return what was asked of a run without a study."""
-    if not question:
-        missing = "" if record.command else "The record does not hold what was asked."
-        return joined(_made_by(record), paragraphs([missing]), _versions(record, []))
-    return joined(
-        _made_by(record),
-        paragraphs(["Everything that was asked, as the record of the run has it:"]),
-        listing(_flat(encode(question))),
-        _versions(record, []),
-    )
+    asked = paragraphs(["" if record.command else "The record does not hold what was asked."])
+    if question:
+        words = paragraphs(["Everything that was asked, as the record of the run has it:"])
+        asked = joined(words, listing(_flat(encode(question))))
+    return joined(_made_by(record), asked, _versions(record, []))
 
 
 def _flat(text: str) -> str:

@@ -22,7 +22,7 @@ from ninedof.workspace.tables import workspace_table
 
 def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     """Return the page of a workspace; without machine and question where the record does not hold them."""
-    question, view = record.question, None
+    question, view, machine = record.question, None, None
     sections = {
         "answer": html_of(workspace_table(workspace, most=100)),
         "proof": proof.of_workspace(workspace, question),
@@ -31,7 +31,8 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     if "criteria" in question:
         sections["question"] = _question(workspace, question)
     if {"geometry", "home"} <= set(question):
-        view = _scene(workspace, question)
+        machine = _machine(question)
+        view = _scene(workspace, *machine, float(question.get("characteristic_length", 1.0)))
         hint = "The body is the set of positions of the platform's origin; lines: the box looked at."
         sections["machine"] = paragraphs([hint if view["machines"][0]["body"] else ""])
     cubed = "rad³" if workspace.of_angles else workspace.unit + "³" * bool(workspace.unit)
@@ -42,7 +43,7 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     ]
     headline = f"Workspace: {workspace.archetype.replace('_', ' ')}"
     good = workspace.status in ("converged", "limited")
-    return Page("workspace", headline, figures, sections, view, good, None if view is None else _machine(question))
+    return Page("workspace", headline, figures, sections, view, good, machine)
 
 
 def _machine(question: Any) -> tuple[Geometry, Configuration]:
@@ -50,10 +51,8 @@ def _machine(question: Any) -> tuple[Geometry, Configuration]:
     return g, Configuration(**{key: np.array(value) for key, value in question["home"].items()})
 
 
-def _scene(workspace: WorkspaceMap, question: Any) -> dict[str, Any]:
-    g, home = _machine(question)
+def _scene(workspace: WorkspaceMap, g: Geometry, home: Configuration, length: float) -> dict[str, Any]:
     box = [] if workspace.of_angles else box_lines(workspace.low, workspace.high)
-    length = float(question.get("characteristic_length", 1.0))
     return scene.scene(
         [scene.machine("robot", g, home, length, (("home", 0),), box, body_of(workspace))], workspace.unit
     )

@@ -55,7 +55,7 @@ def admissible(options: AdmissibleOptions) -> Answer:
     The other variables have the values of the run or of the study. The same command again goes on. For a study with
     actuators: for which of their rows there is a design.
     """
-    screen = Screen(options.json)
+    screen = options.screen
     of, folder = _of(options)
     vary, at = dict(map(_vary, options.vary)), changes_option(options.set or ())
     if isinstance(of, nd.Study) and of.actuators:

@@ -9,7 +9,7 @@ from typing import Any
 import ninedof as nd
 from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.options import THREADS, Options, argument, option, struct
-from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
+from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.proof.machine import tolerances_of
 from ninedof.proof.machine_record import outward
 from ninedof.records.certificate import certificate_file, save_certificate
@@ -49,7 +49,7 @@ class CertifyOptions(Options):
 
 def certify(options: CertifyOptions) -> Answer:
     """Prove that a machine keeps its limits at every pose of its region, not only at those looked at."""
-    screen = Screen(options.json)
+    screen = options.screen
     run = options.run
     how: dict[str, Any] = {
         "condition_number": options.condition,

@@ -7,7 +7,7 @@ from typing import Any
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import Options, argument, struct
-from ninedof.cli.screen import DONE, NO_RESULT, REFUSED, Screen, bold
+from ninedof.cli.screen import DONE, NO_RESULT, REFUSED, bold
 from ninedof.proof.optimum import check_certificate
 from ninedof.proof.optimum_proof import FILE
 
@@ -35,7 +35,7 @@ def check(options: CheckOptions) -> Answer:
     path = options.certificate / FILE if options.certificate.is_dir() else options.certificate
     if not path.exists() and path != options.certificate:
         raise ValueError(f"{options.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
-    with Screen(options.json).bar("points", "reading the certificate") as bar:
+    with options.screen.bar("points", "reading the certificate") as bar:
         result = check_certificate(path, progress=bar)
     parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in result.study)]
     verdict = "Proved" if result.proved else "Incomplete" if result.incomplete else "Refused"

@@ -50,7 +50,7 @@ def export(options: ExportOptions) -> Answer:
     file = out or Path(_stem(options.design) + row.suffix)
     if file.resolve() == Path(options.design).resolve():
         raise ValueError(f"--out: got {file}, the design itself, expected another file")
-    more = {key: x for key in ("leg_mass", "platform_mass", "gravity") if (x := getattr(options, key)) is not None}
+    more = options.given("leg_mass", "platform_mass", "gravity")
     for key in more.keys() - row.options:
         what = ", ".join(map(_typed, row.options)) or "no option"
         raise ValueError(f"{_typed(key)}: got {more[key]:g} with --to {row.name}, which takes {what}")

@@ -9,8 +9,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import typer
-
 import ninedof as nd
 from ninedof.cli.answer import Answer, folder_words, write_job
 from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, struct
@@ -58,9 +56,9 @@ class OptimizeOptions(JobOptions):
     certify: bool = option("Also prove how much better a design of the study can be at most.", False, "--certify")
 
 
-def optimize(options: OptimizeOptions) -> None:
+def optimize(options: OptimizeOptions) -> Answer:
     """Find the best design of a study: by default, the design with the least condition number."""
-    screen = Screen(options.json)
+    screen = options.screen
     file = options.study
     study = (nd.Study.paper() if file is None else nd.Study.load(file)).with_solver(options.starts, options.seed)
     if options.convergence and not options.figures:
@@ -87,10 +85,9 @@ def optimize(options: OptimizeOptions) -> None:
         screen.print(verdict.report())
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
     screen.print(folder_words(directory))
-    screen.data({**data, "record": str(record)})
     if options.time is not None and result.status == nd.Status.STOPPED and not result.interrupted:
         ended_by_time(without="--time")
-    raise typer.Exit(exit_status(result, timed=options.time is not None))
+    return Answer([], {**data, "record": str(record)}, exit_status(result, timed=options.time is not None))
 
 
 def _solve(study: nd.Study, file: Path | None, how: dict[str, Any], screen: Screen) -> Comparison | nd.Result:

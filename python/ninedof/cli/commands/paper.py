@@ -33,7 +33,7 @@ class PaperOptions(Options):
 
 def paper(options: PaperOptions) -> None:
     """Print every number of the paper beside ours, and a verdict on each; with --figures, draw its figures anew."""
-    screen = Screen(options.json)
+    screen = options.screen
     if options.out is not None and not options.figures:
         raise ValueError(f"--out: got {options.out} without --figures, expected both")
     if not options.figures:

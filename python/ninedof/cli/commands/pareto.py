@@ -58,7 +58,7 @@ class ParetoOptions(JobOptions):
 
 def pareto(options: ParetoOptions) -> None:
     """Compute the least condition number for each value of a limit."""
-    screen = Screen(options.json)
+    screen = options.screen
     least = 0.0 if options.against == TOLERANCE else math.ulp(0.0)  # 0 is the machine as it is drawn
     for limit in options.value or ():
         if not least <= limit < math.inf:
@@ -82,12 +82,10 @@ def pareto(options: ParetoOptions) -> None:
     if front.interrupted:
         count = "1 limit is" if len(front) == 1 else f"{len(front)} limits are"
         parts.append(bold("interrupted", f": {count} solved so far and kept in {directory}"))
-    with_figures = options.figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
-    draw = partial(_draw, front, screen) if with_figures else None
-    report = options.figures and options.report and not front.interrupted
+    draw = partial(_draw, front, screen) if any(map(math.isfinite, front.limits)) else None
     status = NO_RESULT if all(map(math.isnan, front.objectives)) else DONE
     answer = Answer(parts, {"front": front.to_dict()}, INTERRUPTED if front.interrupted else status)
-    finish_job(screen, directory, answer, partial(write_run, front, directory), draw, report)
+    finish_job(options, directory, answer, partial(write_run, front, directory), draw)
 
 
 def _study_of(study: Path | None) -> tuple[nd.Study, nd.Result | None]:

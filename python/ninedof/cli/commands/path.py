@@ -37,6 +37,7 @@ from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
 
 PLACE = 7
+SHAPES, TIMES = ("circle", "line", "spiral"), ("duration", "points")
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof path design.toml path.csv --legs 2.5 6.5
@@ -77,18 +78,12 @@ class PathOptions(JobOptions):
     gravity: Three | None = triple("Force per mass, base axes; 0 0 -9.81 by default.")
     lc: str | None = option(LC)
 
-    @property
-    def shapes(self) -> dict[str, Any]:
-        """The shapes of the options."""
-        return {name: x for name in ("circle", "line", "spiral") if (x := getattr(self, name)) is not None}
-
 
 def path(options: PathOptions) -> None:
     """Compute leg lengths, rates and accelerations along a path, and the limits that break.
 
     A run brings every limit of its study.
     """
-    screen = Screen(options.json)
     if options.file is None and options.design is not None and options.design.endswith(".csv"):
         options = replace(options, file=Path(options.design), design=None)
     chosen = with_length(named_design(options.design), options.lc)
@@ -111,7 +106,7 @@ def path(options: PathOptions) -> None:
     if options.file:
         question["file"] = str(options.file)
     else:
-        question |= options.shapes | {"duration": trajectory.time[-1], "points": len(trajectory)}
+        question |= options.given(*SHAPES) | {"duration": trajectory.time[-1], "points": len(trajectory)}
     with run_folder(options.out) as directory, Store(directory, {"kind": "motion", **question}):
         length = chosen.characteristic_length
         result = nd.follow(
@@ -130,27 +125,24 @@ def path(options: PathOptions) -> None:
     if masses is not None and options.mass is None:
         stated = [*stated, "[masses]"]
     parts += [f"from the study: {', '.join(stated)}"] if stated else []
-    drawing = partial(_draw, result, screen, of_study) if options.figures else None
     write = partial(write_motion, result, directory, question=question, limits=of_study)
     answer = Answer(parts, {"motion": motion}, DONE if result.tracked and not motion["breaks"] else NO_RESULT)
-    finish_job(screen, directory, answer, write, drawing, options.figures and options.report)
+    finish_job(options, directory, answer, write, partial(_draw, result, options.screen, of_study))
 
 
 def _trajectory(chosen: Chosen, options: PathOptions) -> nd.Trajectory:
     """Return the one trajectory of the options."""
-    home, shapes = chosen.configuration, options.shapes
-    times = {name: value for name in ("duration", "points") if (value := getattr(options, name)) is not None}
+    home, shapes = chosen.configuration, options.given(*SHAPES)
     names = [*(["a file"] if options.file else []), *(f"--{name}" for name in shapes)]
     if len(names) != 1:
         got = " and ".join(names) or "none"
         raise ValueError(f"path: got {got}, expected one of a CSV file, --circle, --line and --spiral")
     if options.file is not None:
-        for name, value in times.items():
-            raise ValueError(f"--{name}: got {value}, expected none with a file: it has its own times")
+        options.refuse("with a file: it has its own times", *TIMES)
         return nd.Trajectory.load(options.file, home, chosen.unit)
     ((name, value),) = shapes.items()
     trajectory: nd.Trajectory = getattr(nd.Trajectory, name)(
-        home, *(value if name == "spiral" else (value,)), **times, unit=chosen.unit
+        home, *(value if name == "spiral" else (value,)), **options.given(*TIMES), unit=chosen.unit
     )
     return trajectory
 

@@ -20,7 +20,6 @@ from ninedof.cli.options import (
     struct,
 )
 from ninedof.cli.posed import loads_option, several
-from ninedof.cli.screen import Screen
 from ninedof.sheet.tables import sheet_parts
 from ninedof.support.arguments import finite
 from ninedof.support.files import own_or_new, write_whole
@@ -64,14 +63,13 @@ class SheetOptions(Options):
 
 def sheet(options: SheetOptions) -> None:
     """Print the engineering sheet: joints, legs, clearance, singularities and limits over the poses."""
-    screen = Screen(options.json)
+    screen = options.screen
     if options.csv is not None:
         own_or_new("--csv", options.csv, MARK)
     chosen = named_design(options.design)
     vectors: dict[str, Any] = {
-        name: several(f"--{name.replace('_', '-')}", text, expected)
-        for name, expected in VECTORS.items()
-        if (text := getattr(options, name)) is not None
+        name: several(f"--{name.replace('_', '-')}", text, VECTORS[name])
+        for name, text in options.given(*VECTORS).items()
     }
     turn = options.turn_deg
     result = nd.sheet(

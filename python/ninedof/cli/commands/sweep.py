@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.chosen_design import Chosen, chosen_design, named_design, with_length
-from ninedof.cli.options import DESIGN, SIDES, THREADS, HexagonalOptions, argument, option, struct
+from ninedof.cli.options import DESIGN, HEXAGON, THREADS, HexagonalOptions, argument, option, struct
 from ninedof.cli.sweep_job import Job, describe, json_data
 from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
 from ninedof.design.indices import computed
@@ -23,7 +23,7 @@ from ninedof.sweep.tables import summary_table
 
 FIGURES = ("figure-6", "figure-7")
 OF_POSES = ("absolute", "internal_point", "threads")
-NONE_WITH_FIGURES = ("over", "index", *OF_POSES, "lc", "chunk", "theta_z_deg", *SIDES)
+NONE_WITH_FIGURES = ("over", "index", *OF_POSES, "lc", "chunk", *HEXAGON)
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
 
@@ -65,7 +65,7 @@ def sweep(job: Sweep) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
     what, chosen, note = job.what, None, ""
     if what in FIGURES:
-        _expect_none(f"with {what}", job, NONE_WITH_FIGURES)
+        job.refuse(f"with {what}", *NONE_WITH_FIGURES)
         call: Callable[..., nd.SweepResult] = partial(nd.sweep_figure, what.removeprefix("figure-"), job.points)
         title = what.replace("figure-", "Fig. ")
     else:
@@ -77,7 +77,7 @@ def sweep(job: Sweep) -> None:
             note = _note(chosen, f"with O {job.internal_point or 'held'}, in one orientation")
             call = _over_poses(chosen, job, grid)
         else:
-            _expect_none("in a sweep over designs", job, OF_POSES)
+            job.refuse("in a sweep over designs", *OF_POSES)
             design, own = swept_design(what, chosen, job, grid)
             note = _note(chosen, "at the neutral pose alone")
             own["chunk"] = job.chunk
@@ -101,7 +101,7 @@ def _note(chosen: Chosen | None, where: str) -> str:
 def _over_poses(chosen: Chosen | None, job: Sweep, grid: Mapping[str, Values]) -> Callable[..., nd.SweepResult]:
     """Return the sweep over coordinates of a design, or of the published one at its best zs."""
     if chosen is None:
-        chosen = chosen_design(None, job) if job.given() else with_length(named_design(None), job.lc)
+        chosen = chosen_design(None, job) if job.given(*HEXAGON) else with_length(named_design(None), job.lc)
     return partial(
         nd.sweep,
         chosen.geometry,
@@ -124,7 +124,7 @@ def _grid(job: Sweep) -> dict[str, Values]:
         raise ValueError(f"sweep: got {what}, expected one of {', '.join(FIGURES)}, or a design")
     if not over:
         raise ValueError(f"sweep: got no --over, expected --over NAME=LOW:HIGH:COUNT, or one of {', '.join(FIGURES)}")
-    _expect_none("with --over", job, ("points",))
+    job.refuse("with --over", "points")
     grid = dict(parse_over(text) for text in over)
     for name in grid:
         if plain_name(name) not in VARIABLES:
@@ -137,15 +137,6 @@ def _grid(job: Sweep) -> dict[str, Values]:
     if len(grid) < len(over):
         raise ValueError(f"--over: got {', '.join(over)}, expected different names")
     return grid
-
-
-def _expect_none(where: str, job: Sweep, names: Sequence[str]) -> None:
-    """Raise for options that have no effect here."""
-    for name in names:
-        value = getattr(job, name)
-        if value is not None and value is not False:
-            got = "it" if value is True else " ".join(value) if isinstance(value, list) else value
-            raise ValueError(f"--{name.replace('_', '-')}: got {got}, expected none {where}")
 
 
 def parse_over(text: str) -> tuple[str, Values]:

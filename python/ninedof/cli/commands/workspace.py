@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from ninedof.cli.answer import Answer, finish_job, write_job
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
-from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
+from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.cli.workspace_figures import draw
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
 from ninedof.design.region_poses import places_o
@@ -48,7 +48,7 @@ def workspace(options: WorkspaceOptions) -> None:
     A run brings the limits of its study that a single pose can meet; each option replaces its own. O keeps its place
     between the plates. Of a region study, the box is about the region, which is outlined, and O follows its rule.
     """
-    screen = Screen(options.json)
+    screen = options.screen
     chosen = with_length(named_design(options.design), options.lc)
     question = question_of(options, chosen)
     home, region = chosen.configuration, question.region
@@ -86,11 +86,11 @@ def workspace(options: WorkspaceOptions) -> None:
         screen.print(share_words(region, share, chosen.unit))
         data["region"] = share._asdict()
     stopped = result.interrupted or (result.certified is not None and result.certified.interrupted)
-    with_figures = options.figures and result.volume > 0.0 and not stopped and result.method != "sample"
+    with_figures = result.volume > 0.0 and result.method != "sample"
     drawing = partial(draw, result, screen, home, None if result.of_angles else region) if with_figures else None
     answer = Answer([], data, INTERRUPTED if stopped else DONE if result.volume > 0.0 else NO_RESULT)
     write = partial(write_run, result, directory, question=record)
-    finish_job(screen, directory, answer, write, drawing, options.figures and options.report and not stopped)
+    finish_job(options, directory, answer, write, drawing)
 
 
 def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -> S:
