@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
 import ninedof as nd
 from ninedof.cli.options import HEXAGON, SIDES, HexagonalOptions
@@ -14,20 +15,21 @@ from ninedof.records.design_file import hexagonal_design
 from ninedof.support.arrays import Floats
 
 
-class Chosen(NamedTuple):
+@dataclass(frozen=True)
+class Chosen:
     """A design at its neutral pose, and the result of its study, if there is one."""
 
     geometry: nd.Geometry
     configuration: nd.Configuration
     characteristic_length: float | str
-    unit: str = ""
-    tool: nd.Tool = nd.Tool()
+    unit: str
+    tool: nd.Tool
     result: nd.Result | None = None
 
     @property
     def design(self) -> nd.Design:
         """The design alone."""
-        return nd.Design(*self[:5])
+        return nd.Design(self.geometry, self.configuration, self.characteristic_length, self.unit, self.tool)
 
     @property
     def machine(self) -> nd.Result | nd.Design:
@@ -54,6 +56,9 @@ class Chosen(NamedTuple):
     def permitted_lengths(self) -> tuple[Floats, Floats] | None:
         """The least and greatest length of each leg by its study; None without one."""
         return None if self.result is None else self.result.permitted_lengths
+
+
+C = TypeVar("C", bound=Chosen)
 
 
 def named_design(name: str | None) -> Chosen:
@@ -90,9 +95,9 @@ def chosen_design(name: str | None, options: HexagonalOptions) -> Chosen:
     return with_length(chosen, options.lc)
 
 
-def with_length(chosen: Chosen, lc: str | None) -> Chosen:
+def with_length(chosen: C, lc: str | None) -> C:
     """Return the design with the characteristic length given by --lc, if any."""
-    return chosen if lc is None else chosen._replace(characteristic_length=length_option(lc))
+    return chosen if lc is None else replace(chosen, characteristic_length=length_option(lc))
 
 
 def length_option(text: str) -> float | str:

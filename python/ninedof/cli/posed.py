@@ -43,7 +43,7 @@ class PoseOptions(Options):
     def at(self) -> DesignAtPoses:
         """Return the design at the poses of the options."""
         chosen = named_design(self.design)
-        return DesignAtPoses(chosen, self.poses(chosen))
+        return DesignAtPoses(**vars(chosen), c=self.poses(chosen))
 
     def poses(self, chosen: Chosen) -> nd.Configuration:
         """Return a stack of one configuration, by default the neutral one."""
@@ -74,11 +74,10 @@ class PosesOptions(PoseOptions):
         return chosen.result.best.configurations
 
 
-@dataclass(frozen=True)
-class DesignAtPoses:
+@dataclass(frozen=True, kw_only=True)
+class DesignAtPoses(Chosen):
     """A design at poses."""
 
-    chosen: Chosen
     c: nd.Configuration
 
     def first(self, k: int) -> int:
@@ -94,13 +93,13 @@ class DesignAtPoses:
         self, parts: Sequence[Any], data: Mapping[str, Any], used: Iterable[int] = (), status: int = DONE
     ) -> Answer:
         """Return what a command says of its poses; `used` are those that its tables mention by their numbers."""
-        c, unit = self.c, self.chosen.unit
+        c, unit = self.c, self.unit
         if len(c) > 1:
             first = f"{len(c)} poses of the study; pose 0 is the neutral one"
             last = [f"pose {k}: {pose_words(c[k], c.rotation[0], unit)}" for k in sorted(set(used))]
         else:
-            first, last = f"at {pose_words(c[0], self.chosen.configuration.rotation, unit)}", []
-        beyond = beyond_words(self.chosen.geometry, self.chosen.configuration, c)
+            first, last = f"at {pose_words(c[0], self.configuration.rotation, unit)}", []
+        beyond = beyond_words(self.geometry, self.configuration, c)
         return Answer([first, *beyond, *parts, *last], unit_entry(unit) | {"poses": poses_data(c)} | dict(data), status)
 
 

@@ -57,7 +57,7 @@ def accuracy(options: AccuracyOptions) -> Answer:
     at = options.at()
     if options.within is not None or options.within_deg is not None:
         return _allotted(options, at)
-    g, unit, duty = at.chosen.geometry, at.chosen.unit, at.chosen.duty.tolerances
+    g, unit, duty = at.geometry, at.unit, at.duty.tolerances
     legs = duty.legs if options.leg_error is None else finite("--leg-error", options.leg_error, 0.0)
     joints = duty.joints if options.joint_error is None else finite("--joint-error", options.joint_error, 0.0)
     if not legs and not joints:
@@ -93,7 +93,7 @@ def _allotted(options: AccuracyOptions, at: DesignAtPoses) -> Answer:
     if named := options.named():
         raise ValueError(f"{named[0]}: got it with --within, expected none: it is about all poses of the study")
     turn = None if options.within_deg is None else math.radians(options.within_deg)
-    design, unit = at.chosen.machine, at.chosen.unit
+    design, unit = at.machine, at.unit
     kept = tolerances_for(design, options.within, turn, options.weights)
     rows = [
         Line("joint centres, radius", [f"{kept.joints:.4g}"], unit=unit),
@@ -101,7 +101,7 @@ def _allotted(options: AccuracyOptions, at: DesignAtPoses) -> Answer:
     ]
     limits = [] if options.within is None else [f"p errs by at most {amount(f'{options.within:g}', unit)}"]
     limits += [] if turn is None else [f"the platform turns by at most {options.within_deg:g}°"]
-    study = at.chosen.study
+    study = at.study
     where = (
         "the neutral pose" if study is None else "the region" if study.objective.region else "the poses of the study"
     )
@@ -111,7 +111,7 @@ def _allotted(options: AccuracyOptions, at: DesignAtPoses) -> Answer:
 
 def _rows(bounds: ErrorBounds, at: DesignAtPoses) -> Iterator[tuple[Any, ...]]:
     """Yield the largest error of each component over the poses, its standard deviation there, and that pose."""
-    unit, deviation = at.chosen.unit, np.sqrt(np.diagonal(bounds.covariance, axis1=-2, axis2=-1))
+    unit, deviation = at.unit, np.sqrt(np.diagonal(bounds.covariance, axis1=-2, axis2=-1))
     for k, values in enumerate(bounds.components.T):
         pose = int(np.argmax(values))
         texts = (_text(x, k < 3, unit) for x in (values[pose], deviation[pose, k]))

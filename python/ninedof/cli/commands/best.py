@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -47,13 +46,11 @@ class BestOptions(PosesOptions):
 
 def best(options: BestOptions) -> Answer:
     """Print the best place of O at a pose, reached from where it is without passing a singularity."""
-    at = options.at()
-    at = replace(at, chosen=with_length(at.chosen, options.lc))
-    chosen, c = at.chosen, at.c
-    limits: Any = chosen.permitted_lengths if options.legs is None else options.legs
-    length = length_at_home(chosen)
+    at = with_length(options.at(), options.lc)
+    c, length = at.c, length_at_home(at)
+    limits: Any = at.permitted_lengths if options.legs is None else options.legs
     how = {"criterion": options.criterion, "limits": limits, "characteristic_length": length}
-    result = nd.best_internal_point(chosen.geometry, c.position, c.rotation, **how, start=c.internal_point)
+    result = nd.best_internal_point(at.geometry, c.position, c.rotation, **how, start=c.internal_point)
     now = _now(at, options.criterion, length)
     words, small = WORDS[options.criterion], options.criterion == "condition_number"
     if len(c) == 1:
@@ -75,9 +72,9 @@ def best(options: BestOptions) -> Answer:
 def _now(at: DesignAtPoses, criterion: str, length: float) -> Floats | None:
     """Return the criterion where O is; None for one that depends on limits."""
     if criterion == "condition_number":
-        return np.asarray(nd.condition_number(at.chosen.geometry, at.c, length))
+        return np.asarray(nd.condition_number(at.geometry, at.c, length))
     if criterion == "singularity":
-        return np.asarray(np.min(np.abs(np.stack(nd.singularity_margins(at.chosen.geometry, at.c))), axis=0))
+        return np.asarray(np.min(np.abs(np.stack(nd.singularity_margins(at.geometry, at.c))), axis=0))
     return None
 
 
@@ -96,9 +93,9 @@ def _over_poses(result: nd.InternalPoint, now: Floats | None, words: str, small:
 def _words(at: DesignAtPoses, result: nd.InternalPoint, now: Floats | None, words: str) -> Iterator[str]:
     """Yield O and the criterion at one pose, as they are and at the best."""
     if now is not None:
-        yield f"O now {_point(at.c.internal_point[0], at.chosen.unit)}: {words} {now[0]:.6g}"
+        yield f"O now {_point(at.c.internal_point[0], at.unit)}: {words} {now[0]:.6g}"
     if not np.isnan(result.value[0]):
-        place = _point(result.configuration.internal_point[0], at.chosen.unit)
+        place = _point(result.configuration.internal_point[0], at.unit)
         yield f"best O {place}: {words} {result.value[0]:.6g}"
     yield f"{result.status[0]}; limits reached: {', '.join(result.active[0]) or 'nothing'}"
 
@@ -108,7 +105,7 @@ def _table(at: DesignAtPoses, result: nd.InternalPoint, now: Floats | None, word
     c, points = at.c, result.configuration.internal_point
     order = np.arange(len(c)) if now is None else np.argsort(-now if small else now, kind="stable")
     decimals = decimals_of(c.position, points)
-    p, o = (f"{with_unit(name, at.chosen.unit)}\nx" for name in ("p", "best O"))
+    p, o = (f"{with_unit(name, at.unit)}\nx" for name in ("p", "best O"))
     heads = columns(">pose", f">{p}", *YZ, ">now", ">best", f">{o}", *YZ, "why")
     rows = []
     for k in order[:SHOWN].tolist():

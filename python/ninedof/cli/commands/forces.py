@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import LOAD, option, struct
 from ninedof.cli.posed import PosesOptions, loads_option
@@ -14,7 +15,6 @@ from ninedof.robot.idle import NEVER_CARRY, unloaded_names
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.duty import masses_of, weight_of
 from ninedof.sheet.tables import load_words, weight_words
-from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.tables import Table, columns, grouped
 from ninedof.tables.numbers import spread
 
@@ -27,7 +27,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof forces runs/20260101-120000#7 --load "0 0 0 0 0 -100" --position 10 0 350 --json | jq .forces"""
 
-BALANCED = 1e-9  # of the load
+BALANCED = 1e-9  # of the largest force
 
 
 @struct
@@ -41,22 +41,17 @@ def forces(options: ForcesOptions) -> Answer:
     """Print the forces in the legs that balance loads on the platform, positive where a leg pushes."""
     given = loads_option(options.load)
     at = options.at()
-    duty = at.chosen.duty
+    duty = at.duty
     weight, masses = weight_of(duty, None, None, None), masses_of(duty)
     loads = np.array(given or duty.loads.wrenches or np.zeros((int(masses is not None), 6)))
     if not len(loads):
         raise ValueError("--load: got none, expected one, or a run whose study has [loads] or [masses]")
-    g, gravity = at.chosen.geometry, duty.loads.gravity
-    balances = [inverse_dynamics(g, at.c, masses=masses, gravity=gravity, load=row) for row in loads]
-    result, unbalanced = (np.stack([getattr(each, name) for each in balances]) for name in ("forces", "unbalanced"))
+    balance = nd.inverse_dynamics(at.geometry, at.c, masses=masses, gravity=duty.loads.gravity, load=loads[:, None])
+    result, size = balance.forces, np.abs(balance.forces).max(axis=(1, 2))
     heads = columns("leg", *(f">load {k}" for k in range(1, len(loads) + 1)))
-    sizes = np.abs(loads).max(axis=1)
-    if masses is not None:
-        total = masses.platform + 9.0 * (masses.cylinder + masses.rod) + masses.internal_point
-        sizes = sizes + total * np.abs(gravity).max() * max(1.0, *np.abs(masses.centre))
-    least, most, tiny = result.min(axis=1), result.max(axis=1), 1e-12 * sizes
+    least, most, tiny = result.min(axis=1), result.max(axis=1), 1e-12 * size
     rows = [(leg, *map(spread, least[:, k], most[:, k], tiny)) for k, leg in enumerate(LEGS)]
-    parts: list[Any] = [load_words(k, row, at.chosen.unit) for k, row in enumerate(loads, start=1)]
+    parts: list[Any] = [load_words(k, row, at.unit) for k, row in enumerate(loads, start=1)]
     if weight is not None:
         parts.append(weight_words(weight, duty.tool))
     if masses is not None or not given:
@@ -65,8 +60,9 @@ def forces(options: ForcesOptions) -> Answer:
     for k, each in enumerate(result, start=1):
         if (names := unloaded_names(each)) and len(names) < len(LEGS):
             parts.append(bold("never carry load", f" {k}: {', '.join(names)}; {NEVER_CARRY}"))
-    left = np.abs(unbalanced).max(axis=(1, 2)) > BALANCED * sizes
+    left = np.abs(balance.unbalanced).max(axis=(1, 2)) > BALANCED * size
     for k in np.flatnonzero(left).tolist():
         parts.append(bold("singular", f": at some pose no leg forces balance all of load {k + 1}"))
     with_weight = {} if weight is None else {"weight": weight._asdict()}
-    return at.answer(parts, {"loads": loads, **with_weight, "legs": LEGS, "forces": result, "unbalanced": unbalanced})
+    data = {"loads": loads, **with_weight, "legs": LEGS, "forces": result, "unbalanced": balance.unbalanced}
+    return at.answer(parts, data)

@@ -45,18 +45,18 @@ def modes(options: ModesOptions) -> Answer:
     if options.lengths is not None and options.named():
         raise ValueError("--lengths: got a pose beside it, expected one of the two")
     at = options.at()
-    g, unit = at.chosen.geometry, at.chosen.unit
+    g, unit = at.geometry, at.unit
     lengths = nd.leg_lengths(g, at.c)[0]
     if options.lengths is not None:
         lengths = np.array(several("--lengths", options.lengths, "l1 l2 l3 q1 q2 q3 r1 r2 r3"))
     result = nd.forward_position(g, lengths, certify=options.certify)
-    kappa = nd.condition_number(g, result, length_at_home(at.chosen)) if result.count else np.zeros(0)
+    kappa = nd.condition_number(g, result, length_at_home(at)) if result.count else np.zeros(0)
     this = _this(result, float(lengths.max()), at.c) if options.lengths is None else -1
     certain = "" if result.certain else ", the count is not sure"
     parts: list[Any] = [f"{result.count} assembly modes: {result.status}{certain}"]
     parts += [result.reason] if result.reason else []
     parts += [_proof(result.certificate)] if options.certify else []
-    parts += [_table(result, kappa, this, at.chosen.configuration.rotation, unit)] if result.count else []
+    parts += [_table(result, kappa, this, at.configuration.rotation, unit)] if result.count else []
     parts += ["* the given pose"] if this >= 0 else []
     data = {
         "lengths": lengths,

@@ -17,7 +17,7 @@ from ninedof.sheet.tables import MECHANISMS
 from ninedof.singularity.singularity_distance import PARTS
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
-from ninedof.tables import RIGHT, Column, Table
+from ninedof.tables import Table, columns
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -57,7 +57,7 @@ def singularity(options: SingularityOptions) -> Answer:
     if motion is not None and not motion.any():
         raise ValueError(f"--direction: got {options.direction!r}, expected a motion that is not zero")
     at = options.at()
-    here = nd.singularity(at.chosen.geometry, at.c)
+    here = nd.singularity(at.geometry, at.c)
     parts: list[Any] = []
     for name, values in here.margins._asdict().items():
         k = int(np.argmin(np.abs(values)))
@@ -68,10 +68,10 @@ def singularity(options: SingularityOptions) -> Answer:
 
 def _along(at: DesignAtPoses, motion: Floats, most: float) -> tuple[list[Any], dict[str, Any]]:
     """Return the first singularity on one motion, in words and as data."""
-    result = nd.distance_to_singularity(at.chosen.geometry, at.c, motion, most)
+    result = nd.distance_to_singularity(at.geometry, at.c, motion, most)
     k = int(np.argmin(result.distance))
     if math.isfinite(result.distance[k]):
-        there = pose_words(at.c[k].moved(result.distance[k] * motion), at.chosen.configuration.rotation, at.chosen.unit)
+        there = pose_words(at.c[k].moved(result.distance[k] * motion), at.configuration.rotation, at.unit)
         kind = MECHANISMS[f"det_{result.mechanism[k]}"]
         words = [f"first singularity at {result.distance[k]:.6g} of the motion: {kind}", f"there {there}"]
     else:
@@ -82,7 +82,7 @@ def _along(at: DesignAtPoses, motion: Floats, most: float) -> tuple[list[Any], d
 
 def _coordinates(at: DesignAtPoses) -> tuple[list[Any], dict[str, Any]]:
     """Return the distances along the coordinates, and the nearest singularities in any direction."""
-    g, c, length_unit = at.chosen.geometry, at.c, at.chosen.unit
+    g, c, length_unit = at.geometry, at.c, at.unit
     reach = 2.0 * float(nd.leg_lengths(g, c).max())
     nearest, out, rows = [], {}, list[Any]()
     for part, (name, degree, factor) in GROUPS.items():
@@ -115,12 +115,9 @@ def _coordinates(at: DesignAtPoses) -> tuple[list[Any], dict[str, Any]]:
                 "there": arrays_of(one.configuration),
             },
         }
-    columns = [
-        Column(),
-        *(Column(*one) for one in (("backward", "", RIGHT), ("kind",), ("forward", "", RIGHT), ("kind",))),
-    ]
+    heads = columns("", ">backward", "kind", ">forward", "kind")
     kinds_words = [f"kind {name[-1]}: {words}" for name, words in MECHANISMS.items()]
-    return [Table("Distance to the first singularity", columns, rows), *kinds_words, *nearest], {"distance": out}
+    return [Table("Distance to the first singularity", heads, rows), *kinds_words, *nearest], {"distance": out}
 
 
 def _nearest(name: str, distance: str, one: nd.NearestSingularity, at: DesignAtPoses) -> str:
@@ -128,5 +125,5 @@ def _nearest(name: str, distance: str, one: nd.NearestSingularity, at: DesignAtP
     if not math.isfinite(one.distance):
         return f"{name} any axis: no singularity found"
     pose = at.where(one.pose).replace(" at ", " from ")
-    there = pose_words(one.configuration, at.chosen.configuration.rotation, at.chosen.unit)
+    there = pose_words(one.configuration, at.configuration.rotation, at.unit)
     return f"{name} any axis: nearest {distance}{pose}, kind {one.mechanism}, where {there}"

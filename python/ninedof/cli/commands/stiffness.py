@@ -39,9 +39,9 @@ def stiffness(options: StiffnessOptions) -> Answer:
     """Print the stiffness matrix of the platform, legs locked and O free to settle, and the least stiffness."""
     finite("--leg-stiffness", options.leg_stiffness, 0.0)
     at = options.at()
-    unit = at.chosen.unit
-    result = nd.stiffness(at.chosen.geometry, at.c, options.leg_stiffness)
-    least = nd.sheet(at.chosen.geometry, at.c, leg_stiffness=options.leg_stiffness).stiffness
+    unit = at.unit
+    result = nd.stiffness(at.geometry, at.c, options.leg_stiffness)
+    least = nd.sheet(at.geometry, at.c, leg_stiffness=options.leg_stiffness).stiffness
     assert least is not None, "a stiffness was given"
     least = least._replace(**{name: one._replace(pose=at.first(one.pose)) for name, one in least._asdict().items()})
     values = [f"{one.value:.5g}{f' (pose {one.pose})' if len(at.c) > 1 else ''}" for one in least]

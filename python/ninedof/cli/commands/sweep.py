@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -10,17 +11,22 @@ from typing import Any
 import numpy as np
 
 import ninedof as nd
-from ninedof.cli.chosen_design import Chosen, chosen_design, named_design, with_length
+from ninedof.cli.chosen_design import Chosen, chosen_design, length_option, named_design, with_length
 from ninedof.cli.options import DESIGN, HEXAGON, THREADS, HexagonalOptions, argument, option, struct
 from ninedof.cli.sweep_job import Job, describe, json_data
-from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
+from ninedof.design.family_variables import variables_of
 from ninedof.design.indices import computed
+from ninedof.design.study import FAMILIES as FAMILY_NAMES
+from ninedof.paper.published import published_variables
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
 from ninedof.sweep.axis import Values
 from ninedof.sweep.poses import COORDINATES, ROTATION
+from ninedof.sweep.run import DesignOptions
 from ninedof.sweep.tables import summary_table
 
+FAMILIES = {name: tuple(nd.Study(name).variables) for name in FAMILY_NAMES}
+VARIABLES = frozenset(name for names in FAMILIES.values() for name in names)
 FIGURES = ("figure-6", "figure-7")
 OF_POSES = ("absolute", "internal_point", "threads")
 NONE_WITH_FIGURES = ("over", "index", *OF_POSES, "lc", "chunk", *HEXAGON)
@@ -36,6 +42,10 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof sweep --over a1=0:3:31 --over b2=0:3:31      designs in place of configurations
 
   ninedof sweep runs/20260101-120000 --over platform_internal_angle_deg=-60:60:121 --index leg_ratio"""
+
+
+Held = tuple[dict[str, float], DesignOptions]
+"""The values of the variables that are not swept, and their family, characteristic length and unit of lengths."""
 
 
 @struct
@@ -78,7 +88,7 @@ def sweep(job: Sweep) -> None:
             call = _over_poses(chosen, job, grid)
         else:
             job.refuse("in a sweep over designs", *OF_POSES)
-            design, own = swept_design(what, chosen, job, grid)
+            design, own = _held_variables(what, chosen, job, grid)
             note = _note(chosen, "at the neutral pose alone")
             own["chunk"] = job.chunk
             call = partial(nd.sweep_designs, design, grid, job.index or "condition_number", **own)
@@ -115,6 +125,46 @@ def _over_poses(chosen: Chosen | None, job: Sweep, grid: Mapping[str, Values]) -
         chunk=job.chunk,
         threads=job.threads,
     )
+
+
+def _held_variables(name: str | None, chosen: Chosen | None, options: HexagonalOptions, grid: Iterable[str]) -> Held:
+    """Return what a sweep over variables holds: of the design of a name, or of a hexagonal one given by its sides."""
+    over = [plain_name(swept) for swept in grid]
+    if chosen is not None:
+        return _of_named(name, chosen, over)
+    own = options.given(*HEXAGON)
+    twist = own.pop("theta_z_deg", None)
+    if both := sorted(set(own) & set(over)):
+        raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")
+    if others := [swept for swept in over if swept not in FAMILIES["hexagonal"]]:
+        raise ValueError(f"--over: got {others[0]}, expected a DESIGN whose family has it")
+    values = own or published_variables()
+    if twist is not None:
+        values["theta_z"] = math.radians(twist)
+    return _held("hexagonal", values, over, 1.0 if options.lc is None else length_option(options.lc))
+
+
+def _of_named(name: str | None, chosen: Chosen, over: list[str]) -> Held:
+    if chosen.tool:
+        raise ValueError(
+            f"--over: got variables of {name}, which has a [tool], expected coordinates of the configuration"
+        )
+    fits: dict[str, Mapping[str, float]] = {}
+    if chosen.result is not None and chosen.result.best is not None:
+        fits[chosen.result.study.family] = chosen.result.best.variables
+    for family in FAMILIES:
+        if family not in fits and (found := variables_of(family, chosen.geometry, chosen.configuration)) is not None:
+            fits[family] = found
+    for family, values in fits.items():
+        if set(over) <= set(FAMILIES[family]):
+            return _held(family, values, over, chosen.characteristic_length, chosen.unit)
+    expected = f"variables of one family: {', '.join(fits)}" if fits else "coordinates: O or p is not on the z axis"
+    raise ValueError(f"--over: got {', '.join(over)}, which {name} does not have as variables, expected {expected}")
+
+
+def _held(family: str, values: Mapping[str, float], over: list[str], length: float | str, unit: str = "") -> Held:
+    values_held = {name: values[name] for name in FAMILIES[family] if name in values and name not in over}
+    return values_held, {"family": family, "characteristic_length": length, "unit": unit}
 
 
 def _grid(job: Sweep) -> dict[str, Values]:
