@@ -12,6 +12,7 @@ from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.optimize.result import with_fixed_design
 from ninedof.paper.published import published_variables
 from ninedof.records.design_file import hexagonal_design
+from ninedof.sheet.pose_words import pose_words
 from ninedof.support.arrays import Floats
 
 
@@ -35,6 +36,10 @@ class Chosen:
     def machine(self) -> nd.Result | nd.Design:
         """The result, or the design alone without one."""
         return self.result or self.design
+
+    def words(self, c: nd.Configuration) -> str:
+        """Return a pose of the design in words."""
+        return pose_words(c, self.configuration.rotation, self.unit)
 
     @property
     def study(self) -> nd.Study | None:

@@ -16,7 +16,6 @@ from ninedof.cli.options import ONE_DESIGN, Options, Three, argument, option, st
 from ninedof.cli.screen import DONE, bold
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
-from ninedof.sheet.pose_words import pose_words
 from ninedof.support.arguments import vector
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry
@@ -93,14 +92,16 @@ class DesignAtPoses(Chosen):
         self, parts: Sequence[Any], data: Mapping[str, Any], used: Iterable[int] = (), status: int = DONE
     ) -> Answer:
         """Return what a command says of its poses; `used` are those that its tables mention by their numbers."""
-        c, unit = self.c, self.unit
+        c = self.c
         if len(c) > 1:
             first = f"{len(c)} poses of the study; pose 0 is the neutral one"
-            last = [f"pose {k}: {pose_words(c[k], c.rotation[0], unit)}" for k in sorted(set(used))]
+            last = [f"pose {k}: {self.words(c[k])}" for k in sorted(set(used))]
         else:
-            first, last = f"at {pose_words(c[0], self.configuration.rotation, unit)}", []
+            first, last = f"at {self.words(c[0])}", []
         beyond = beyond_words(self.geometry, self.configuration, c)
-        return Answer([first, *beyond, *parts, *last], unit_entry(unit) | {"poses": poses_data(c)} | dict(data), status)
+        return Answer(
+            [first, *beyond, *parts, *last], unit_entry(self.unit) | {"poses": poses_data(c)} | dict(data), status
+        )
 
 
 def beyond_words(g: nd.Geometry, home: nd.Configuration, c: nd.Configuration) -> list[Any]:

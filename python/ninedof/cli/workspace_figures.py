@@ -69,8 +69,7 @@ def _draw_certified(
 
 def _planes(workspace: WorkspaceMap, home: Configuration, middle: Floats) -> list[tuple[int, float]]:
     """Return the number of the fixed coordinate and its value for each section."""
-    spans = [float(np.ptp(axis)) for axis in workspace.field.axes]
-    round_values = [_round(float(middle[k]), spans[k], workspace, k) for k in range(3)]
+    round_values = [_round(float(middle[k]), workspace, k) for k in range(3)]
     if workspace.of_angles:
         return [(k, round_values[k]) for k in (1, 2)]
     height = float(home.position[2])
@@ -98,9 +97,10 @@ def _section(
     return Section(plane, ball, inner, home=marked)
 
 
-def _round(value: float, span: float, workspace: WorkspaceMap, fixed: int) -> float:
+def _round(value: float, workspace: WorkspaceMap, fixed: int) -> float:
     """Return a round value near a coordinate of a map, of angles round in degrees."""
     from ninedof.plot.style import round_to
 
     scale = 180.0 / math.pi if workspace.of_angles else 1.0
+    span = float(np.ptp(workspace.field.axes[fixed]))
     return float(np.clip(round_to(scale * value, scale * span) / scale, workspace.low[fixed], workspace.high[fixed]))

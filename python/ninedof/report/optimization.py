@@ -59,12 +59,10 @@ def design_machine(
     title: str, one: Candidate, study: Study, sheet: Sheet | None = None, body: Mapping[str, Any] | None = None
 ) -> dict[str, Any]:
     """Return a design for the view: with the worst poses of its sheet and a body, or at its neutral pose."""
-    region, length = study.objective.region, one.characteristic_length
+    region = study.objective.region
     lines = [] if region is None else region_lines(region, one.configuration)
-    if sheet is None:
-        return scene.machine(title, one.geometry, one.configuration, length, lines=lines)
-    poses = scene.worst_poses(sheet)
-    return scene.machine(title, one.geometry, sheet.configurations, length, poses, lines, body)
+    poses = [("neutral pose", one.configuration)] if sheet is None else scene.worst_poses(sheet)
+    return scene.machine(title, one.geometry, one.characteristic_length, poses, lines, body)
 
 
 def _answer(result: Result) -> Html:

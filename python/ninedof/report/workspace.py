@@ -53,9 +53,7 @@ def _machine(question: Any) -> tuple[Geometry, Configuration]:
 
 def _scene(workspace: WorkspaceMap, g: Geometry, home: Configuration, length: float) -> dict[str, Any]:
     box = [] if workspace.of_angles else box_lines(workspace.low, workspace.high)
-    return scene.scene(
-        [scene.machine("robot", g, home, length, (("home", 0),), box, body_of(workspace))], workspace.unit
-    )
+    return scene.scene([scene.machine("robot", g, length, [("home", home)], box, body_of(workspace))], workspace.unit)
 
 
 def _question(workspace: WorkspaceMap, question: Any) -> Html:

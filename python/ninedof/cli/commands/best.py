@@ -52,7 +52,7 @@ def best(options: BestOptions) -> Answer:
     how = {"criterion": options.criterion, "limits": limits, "characteristic_length": length}
     result = nd.best_internal_point(at.geometry, c.position, c.rotation, **how, start=c.internal_point)
     now = _now(at, options.criterion, length)
-    words, small = WORDS[options.criterion], options.criterion == "condition_number"
+    words, small = WORDS[options.criterion], options.criterion != "singularity"
     if len(c) == 1:
         parts: list[Any] = list(_words(at, result, now, words))
     else:
@@ -62,37 +62,37 @@ def best(options: BestOptions) -> Answer:
         "limits": limits,
         "internal_point": result.configuration.internal_point,
         "value": result.value,
-        "now": now,
+        "now": None if np.isnan(now).all() else now,
         "status": result.status,
         "active": result.active,
     }
     return at.answer(parts, data, status=DONE if np.isfinite(result.value).any() else NO_RESULT)
 
 
-def _now(at: DesignAtPoses, criterion: str, length: float) -> Floats | None:
-    """Return the criterion where O is; None for one that depends on limits."""
+def _now(at: DesignAtPoses, criterion: str, length: float) -> Floats:
+    """Return the criterion where O is; NaN for one that depends on limits."""
     if criterion == "condition_number":
         return np.asarray(nd.condition_number(at.geometry, at.c, length))
     if criterion == "singularity":
         return np.asarray(np.min(np.abs(np.stack(nd.singularity_margins(at.geometry, at.c))), axis=0))
-    return None
+    return np.full(len(at.c), np.nan)
 
 
-def _over_poses(result: nd.InternalPoint, now: Floats | None, words: str, small: bool) -> Iterator[str]:
+def _over_poses(result: nd.InternalPoint, now: Floats, words: str, small: bool) -> Iterator[str]:
     """Yield the worst over all poses, and how the searches ended."""
     if len(result.value) > SHOWN:
         yield f"the {SHOWN} worst of {len(result.value)} poses"
-    pick = np.max if small or now is None else np.min
-    ended = [f"worst {words} now {pick(now):.6g}"] if now is not None else []
+    pick = np.max if small else np.min
+    ended = [] if np.isnan(now).all() else [f"worst {words} now {pick(now):.6g}"]
     if not np.isnan(result.value).any():
         ended.append(f"with the best O {pick(result.value):.6g}")
     statuses = Counter(str(status) for status in result.status)
     yield "; ".join([*ended, ", ".join(f"{count} {status}" for status, count in statuses.items())])
 
 
-def _words(at: DesignAtPoses, result: nd.InternalPoint, now: Floats | None, words: str) -> Iterator[str]:
+def _words(at: DesignAtPoses, result: nd.InternalPoint, now: Floats, words: str) -> Iterator[str]:
     """Yield O and the criterion at one pose, as they are and at the best."""
-    if now is not None:
+    if not np.isnan(now[0]):
         yield f"O now {_point(at.c.internal_point[0], at.unit)}: {words} {now[0]:.6g}"
     if not np.isnan(result.value[0]):
         place = _point(result.configuration.internal_point[0], at.unit)
@@ -100,10 +100,10 @@ def _words(at: DesignAtPoses, result: nd.InternalPoint, now: Floats | None, word
     yield f"{result.status[0]}; limits reached: {', '.join(result.active[0]) or 'nothing'}"
 
 
-def _table(at: DesignAtPoses, result: nd.InternalPoint, now: Floats | None, words: str, small: bool) -> Table:
+def _table(at: DesignAtPoses, result: nd.InternalPoint, now: Floats, words: str, small: bool) -> Table:
     """Return O and the criterion, as it is and at the best, for the poses that are worst now."""
     c, points = at.c, result.configuration.internal_point
-    order = np.arange(len(c)) if now is None else np.argsort(-now if small else now, kind="stable")
+    order = np.argsort(-now if small else now, kind="stable")
     decimals = decimals_of(c.position, points)
     p, o = (f"{with_unit(name, at.unit)}\nx" for name in ("p", "best O"))
     heads = columns(">pose", f">{p}", *YZ, ">now", ">best", f">{o}", *YZ, "why")
@@ -112,10 +112,7 @@ def _table(at: DesignAtPoses, result: nd.InternalPoint, now: Floats | None, word
         place, centre = (
             ["-" if math.isnan(x) else fixed(x, decimals) for x in row] for row in (c.position[k], points[k])
         )
-        values = (
-            None if x is None or math.isnan(x) else f"{x:.4g}"
-            for x in (None if now is None else now[k], result.value[k])
-        )
+        values = ("-" if math.isnan(x) else f"{x:.4g}" for x in (now[k], result.value[k]))
         status = str(result.status[k])
         why = ", ".join([*([] if status == "found" else [status]), *result.active[k]])
         rows.append((str(k), *place, *values, *centre, why))

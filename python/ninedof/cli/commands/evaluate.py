@@ -11,7 +11,7 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.changes import changes_option
-from ninedof.cli.chosen_design import Chosen, chosen_design, named_design
+from ninedof.cli.chosen_design import chosen_design, named_design
 from ninedof.cli.compared import compared, plot_argument
 from ninedof.cli.options import HEXAGON, ONE_DESIGN, PLOT, HexagonalOptions, argument, option, struct
 from ninedof.cli.posed import beyond_words
@@ -56,7 +56,7 @@ def evaluate(options: EvaluateOptions) -> Answer:
         raise ValueError("--plot: got it without --set, expected both")
     chosen = chosen_design(options.design, options)
     values = unit_entry(chosen.unit) | indices(chosen.design)
-    parts: list[Any] = [_table(values, chosen)]
+    parts: list[Any] = [_table(values, chosen.unit)]
     if values["singular"]:
         parts.append("This configuration is singular: the platform or O can move with all legs locked.")
     parts += architecture_sentences(chosen, chosen.unit)
@@ -85,26 +85,26 @@ def _changed(options: EvaluateOptions) -> Answer:
     return compared(nd.compare(result, result.with_changes(**changes), names=("run", "changed")), options.plot)
 
 
-def _table(values: dict[str, Any], chosen: Chosen) -> Table:
+def _table(values: dict[str, Any], unit: str) -> Table:
     rows: list[Any] = [
-        Line(
-            DETERMINANTS if name == "singularity_margins" else index.words,
-            ["  ".join(map(_digits, np.atleast_1d(values[name])))],
-        )
+        _line(DETERMINANTS if name == "singularity_margins" else index.words, values[name])
         for name, index in computed().items()
         if name in values and name not in ("singular_values", "leg_lengths")
     ]
-    rows += [Line("characteristic length", [_digits(values["characteristic_length"])], unit=chosen.unit), ()]
-    rows += [Line(f"singular value {k} of J'", [_digits(x)]) for k, x in enumerate(values["singular_values"], start=1)]
+    rows += [_line("characteristic length", values["characteristic_length"], unit), ()]
+    rows += [_line(f"singular value {k} of J'", x) for k, x in enumerate(values["singular_values"], start=1)]
     rows.append(())
-    for kind, lengths in values["leg_lengths"].items():
-        rows.append(Line(f"legs {kind}1 {kind}2 {kind}3", ["  ".join(map(_digits, lengths))], unit=chosen.unit))
+    rows += [_line(f"legs {kind}1 {kind}2 {kind}3", lengths, unit) for kind, lengths in values["leg_lengths"].items()]
     rows.append(())
     for kind, at in values["characteristic_lengths"].items():
         if math.isfinite(at["length"]):
             words = f"{_digits(at['length'])}: k = {_digits(at['condition_number'])}"
-            rows.append(Line(f"at the {kind} length", [words], unit=chosen.unit))
+            rows.append(Line(f"at the {kind} length", [words], unit=unit))
     return Table("Indices", columns("", ">"), rows)
+
+
+def _line(name: str, numbers: Any, unit: str = "") -> Line:
+    return Line(name, ["  ".join(map(_digits, np.atleast_1d(numbers)))], unit=unit)
 
 
 def _digits(value: float) -> str:

@@ -11,7 +11,6 @@ from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct
 from ninedof.export.export import formats
 from ninedof.export.model import Format
 from ninedof.support.arguments import choice
-from ninedof.support.extras import MissingExtra
 from ninedof.support.files import own_or_new
 from ninedof.support.units import unit_argument
 
@@ -58,10 +57,7 @@ def export(options: ExportOptions) -> Answer:
     if row.beside is not None:
         own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
     unit = chosen.unit if options.unit is None else unit_argument(options.unit)
-    try:
-        path = nd.export(chosen.machine, row.name, file, unit=unit, **more)
-    except MissingExtra as error:
-        raise ValueError(str(error)) from None
+    path = nd.export(chosen.machine, row.name, file, unit=unit, **more)
     return Answer([f"{row.words}: {path}"], {"format": row.name, "file": str(path)})
 
 

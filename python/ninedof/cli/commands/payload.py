@@ -14,7 +14,6 @@ from ninedof.cli.posed import loads_option
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.payload import Payload, largest_payload
-from ninedof.sheet.pose_words import pose_words
 from ninedof.tables import Table, columns, grouped
 
 PLACE = 4
@@ -61,8 +60,7 @@ def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
     else:
         yield f"largest payload {found.mass:.6g}: {found.leg} reaches its limit ({found.side}) first"
     if found.leg:
-        neutral = chosen.configuration.rotation
-        yield f"worst pose: {pose_words(found.configuration, neutral, chosen.unit)}"
+        yield f"worst pose: {chosen.words(found.configuration)}"
         rows = [(leg, f"{force:.5g}") for leg, force in zip(LEGS, found.forces, strict=True)]
         under = "with the payload" if found.fits else "without a payload"
         yield Table(f"Leg forces there, {under}, + pushes", columns("leg", ">force"), list(grouped(rows)))

@@ -12,7 +12,6 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import option, struct
 from ninedof.cli.posed import DesignAtPoses, PosesOptions, several
 from ninedof.robot.configuration import arrays_of
-from ninedof.sheet.pose_words import pose_words
 from ninedof.sheet.tables import MECHANISMS
 from ninedof.singularity.singularity_distance import PARTS
 from ninedof.support.arrays import Floats
@@ -71,7 +70,7 @@ def _along(at: DesignAtPoses, motion: Floats, most: float) -> tuple[list[Any], d
     result = nd.distance_to_singularity(at.geometry, at.c, motion, most)
     k = int(np.argmin(result.distance))
     if math.isfinite(result.distance[k]):
-        there = pose_words(at.c[k].moved(result.distance[k] * motion), at.configuration.rotation, at.unit)
+        there = at.words(at.c[k].moved(result.distance[k] * motion))
         kind = MECHANISMS[f"det_{result.mechanism[k]}"]
         words = [f"first singularity at {result.distance[k]:.6g} of the motion: {kind}", f"there {there}"]
     else:
@@ -125,5 +124,4 @@ def _nearest(name: str, distance: str, one: nd.NearestSingularity, at: DesignAtP
     if not math.isfinite(one.distance):
         return f"{name} any axis: no singularity found"
     pose = at.where(one.pose).replace(" at ", " from ")
-    there = pose_words(one.configuration, at.configuration.rotation, at.unit)
-    return f"{name} any axis: nearest {distance}{pose}, kind {one.mechanism}, where {there}"
+    return f"{name} any axis: nearest {distance}{pose}, kind {one.mechanism}, where {at.words(one.configuration)}"

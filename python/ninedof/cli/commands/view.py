@@ -7,9 +7,8 @@ import warnings
 import webbrowser
 from pathlib import Path
 
+import ninedof as nd
 from ninedof.cli.options import DESIGN_OR_PUBLISHED, argument, option, struct
-from ninedof.support.extras import MissingExtra
-from ninedof.viewer import view as view_of
 
 PLACE = 3
 EXAMPLES = """[bold]Examples[/bold]
@@ -40,12 +39,9 @@ def view(options: ViewOptions) -> None:
 
     Needs the extra `viewer`. Ctrl-C ends it.
     """
-    try:
-        with warnings.catch_warnings(record=True) as warned:
-            warnings.simplefilter("always")
-            viewer = view_of(options.design, host=options.host, port=options.port, path=options.path, dark=options.dark)
-    except MissingExtra as error:
-        raise ValueError(str(error)) from None
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
+        viewer = nd.view(options.design, host=options.host, port=options.port, path=options.path, dark=options.dark)
     with viewer:
         for one in warned:
             print(f"ninedof: {one.message}", file=sys.stderr)
