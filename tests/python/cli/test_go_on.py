@@ -14,7 +14,6 @@ from killing import COMMANDS, Killer
 import ninedof as nd
 from ninedof import _core
 from ninedof.cli.app import main
-from ninedof.cli.commands import certify
 from ninedof.support.store import Store
 
 LONG = "NINEDOF_LONG" in os.environ
@@ -191,7 +190,7 @@ def test_an_interrupted_certificate_leaves_the_one_that_is_there(monkeypatch, ca
     assert run("certify solved") == 130
     assert capsys.readouterr().err.endswith("ninedof: interrupted; to go on, type: ninedof certify solved\n")
     assert nd.load_certificate("solved") == before
-    assert certify.load_certificate("solved") == before
+    assert nd.load_certificate("solved") == before
 
 
 @pytest.mark.parametrize(
