@@ -52,10 +52,11 @@ from ninedof.kinematics.velocity import (
 )
 from ninedof.motion import Followed, LimitBreak, Trajectory, follow
 from ninedof.optimize.bounds import LowerBound, applicable_bounds
+from ninedof.optimize.candidate import Candidate
 from ninedof.optimize.check import check
 from ninedof.optimize.optimize import Trace, optimize, trace
 from ninedof.optimize.region_map import RegionMap, region_map
-from ninedof.optimize.result import Candidate, Result, Status
+from ninedof.optimize.result import Result, Status
 from ninedof.paper.sweeps import sweep_figure
 from ninedof.pareto import Front, pareto
 from ninedof.position.certificate import ModesCertificate

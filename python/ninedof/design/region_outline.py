@@ -9,6 +9,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 
 ROUND = 97  # points of a round outline, the last one on the first
+SQUARE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
 
 
 def region_lines(region: Region, home: Configuration) -> list[Floats]:
@@ -16,28 +17,22 @@ def region_lines(region: Region, home: Configuration) -> list[Floats]:
 
     Nothing for a region of turns alone.
     """
-    unit = region.size_at(home)
     if region.path is not None:
-        return [np.asarray(home.position + unit * np.array(region.path))]
-    low, high = extent(region, home)
-    half = 0.5 * (high - low)
+        return [_corners(region, home)]
+    half = _half_edges(region, home)
     if not half.any():
         return []
-    if region.ball is None and region.cylinder is None:
-        return box_lines(low, high)
-    turn = np.linspace(0.0, 2.0 * np.pi, ROUND)
-    circle = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(ROUND)])
     if region.ball is not None:
-        return [home.position + half * np.roll(circle, k, axis=1) for k in range(3)]
-    rims = [home.position + half * (circle + np.array([0.0, 0.0, z])) for z in (-1.0, 1.0)]
-    return [*rims, *(np.stack([rims[0][k], rims[1][k]]) for k in range(0, ROUND - 1, ROUND // 4))]
+        return [home.position + half * np.roll(circle(), k, axis=1) for k in range(3)]
+    if region.cylinder is None:
+        return box_lines(*extent(region, home))
+    return _between_rims([home.position + half * (circle() + np.array([0.0, 0.0, z])) for z in (-1.0, 1.0)])
 
 
 def box_lines(low: Floats, high: Floats) -> list[Floats]:
     """Return the twelve edges of a box: its lower and its upper rim and four edges up."""
-    corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]], [low[0], low[1]]])
-    rims = [np.column_stack([corners, np.full(5, z)]) for z in (low[2], high[2])]
-    return [*rims, *(np.stack([rims[0][k], rims[1][k]]) for k in range(4))]
+    sides = np.where(SQUARE > 0.0, high[:2], low[:2])
+    return _between_rims([np.column_stack([sides, np.full(len(sides), z)]) for z in (low[2], high[2])])
 
 
 def section_outline(region: Region, home: Configuration, fixed: int, at: float) -> Floats | None:
@@ -46,31 +41,44 @@ def section_outline(region: Region, home: Configuration, fixed: int, at: float) 
     Points (n, 2) in the two other coordinates, in their order.
     """
     axes = [k for k in range(3) if k != fixed]
-    unit = region.size_at(home)
     if region.path is not None:
-        return np.asarray((home.position + unit * np.array(region.path))[:, axes])
-    low, high = extent(region, home)
-    away = abs(at - float(home.position[fixed]))
-    if away > 0.5 * float(high[fixed] - low[fixed]):
+        return _corners(region, home)[:, axes]
+    every = _half_edges(region, home)
+    half, away = every[axes], abs(at - float(home.position[fixed]))
+    if away > every[fixed]:
         return None
-    half, middle = 0.5 * (high - low)[axes], home.position[axes]
-    turn = np.linspace(0.0, 2.0 * np.pi, ROUND)
-    circle = np.column_stack([np.cos(turn), np.sin(turn)])
+    is_round = region.ball is not None or (region.cylinder is not None and fixed == 2)
     if region.ball is not None:
-        return np.asarray(middle + np.sqrt((unit * region.ball) ** 2 - away**2) * circle)
-    if region.cylinder is not None:
-        radius = unit * region.cylinder[0]
-        if fixed == 2:
-            return np.asarray(middle + radius * circle)
-        half[0] = np.sqrt(radius**2 - away**2)
-    return np.asarray(middle + half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]]))
+        half = np.sqrt(half**2 - away**2)
+    elif region.cylinder is not None and not is_round:
+        half[0] = np.sqrt(half[0] ** 2 - away**2)
+    return np.asarray(home.position[axes] + half * (circle()[:, :2] if is_round else SQUARE))
 
 
 def extent(region: Region, home: Configuration) -> tuple[Floats, Floats]:
     """Return the least and the greatest coordinates of a region's positions, in base axes."""
-    unit = region.size_at(home)
     if region.path is not None:
-        corners = np.array(region.path)
-        return home.position + unit * corners.min(axis=0), home.position + unit * corners.max(axis=0)
-    reach = unit * np.array(region.reach[:3])
-    return home.position - reach, home.position + reach
+        corners = _corners(region, home)
+        return corners.min(axis=0), corners.max(axis=0)
+    half = _half_edges(region, home)
+    return home.position - half, home.position + half
+
+
+def circle() -> Floats:
+    """Return the points (n, 3) of a circle of radius 1 about z."""
+    turn = np.linspace(0.0, 2.0 * np.pi, ROUND)
+    return np.column_stack([np.cos(turn), np.sin(turn), np.zeros(ROUND)])
+
+
+def _corners(region: Region, home: Configuration) -> Floats:
+    return np.asarray(home.position + region.size_at(home) * np.array(region.path))
+
+
+def _half_edges(region: Region, home: Configuration) -> Floats:
+    return np.asarray(region.size_at(home) * np.array(region.reach[:3]))
+
+
+def _between_rims(rims: list[Floats]) -> list[Floats]:
+    """Return two closed lines, and four lines from one to the other."""
+    last = len(rims[0]) - 1
+    return [*rims, *(np.stack([rims[0][k], rims[1][k]]) for k in range(0, last, last // 4))]

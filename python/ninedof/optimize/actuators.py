@@ -18,7 +18,8 @@ from ninedof.design.actuators import LEG_KINDS, Actuator, hull, row_limits
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.optimize.actuator_choice import EACH, ActuatorChoice, Combination, notes_of
-from ninedof.optimize.result import Candidate, Result, Status
+from ninedof.optimize.candidate import Candidate
+from ninedof.optimize.result import Result, Status
 
 FEW = 4  # starts of a study of the search, besides those from the studies before it
 Rows = tuple[Actuator | None, ...]

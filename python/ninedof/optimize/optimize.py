@@ -15,10 +15,11 @@ from typing import Any
 from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.optimize.actuators import ActuatorSearch, SearchEnded
+from ninedof.optimize.candidate import Candidate, candidate_of
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.reserve import with_reserve
-from ninedof.optimize.result import Candidate, Result, Status, candidate_of
+from ninedof.optimize.result import Result, Status
 from ninedof.optimize.warm import Warm, warm_starts, warm_variables
 from ninedof.optimize.words import axis_hint
 from ninedof.proof.optimum import gap_of, left_out_of, prove_optimum
@@ -124,78 +125,72 @@ def optimize(
         "proof": certify,
     }
     with nullcontext() if out is None else Store(out, question, 1) as store:
-        pieces = Pieces(store)
-        solve = _with_actuators if study.actuators else _optimized
-        begin = perf_counter()
-        result = solve(study, count, progress, additional, pieces, seconds)
+        run = _Run(count, progress, Pieces(store), perf_counter() + seconds)
+        result = _with_actuators(study, additional, run) if study.actuators else run.result(study, additional)
         if study.tolerances:
 
             def again(one: Study, known: Result) -> Result:
-                left = max(begin + seconds - perf_counter(), 1e-3)
-                found = warm_variables(known)
-                return _optimized(one, count, part_of(progress, "a reserve for tolerances"), found, pieces, left)
+                return run.result(one, warm_variables(known), "a reserve for tolerances")
 
             result = with_reserve(result, again, count)
         if not certify or result.best is None or result.interrupted:
             return result
-        return _proved(result, count, progress, pieces)
+        run.end = math.inf  # a proof does not count
+        return _proved(result, run)
 
 
-def _optimized(
-    study: Study,
-    threads: int,
-    progress: Progress | None,
-    warm: Sequence[Mapping[str, float]],
-    pieces: Pieces,
-    time_limit: float = math.inf,
-    explain: bool = True,
-) -> Result:
-    how: dict[str, Any] = {"threads": threads, "time_limit": time_limit, "explain": explain}
-    return pieces.result(study, lambda: _anew(study, progress, warm, how), time_limit)
+@dataclass
+class _Run:
+    """What all studies of one call have in common."""
+
+    threads: int
+    progress: Progress | None
+    pieces: Pieces
+    end: float
+    """Of the time, as perf_counter counts it."""
+
+    def result(self, study: Study, warm: Sequence[Mapping[str, float]], part: str = "", explain: bool = True) -> Result:
+        """Solve a study, a part of the work that may have a name, or return the result that was kept of it."""
+        left = max(self.end - perf_counter(), 1e-3)
+        progress = part_of(self.progress, part) if part else self.progress
+        settings = _core.Settings(
+            starts=study.starts,
+            seed=study.seed,
+            warm=warm_starts(study, warm),
+            threads=self.threads,
+            time_limit=left,
+            explain=explain,
+        )
+        return self.pieces.result(study, lambda: _anew(study, settings, progress), left)
 
 
-def _with_actuators(
-    study: Study,
-    threads: int,
-    progress: Progress | None,
-    warm: Sequence[Mapping[str, float]],
-    pieces: Pieces,
-    time_limit: float,
-) -> Result:
-    begin = perf_counter()
-
+def _with_actuators(study: Study, warm: Sequence[Mapping[str, float]], run: _Run) -> Result:
     def solve(one: Study, others: Sequence[Candidate], words: str, explain: bool) -> Result:
-        left = max(begin + time_limit - perf_counter(), 1e-3)
-        known = [*warm, *(other.variables for other in others)]
-        result = _optimized(one, threads, part_of(progress, words), known, pieces, left, explain)
-        if result.interrupted or perf_counter() - begin >= time_limit:
+        result = run.result(one, [*warm, *(other.variables for other in others)], words, explain)
+        if result.interrupted or perf_counter() >= run.end:
             raise SearchEnded(result)
         return result
 
     return ActuatorSearch(study, solve).result()
 
 
-def _anew(
-    study: Study, progress: Progress | None, warm: Sequence[Mapping[str, float]], how: Mapping[str, Any]
-) -> Result:
-    settings = _core.Settings(starts=study.starts, seed=study.seed, warm=warm_starts(study, warm), **how)
+def _anew(study: Study, settings: _core.Settings, progress: Progress | None) -> Result:
     begin, region = perf_counter(), study.objective.region
-    report, study_at_poses = None, study
+    report, problem = None, study.problem(region is not None)
     if region is None:
-        end = _core.optimize(study.problem(), settings, progress)
+        end = _core.optimize(problem, settings, progress)
     else:
-        words = partial(phase, progress)
-        end, over = _core.optimize_region(study.problem(True), region.for_core(), settings, progress, words)
-        if end.candidates:
-            report = RegionReport.from_core(over)
-            study_at_poses = report.posed(study)
-    unit = f" (lengths in {study.unit})" if end.status == Status.INFEASIBLE and study.unit else ""
-    problem = study_at_poses.problem()
+        end, over = _core.optimize_region(problem, region.for_core(), settings, progress, partial(phase, progress))
+        report = RegionReport.from_core(over) if end.candidates else None
+        problem = (study if report is None else report.posed(study)).problem()
+    reason = end.reason
+    if end.status == Status.INFEASIBLE:
+        reason += (f" (lengths in {study.unit})" if study.unit else "") + axis_hint(study)
     return from_core(
         Result,
         end,
         status=Status(end.status),
-        reason=end.reason + unit + (axis_hint(study) if end.status == Status.INFEASIBLE else ""),
+        reason=reason,
         candidates=tuple(candidate_of(problem, one) for one in end.candidates),
         seconds=perf_counter() - begin,
         study=study,
@@ -206,7 +201,7 @@ def _anew(
     )
 
 
-def _proved(result: Result, threads: int, progress: Progress | None, pieces: Pieces) -> Result:
+def _proved(result: Result, run: _Run) -> Result:
     """Return a result with a proof of how much better a design of its study can be at most.
 
     Where the proof leaves limits out, the optimum of the study without them is what it can come up to. After Ctrl-C the
@@ -217,16 +212,15 @@ def _proved(result: Result, threads: int, progress: Progress | None, pieces: Pie
     left_out = {label.removesuffix(" at neutral").removesuffix(".min") for label in left_out_of(study)}
     if left_out:
         others = {name: limit for name, limit in study.constraints.items() if name not in left_out}
-        relaxed = _optimized(replace(study, constraints=others), threads, progress, warm_variables(result), pieces)
+        relaxed = run.result(replace(study, constraints=others), warm_variables(result))
         if relaxed.interrupted:
             return replace(result, interrupted=True)
         best = min(best, relaxed.condition_number or best)
-    if progress is not None:
-        phase(progress, "proving that no design is better")
+    phase(run.progress, "proving that no design is better")
 
     def prove(best: float, gap: float) -> OptimumProof:
-        how: dict[str, Any] = {"time_limit": LONGEST, "threads": threads or None, "progress": progress}
-        return pieces.proof(lambda: prove_optimum(study, best, gap=gap, **how))
+        how: dict[str, Any] = {"time_limit": LONGEST, "threads": run.threads or None, "progress": run.progress}
+        return run.pieces.proof(lambda: prove_optimum(study, best, gap=gap, **how))
 
     gap = gap_of(study)
     proof = prove(best, gap)
@@ -263,12 +257,9 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
     instance("study", study, Study)
     choice("formulation", formulation, ("minimax", "plain"))
     problem = study.problem()
-    run = _core.trace(problem, _start(study, start), formulation)
-    return Trace(run.best, candidate_of(problem, run.end))
-
-
-def _start(study: Study, start: Mapping[str, float]) -> list[float]:
     try:
-        return study.vector(start)
+        x = study.vector(start)
     except ValueError as error:
         raise ValueError(f"start: {error}") from None
+    run = _core.trace(problem, x, formulation)
+    return Trace(run.best, candidate_of(problem, run.end))

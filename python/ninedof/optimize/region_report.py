@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 from ninedof import _core
 from ninedof.design.pose import Pose
 from ninedof.design.study import Study
-from ninedof.support.arguments import Vector, items, table
+from ninedof.support.arguments import items
+from ninedof.support.schema import read
 from ninedof.support.short import short_repr
 from ninedof.support.structs import entries_of, from_core
 
@@ -140,24 +141,14 @@ class RegionReport:
         """Return the report of a mapping as `to_dict` makes it."""
         entries = entries_of(cls, data, "region", skipped=["poses", "objective_at"])
         rows = items("region.poses", data.get("poses"), "a list of poses")
-        poses = tuple(_pose(f"region.poses[{k}]", pose) for k, pose in enumerate(rows))
-        return cls(**entries, poses=poses, objective_at=_pose("region.objective_at", data.get("objective_at")))
+        poses = tuple(read(Pose, pose, f"region.poses[{k}]") for k, pose in enumerate(rows))
+        return cls(**entries, poses=poses, objective_at=read(Pose, data.get("objective_at"), "region.objective_at"))
 
 
-def _posed(pose: _core.Pose) -> Pose:
-    def three(v: Iterable[float]) -> Vector:
-        x, y, z = map(float, v)
-        return x, y, z
-
-    point = "best" if pose.best_internal else three(pose.internal)
-    return Pose(three(pose.position), three(pose.rotation), point, "zp" if pose.in_zp else "length", pose.weight)
-
-
-def _pose(where: str, data: Any) -> Pose:
-    try:
-        return Pose.from_dict(table(where, data))
-    except ValueError as error:
-        raise ValueError(str(error) if str(error).startswith(where) else f"{where}: {error}") from None
+def _posed(pose: Any) -> Pose:
+    """Return a pose of the core."""
+    point = "best" if pose.best_internal else pose.internal
+    return Pose(pose.position, pose.rotation, point, "zp" if pose.in_zp else "length", pose.weight)
 
 
 def posed(study: Study, poses: tuple[Pose, ...]) -> Study:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 import numpy as np
 
 from ninedof.design.changes import changed_variables
-from ninedof.design.design_point import infinite_if_singular
+from ninedof.design.design_point import design_point
 from ninedof.design.duty import Tolerances
 from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.pose import rule_words
@@ -20,9 +20,10 @@ from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.actuator_choice import ActuatorChoice
+from ninedof.optimize.candidate import DERIVED, Candidate, candidate_at, candidate_from, plain_fields
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.reserve import Reserve
-from ninedof.optimize.tables import candidates_table
+from ninedof.optimize.tables import candidates_table, design_words
 from ninedof.optimize.words import agreement_sentence, price_words, reached_words
 from ninedof.proof.machine import certify, machine_digest, open_limits
 from ninedof.proof.machine_record import MachineCertificate
@@ -37,13 +38,8 @@ from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arguments import choice, finite, instance, items, known_keys
 from ninedof.support.arrays import Floats
 from ninedof.support.progress import phase, progress_argument
-from ninedof.support.short import short_repr
-from ninedof.support.structs import Fixed, entries_of, from_core
+from ninedof.support.structs import entries_of
 from ninedof.tables.html import notebook
-
-if TYPE_CHECKING:
-    from ninedof import _core
-
 
 T = TypeVar("T")
 
@@ -62,59 +58,6 @@ class Status(StrEnum):
     """No design found satisfies all limits: those in `causes` exclude each other, and fewer of them do not."""
     STOPPED = "stopped"
     """Interrupted, or no design passed the checks. The best design found is returned, but it is not an optimum."""
-
-
-DERIVED = {"derived": True}  # fields that follow from others
-ROBOT = ("geometry", "configuration", "configurations")  # those of a candidate
-
-
-@short_repr
-@dataclass(frozen=True)
-class Candidate:
-    """A local optimum that passed the checks."""
-
-    objective: float
-    """The value of the study's objective."""
-    neutral_condition_number: float
-    """At the neutral pose."""
-    conditions: tuple[float, ...]
-    """Condition number at each pose of the objective; where it has none, at the neutral pose."""
-    characteristic_length: float
-    variables: dict[str, float]
-    """Those of the family, then "characteristic_length" and offsets of O, where they are free; angles in radians."""
-    geometry: Geometry = field(metadata=DERIVED)
-    configuration: Configuration = field(metadata=DERIVED)
-    """The neutral one."""
-    configurations: Configuration = field(metadata=DERIVED)
-    """The neutral one, then the poses of the objective: a stack."""
-    active: tuple[str, ...]
-    """Variables on a bound and constraints on their limit."""
-    prices: dict[str, float]
-    """Per cent by which the objective falls when that limit or bound is relaxed by 1 %, to first order."""
-    optimality_residual: float
-    """Norm of the least combination of active gradients of log(objective), 0 where no direction improves to first
-    order. Lengths are taken on an asinh scale: linear near 0, logarithmic beyond."""
-    constraint_violation: float
-    """Largest negative margin; 0 if none."""
-    reached: int
-    """Number of starts that ended at this objective; warm starts are not counted."""
-
-    def __post_init__(self) -> None:
-        """Make what is there by name unchangeable, as all else is."""
-        for name in ("variables", "prices"):
-            object.__setattr__(self, name, Fixed(getattr(self, name)))
-
-    @property
-    def condition_number(self) -> float:
-        """The worst condition number over the poses of the study; of a region over the poses that ruled.
-
-        It is what a study asks for that minimizes the worst; `Result.objective` is the value of another objective.
-        """
-        return max(self.conditions)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return every field as plain values, but for the robot and its poses, which follow from the variables."""
-        return _to_dict(self)
 
 
 class _OfBest(property, Generic[T]):
@@ -223,9 +166,9 @@ class Result:
 
     def to_dict(self) -> dict[str, Any]:
         """Return every field but the study as plain values, and the confidence; the candidates come last."""
-        plain = _to_dict(self)
-        candidates = [c.to_dict() for c in plain.pop("candidates")]
-        return plain | {"confidence": self.confidence, "candidates": candidates}
+        out = plain_fields(self)
+        candidates = out.pop("candidates")
+        return out | {"confidence": self.confidence, "candidates": candidates}
 
     @cached_property
     def internal_points(self) -> str:
@@ -311,35 +254,20 @@ class Result:
                 "optimize it with fixed variables"
             )
         values = changed_variables(self.study, best.variables, changes)
+        study = self.study
         if region is not None:
-            poses = () if self._placing() is not None else region.poses  # where O is placed it is placed anew
-            region = RegionReport(poses, 0, 0, math.nan, region.objective_at, math.nan, "")
-        problem = (self.study if region is None else region.posed(self.study)).problem()
-        x = [values[name] for name in problem.names]
+            region = replace(region, poses=region.poses if self._placing() is None else ())  # O is placed anew
+            study = region.posed(study)
+        problem = study.problem()
         try:
-            point = problem.evaluate(x)
-            robot = _robot(problem, x)
+            point = design_point(problem, [values[name] for name in problem.names])
         except ValueError as error:  # plates without a size
             raise ValueError(f"{', '.join(changes)}: {error}") from None
-        candidate = Candidate(
-            objective=infinite_if_singular(point["objective"]),
-            neutral_condition_number=infinite_if_singular(point["condition_number"]),
-            conditions=tuple(map(infinite_if_singular, point["conditions"])),
-            characteristic_length=point["characteristic_length"],
-            variables=dict(zip(problem.names, x, strict=True)),
-            active=(),
-            prices={},
-            optimality_residual=math.inf,
-            constraint_violation=max(0.0, *(-margin for _, margin, _ in point["margins"]), 0.0),
-            reached=0,
-            **robot,
-        )
         if region is not None:
-            region = replace(region, objective=candidate.objective)
-        words = ", ".join(f"{name} = {change}" for name, change in changes.items())
-        return Result(
-            Status.STOPPED, f"changed, not optimized: {words}", (), (candidate,), 1, 0, 0.0, self.study, region=region
-        )
+            region = RegionReport(region.poses, 0, 0, point.objective, region.objective_at, math.nan, "")
+        reason = f"changed, not optimized: {', '.join(f'{name} = {change}' for name, change in changes.items())}"
+        candidates = (candidate_at(point, math.inf),)
+        return Result(Status.STOPPED, reason, (), candidates, 1, 0, 0.0, self.study, region=region)
 
     def certify(self, **options: Any) -> MachineCertificate:
         """Prove the limits of the study at every pose of its region, and enclose the worst condition number there.
@@ -448,39 +376,12 @@ class Result:
             value += f", {min(best.conditions):.6f} to {max(best.conditions):.6f} over the poses"
         lines.append(value)
         lines.append(f"limits reached: {reached_words(self.study, best.variables, best.active)}")
-        if self.region is not None:
-            lines.append(self.region.words)
-        if self.internal_points:
-            lines.append(self.internal_points)
-        lines.extend(self.actuators.words if self.actuators else ())
-        lines.extend(self.reserve.words if self.reserve else ())
+        lines.extend(design_words(self))
         lines.extend(price_words(self.study, best.variables, best.prices))
         if len(self.candidates) > 1:
             lines.append(f"the next best optimum has {self.candidates[1].objective:.6f}")
         lines.extend(self.agreement.split(". "))
         return "\n".join(lines)
-
-
-def candidate_from(problem: _core.Problem, data: Mapping[str, Any], where: str = "candidate") -> Candidate:
-    """Return the candidate of a mapping as `Candidate.to_dict` makes it, with its robot and poses."""
-    entries = entries_of(Candidate, data, where, skipped=ROBOT)
-    values = entries["variables"]
-    missing = [name for name in problem.names if name not in values]
-    if missing:
-        raise ValueError(f"{where}.variables: got none of the name {missing[0]}, expected all of the study")
-    x = [finite(f"{where}.variables.{name}", values[name]) for name in problem.names]
-    return Candidate(**entries, **_robot(problem, x))
-
-
-def candidate_of(problem: _core.Problem, end: _core.Candidate) -> Candidate:
-    """Return the candidate of the core with its robot and poses."""
-    x = end.variables.tolist()
-    return from_core(Candidate, end, variables=dict(zip(problem.names, x, strict=True)), **_robot(problem, x))
-
-
-def _robot(problem: _core.Problem, x: Sequence[float]) -> dict[str, Any]:
-    configurations = Configuration(*problem.configurations(x))
-    return dict(zip(ROBOT, (problem.geometry(x), configurations[0], configurations), strict=True))
 
 
 def with_fixed_design(result: Result) -> Result:
@@ -496,10 +397,7 @@ def with_fixed_design(result: Result) -> Result:
         point = study.evaluate({})
     except ValueError:
         return result
-    own: dict[str, Any] = {f.name: getattr(point, f.name) for f in fields(Candidate) if hasattr(point, f.name)}
-    violation = max(0.0, -min(point.margins.values(), default=0.0))
-    search: dict[str, Any] = {"active": (), "prices": {}, "optimality_residual": math.nan, "reached": 0}
-    return replace(result, candidates=(Candidate(**own, **search, constraint_violation=violation),))
+    return replace(result, candidates=(candidate_at(point, math.nan),))
 
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:
@@ -519,17 +417,3 @@ def result_from(study: Study, data: Mapping[str, Any]) -> Result:
         candidates=tuple(candidate_from(problem, entry, f"candidates[{k}]") for k, entry in enumerate(rows)),
         study=study,
     )
-
-
-def _to_dict(record: Candidate | Result) -> dict[str, Any]:
-    return {f.name: _plain(getattr(record, f.name)) for f in fields(record) if not f.metadata.get("derived")}
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Status):
-        return str(value)
-    if isinstance(value, RegionReport | OptimumProof | ActuatorChoice | Reserve):
-        return value.to_dict()
-    if isinstance(value, Fixed):
-        return dict(value)
-    return list(value) if isinstance(value, tuple) else value

@@ -54,8 +54,8 @@ def _index_lines(result: Any) -> Iterator[Line]:
         yield Line("best over the poses", [min(c.conditions) for c in candidates], ".6f")
 
 
-def agreement_words(result: Any) -> Iterator[str]:
-    """Yield what the search shows: the region, where O is, how many starts agree."""
+def design_words(result: Any) -> Iterator[str]:
+    """Yield what belongs to the best design: the region, where O is, its actuators, the reserve of its limits."""
     if result.region is not None:
         yield result.region.words
     if result.internal_points:
@@ -64,6 +64,11 @@ def agreement_words(result: Any) -> Iterator[str]:
         yield from result.actuators.words
     if result.reserve is not None:
         yield from result.reserve.words
+
+
+def agreement_words(result: Any) -> Iterator[str]:
+    """Yield the words on the best design, and how many starts agree."""
+    yield from design_words(result)
     yield result.agreement
 
 

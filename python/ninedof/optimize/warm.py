@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from ninedof.design.study import LENGTH, Study
-from ninedof.optimize.result import Candidate, Result
+from ninedof.optimize.candidate import Candidate
+from ninedof.optimize.result import Result
 from ninedof.support.angles import in_radians
 from ninedof.support.arguments import finite, shown
 from ninedof.support.arrays import Floats

@@ -18,7 +18,7 @@ from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 
 if TYPE_CHECKING:
-    from ninedof.optimize.result import Candidate
+    from ninedof.optimize.candidate import Candidate
     from ninedof.pareto import Front
 
 Row = Mapping[str, Any]

@@ -7,7 +7,8 @@ from typing import Any
 
 from ninedof.design.region_outline import region_lines
 from ninedof.design.study import Study
-from ninedof.optimize.result import Candidate, Result, Status
+from ninedof.optimize.candidate import Candidate
+from ninedof.optimize.result import Result, Status
 from ninedof.optimize.tables import SHOWN, agreement_words, best_prices, candidates_table
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.report import origin, proof, scene
