@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import asdict, dataclass, field, fields
 from enum import StrEnum
 from functools import cached_property
@@ -145,14 +146,12 @@ class WorkspaceMap(Saved):
             Shares that sum to one; "box" is the part on the faces of the box. Empty for a sample.
 
         """
-        grouped = flag("grouped", grouped)
-        total = float(self.limit_area.sum())
-        limits: dict[str, float] = {}
+        limits: Counter[str] = Counter()
+        key = group_of if flag("grouped", grouped) else str
         for name, area in zip(LIMITS, self.limit_area.tolist(), strict=True):
             if area > 0.0:
-                key = group_of(name) if grouped else name
-                limits[key] = limits.get(key, 0.0) + area / total
-        return dict(sorted(limits.items(), key=lambda entry: -entry[1]))
+                limits[key(name)] += area / float(self.limit_area.sum())
+        return dict(limits.most_common())
 
     def slice(self, axis: str, at: float, pixels: int = 240, smooth: bool = False) -> WorkspaceSlice:
         """Return a plane section of the map: its cells, or smooth fields for drawing.
@@ -183,14 +182,18 @@ class WorkspaceMap(Saved):
         fixed = self.coordinates.index(choice("axis", axis, self.coordinates))
         finite("at", at, float(self.low[fixed]), float(self.high[fixed]))
         whole("pixels", pixels, 2, 10_000)
-        smooth = flag("smooth", smooth)
-        if self.method == "sample":
-            raise ValueError("slice: got a sample, expected a map of cells")
-        section = (
-            _core.field_section(self, self.field, fixed, at) if smooth else _core.cell_section(self, fixed, at, pixels)
-        )
+        is_smooth = flag("smooth", smooth)
+        self._require_cells("slice")
+        if is_smooth:
+            section = _core.field_section(self, self.field, fixed, at)
+        else:
+            section = _core.cell_section(self, fixed, at, pixels)
         axes = tuple(name for name in self.coordinates if name != axis)
         return from_core(WorkspaceSlice, section, axes=axes, plane=(axis, float(at)))
+
+    def _require_cells(self, name: str) -> None:
+        if self.method == "sample":
+            raise ValueError(f"{name}: got a sample, expected a map of cells")
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out the field, which is computed when it is used."""
@@ -202,8 +205,7 @@ class WorkspaceMap(Saved):
 
         Computed when first used. ValueError for a sample, which has no cells.
         """
-        if self.method == "sample":
-            raise ValueError("field: got a sample, expected a map of cells")
+        self._require_cells("field")
         return _core.workspace_field(self, MOST_VOXELS)
 
     def surface(self, most: int = 300_000) -> _core.WorkspaceSurface:
@@ -225,47 +227,39 @@ class WorkspaceMap(Saved):
             If the map is a sample.
 
         """
-        if self.method == "sample":
-            raise ValueError("surface: got a sample, expected a map of cells")
+        self._require_cells("surface")
         whole("most", most, 1_000, 10_000_000)
         return _core.workspace_field(self, most).surface()
 
     def to_dict(self) -> dict[str, Any]:
         """Return all fields except the cells as plain values."""
-        out: dict[str, Any] = {}
-        for one in fields(self):
-            value = getattr(self, one.name)
-            if one.name in ("cells", "limit_area", "certified") or (one.name == "unit" and not self.unit):
-                continue
-            if one.name == "levels":
-                names = ("cells", "evaluations", "volume", "error")
-                out["levels"] = [dict(zip(names, row, strict=True)) for row in value.tolist()]
-                continue
-            out[one.name] = value.tolist() if isinstance(value, np.ndarray) else value
-        out["status"] = str(self.status)
-        out["internal_point_audit"] = asdict(self.internal_point_audit)
-        out["indices"] = {name: asdict(statistics) for name, statistics in self.indices.items()}
-        out["coordinates"] = list(self.coordinates)
-        out["limits"] = self.limits()
-        out["share"] = self.share
-        if self.certified is not None:
-            out["certified"] = self.certified.to_dict()
-        return out
+        entries = self._entries()
+        del entries["limit_area"]
+        if not self.unit:
+            del entries["unit"]
+        out = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in entries.items()}
+        names = ("cells", "evaluations", "volume", "error")
+        out["levels"] = [dict(zip(names, row, strict=True)) for row in out["levels"]]
+        out |= {"status": str(self.status), "coordinates": list(self.coordinates)}
+        out |= {"limits": self.limits(), "share": self.share}
+        return out if self.certified is None else out | {"certified": self.certified.to_dict()}
+
+    def _entries(self) -> dict[str, Any]:
+        """Return the fields except the cells and the proof, the audit and the indices as mappings."""
+        out = {one.name: getattr(self, one.name) for one in fields(self) if one.name not in ("cells", "certified")}
+        indices = {name: asdict(statistics) for name, statistics in self.indices.items()}
+        return out | {"internal_point_audit": asdict(self.internal_point_audit), "indices": indices}
 
     def _contents(self) -> dict[str, Any]:
-        arrays = {f"cells_{name}": value for name, value in self.cells._asdict().items()}
-        words: dict[str, Any] = {"format": self.FORMAT, "limit_names": list(LIMITS)}
-        for one in fields(self):
-            value = getattr(self, one.name)
-            if isinstance(value, np.ndarray):
-                arrays[one.name] = value
-            elif one.name == "internal_point_audit":
-                words[one.name] = asdict(value)
-            elif one.name == "indices":
-                words[one.name] = {name: asdict(statistics) for name, statistics in value.items()}
-            elif one.name not in ("cells", "certified"):
-                words[one.name] = value
-        return {"words": json_array(words), **arrays}
+        entries = self._entries()
+        arrays = {name: value for name, value in entries.items() if isinstance(value, np.ndarray)}
+        words = {name: value for name, value in entries.items() if name not in arrays}
+        cells = {f"cells_{name}": value for name, value in self.cells._asdict().items()}
+        return {
+            "words": json_array({"format": self.FORMAT, "limit_names": list(LIMITS), **words}),
+            **cells,
+            **arrays,
+        }
 
     @classmethod
     def _made(cls, contents: Arrays) -> WorkspaceMap:

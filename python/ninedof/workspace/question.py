@@ -18,7 +18,7 @@ from ninedof.redundancy.redundancy import leg_limits
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.support.arguments import choice, instance, known_keys, pair, shown, vector, whole
+from ninedof.support.arguments import choice, flag, instance, known_keys, number, pair, shown, vector, whole
 from ninedof.support.arrays import Floats, as_floats, as_number
 
 SETS = ("reachable", "inclusive", "dexterous")
@@ -120,11 +120,14 @@ def _domain(box: Any, arguments: Mapping[str, Any]) -> _core.WorkspaceDomain:
     chart = _region(region)
     if is_set and chart.chart != "rotation_vector":
         raise ValueError(f"region: got {shown(region)}, expected {{'angle': ...}} for a set of orientations")
-    angle = math.pi if region is None else chart.angle
+    if is_set:
+        rotations = _set(arguments["orientations"], math.pi if region is None else chart.angle)
+    else:
+        rotations = _rotations("rotation", arguments["rotation"])[None]
+        if rotations.ndim != 3:
+            raise ValueError(f"rotation: got a stack of shape {rotations.shape[1:-2]}, expected one")
     out = _core.WorkspaceDomain(
-        archetype="inclusive" if archetype == "dexterous" else archetype,
-        rotations=_set(arguments["orientations"], angle) if is_set else _rotations(arguments["rotation"]),
-        region=chart,
+        archetype="inclusive" if archetype == "dexterous" else archetype, rotations=rotations, region=chart
     )
     if box is not None:
         low, high = pair("box", box, "(low, high), each of shape (3,)")
@@ -141,12 +144,12 @@ def _vector(name: str, value: Any) -> Floats:
     return array
 
 
-def _rotations(rotation: Any) -> Floats:
-    """Return one rotation as a stack, checked as in a configuration."""
-    c = Configuration(np.zeros(3), rotation, np.zeros(3))
-    if len(c.shape) > 0:
-        raise ValueError(f"rotation: got a stack of shape {c.shape}, expected one")
-    return c.rotation.reshape(-1, 3, 3)
+def _rotations(name: str, value: Any) -> Floats:
+    """Return a rotation, or a stack of them, checked as in a configuration."""
+    try:
+        return Configuration(np.zeros(3), value, np.zeros(3)).rotation
+    except ValueError as error:
+        raise ValueError(f"{name}: {str(error).removeprefix('rotation: ')}") from None
 
 
 def _set(orientations: Any, angle: float) -> Floats:
@@ -155,10 +158,7 @@ def _set(orientations: Any, angle: float) -> Floats:
         return spread_rotations(count, angle)
     if not hasattr(orientations, "as_matrix") and np.size(orientations) == 0:
         raise ValueError("orientations: got none, expected at least one")
-    try:
-        return Configuration(np.zeros(3), orientations, np.zeros(3)).rotation.reshape(-1, 3, 3)
-    except ValueError as error:
-        raise ValueError(f"orientations: {str(error).removeprefix('rotation: ')}") from None
+    return _rotations("orientations", orientations).reshape(-1, 3, 3)
 
 
 def _region(region: Any) -> _core.OrientationRegion:
@@ -211,7 +211,7 @@ def criteria_of(criteria: Mapping[str, Any] | None, characteristic_length: float
         elif row.kind == "length":
             out.legs = _leg_limits(name, value)
         else:
-            out.condition_number = _number(name, value)
+            out.condition_number = number(name, value)
     out.limits = limits
     return out
 
@@ -219,35 +219,27 @@ def criteria_of(criteria: Mapping[str, Any] | None, characteristic_length: float
 def _limit(row: Row, value: Any) -> list[_core.Limit]:
     """Return the limit of a row: a flag, a number for its only side, (low, high), or a mapping with options."""
     if row.kind == "sign":
-        if not isinstance(value, bool | np.bool_):
-            raise ValueError(f"{row.name}: got {shown(value)}, expected True or False")
-        return [_core.Limit(name=row.name)] if value else []
+        return [_core.Limit(name=row.name)] if flag(row.name, value) else []
     entries = value
     if not isinstance(value, Mapping):
         both = pair(row.name, value, "(low, high)") if len(row.sides) == 2 else (value,)
         entries = dict(zip(row.sides, both, strict=True))
     option = "axis" if row.is_angle else "duty" if row.needs else "exempt"
     known_keys(row.name, entries, (*row.sides, option))
-    ends = {ENDS[side]: _number(row.name, entries[side]) for side in row.sides if entries.get(side) is not None}
+    ends = {ENDS[side]: number(row.name, entries[side]) for side in row.sides if entries.get(side) is not None}
     if not ends:
         raise ValueError(f"{row.name}: got {shown(value)}, expected a number as {' or '.join(map(repr, row.sides))}")
     if row.needs and "duty" not in entries:
         needs = " and ".join(row.needs)
         raise ValueError(f"{row.name}: got no {needs}, expected the limit of a study, with {needs} of its own")
-    if "axis" not in entries:
-        own = duty(LegDuty)(f"{row.name} (duty)", entries["duty"]).for_core() if row.needs else None
-        return [_core.Limit(name=row.name, duty=own, **ends)]
-    name = f"{row.name} (axis)"
-    axis = as_floats(name, vector(name, entries["axis"]), (3,))
-    if not np.any(axis):
-        raise ValueError(f"{name}: got {shown(entries['axis'])}, expected a direction")
-    return [_core.Limit(name=row.name, axis=axis, **ends)]
-
-
-def _number(name: str, value: Any) -> float:
-    if isinstance(value, bool | np.bool_):
-        raise ValueError(f"{name}: got {value}, expected a number")
-    return as_number(name, value)
+    options: dict[str, Any] = {}
+    if row.needs:
+        options["duty"] = duty(LegDuty)(f"{row.name} (duty)", entries["duty"]).for_core()
+    if "axis" in entries:
+        options["axis"] = np.array(vector(f"{row.name} (axis)", entries["axis"]))
+        if not options["axis"].any():
+            raise ValueError(f"{row.name} (axis): got {shown(entries['axis'])}, expected a direction")
+    return [_core.Limit(name=row.name, **ends, **options)]
 
 
 def _leg_limits(name: str, value: Any) -> _core.LegLimits:

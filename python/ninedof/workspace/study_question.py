@@ -44,16 +44,8 @@ def study_question(result: Result, actuators: str = ACTUATORS[0]) -> tuple[dict[
     criteria = with_leg_limits(limits)
     if any(name in SPREADS for name in left) and (built := built_ranges(result, actuators)) is not None:
         criteria, left = narrowed(criteria, *built), [name for name in left if name not in SPREADS]
-    arguments = {
-        "box": box_around(home, result.study.tool) if region is None else box_about(region, home),
-        "rotation": home.rotation,
-        "criteria": criteria,
-        "internal_point": rule_of_region(g, home, region),
-        "home": home,
-        "characteristic_length": best.characteristic_length,
-        "unit": result.study.unit or None,
-    }
-    return arguments, left
+    own = _own_arguments(g, home, region, result.study.tool, best.characteristic_length, result.study.unit)
+    return own | {"criteria": criteria}, left
 
 
 def design_question(design: HasRobot, archetype: str) -> dict[str, Any]:
@@ -67,19 +59,26 @@ def design_question(design: HasRobot, archetype: str) -> dict[str, Any]:
     else:
         g, home, length = robot_of(design), design.configuration, design.characteristic_length
         length = float(characteristic_length(g, home, length)) if isinstance(length, str) else length
-        own = {
-            "box": box_around(home, getattr(design, "tool", Tool())),
-            "rotation": home.rotation,
-            "home": home,
-            "characteristic_length": length,
-        }
-        own |= {"internal_point": rule_of_region(g, home, None), "unit": getattr(design, "unit", None)}
+        own = _own_arguments(g, home, None, getattr(design, "tool", Tool()), length, getattr(design, "unit", ""))
     if archetype == "orientation":
         own["position"] = own["home"].position
         del own["box"]
     elif archetype != "constant_orientation":
         del own["rotation"]
     return own
+
+
+def _own_arguments(
+    g: Geometry, home: Configuration, region: Region | None, tool: Tool, length: float, unit: str
+) -> dict[str, Any]:
+    return {
+        "box": box_around(home, tool) if region is None else box_about(region, home),
+        "rotation": home.rotation,
+        "internal_point": rule_of_region(g, home, region),
+        "home": home,
+        "characteristic_length": length,
+        "unit": unit or None,
+    }
 
 
 def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[str, Any], list[str]]:
@@ -102,14 +101,12 @@ def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[s
             criteria[name] = (low, high)
         elif ROWS[name].kind == "sign":
             criteria[name] = True
-        else:
-            criterion = _criterion(name, low, high, limit.axis_in(study.tool))
-            if criterion is None:  # a min of 0
-                continue
-            criteria[name] = {"max": high, "duty": study.leg_duty.to_dict()} if ROWS[name].needs else criterion
+        elif (criterion := _criterion(name, low, high, limit.axis_in(study.tool))) is not None:  # not a min of 0
+            criteria[name] = criterion
+            if ROWS[name].needs:
+                criteria[name] = {"max": high, "duty": study.leg_duty.to_dict()}
             if name == CLEARANCE and (collide := _collisions(study, g)):
-                exempt = [pair for pair in PARTS[name] if pair not in collide]
-                criteria[name] = {"min": low, "exempt": exempt}
+                criteria[name] = {"min": low, "exempt": [pair for pair in PARTS[name] if pair not in collide]}
     if study.objective.condition_limit is not None:
         criteria["condition_number"] = study.objective.condition_limit * (1.0 + EASE)
     return criteria, left
@@ -133,9 +130,9 @@ def _collisions(study: Study, g: Geometry) -> list[str]:
 
 def with_leg_limits(limits: Mapping[str, Any]) -> dict[str, Any]:
     """Return criteria whose ranges of leg lengths are one entry, the first."""
-    legs = leg_ranges({name: limits[name] for name in LEGS if name in limits})
     others = {name: value for name, value in limits.items() if name not in LEGS}
-    return ({} if legs is None else {"leg_limits": legs}) | others
+    legs = leg_ranges({name: limits[name] for name in LEGS if name in limits})
+    return others if legs is None else {"leg_limits": legs} | others
 
 
 def leg_ranges(ranges: Mapping[str, tuple[float, float]]) -> tuple[Any, Any] | None:
@@ -155,9 +152,8 @@ def leg_ranges(ranges: Mapping[str, tuple[float, float]]) -> tuple[Any, Any] | N
         low[legs], high[legs] = np.maximum(low[legs], least), np.minimum(high[legs], most)
     if not low.any() and np.isinf(high).all():
         return None
-    return (
-        (float(low[0]), float(high[0])) if len({*zip(low.tolist(), high.tolist(), strict=True)}) == 1 else (low, high)
-    )
+    alike = (low == low[0]).all() and (high == high[0]).all()
+    return (float(low[0]), float(high[0])) if alike else (low, high)
 
 
 def built_ranges(result: Result, actuators: str = ACTUATORS[0]) -> tuple[Floats, Floats] | None:
