@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
-from contextlib import ExitStack, suppress
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -14,7 +14,7 @@ import numpy as np
 
 from ninedof.design.indices import Index, identity
 from ninedof.support.angles import DEG
-from ninedof.support.arrays import Floats
+from ninedof.support.arrays import Floats, forget
 from ninedof.support.extras import versions
 from ninedof.support.files import Arrays, naming, part_name
 from ninedof.support.json import plain
@@ -66,27 +66,35 @@ class GridWork:
         """Return what the values depend on."""
         return {**self._arguments(), "index": [identity(i) for i in self.indices]}
 
-    def _targets(self, store: Store | None, unfinished: ExitStack) -> dict[str, Target]:
-        """Return an array for each index, in memory or in files of the folder; files that stay unfinished go."""
-        shapes = {i.name: (*self.grid.shape, *i.tail) for i in self.indices}
-        points = " x ".join(map(str, self.grid.shape))
-        size = 2 * 8 * sum(map(math.prod, shapes.values()))  # the finished chunks, and the arrays
-        folder = None if store is None else store.folder
-        if store is not None and not store.kept() and size > (free := _free(store.folder)):
-            room = f"their values take {size / 1e9:.4g} GB, and {free / 1e9:.3g} GB are free on the disk of out"
-            raise ValueError(f"over: got {points} points, expected fewer: {room}")
-        try:
-            targets = {}
-            for name, shape in shapes.items():
-                targets[name] = Target(name, shape, folder)
-                unfinished.callback(targets[name].discard)
-            return targets
-        except MemoryError:
-            expected = "what fits into memory, or out for a folder"
-            raise ValueError(f"over: got {points} points, expected {expected}") from None
-
     def _arguments(self) -> dict[str, Any]:
         return {**self.subject.question(), "over": [axis.question() for axis in self.grid.axes]}
+
+    @contextmanager
+    def _arrays(self, store: Store | None) -> Iterator[dict[str, Floats]]:
+        """Yield an array for each index, to be filled: in memory, or in files that then take their names."""
+        shapes = {i.name: (*self.grid.shape, *i.tail) for i in self.indices}
+        points = " x ".join(map(str, self.grid.shape))
+        if store is None:
+            try:
+                arrays = {name: np.empty(shape) for name, shape in shapes.items()}
+            except MemoryError:
+                expected = "what fits into memory, or out for a folder"
+                raise ValueError(f"over: got {points} points, expected {expected}") from None
+            yield arrays
+            return
+        size = 2 * 8 * sum(map(math.prod, shapes.values()))  # the finished chunks, and the arrays
+        if not store.kept() and size > (free := _free(store.folder)):
+            room = f"their values take {size / 1e9:.4g} GB, and {free / 1e9:.3g} GB are free on the disk of out"
+            raise ValueError(f"over: got {points} points, expected fewer: {room}")
+        parts = {f"{name}.npy": store.folder / part_name(f"{name}.npy") for name in shapes}
+        try:
+            files = zip(parts.items(), shapes.items(), strict=True)
+            yield {name: _file_array(part, file, shape) for (file, part), (name, shape) in files}
+            for file, part in parts.items():
+                os.replace(part, store.folder / file)
+        finally:
+            for part in parts.values():
+                part.unlink(missing_ok=True)
 
     def result(
         self,
@@ -99,12 +107,13 @@ class GridWork:
         """Compute everything and return it with its labels; `unit` is the name of the length unit."""
         with opened(self, out) as (work, store):
             chunks = computed(work, store, executor, progress)
-            with ExitStack() as unfinished:
-                targets = work._targets(store, unfinished)
-                for chunk, values in chunks:
-                    for name, target in targets.items():
-                        target.put(chunk.first, values[name])
-                arrays = {name: target.array() for name, target in targets.items()}
+            with self._arrays(store) as arrays:
+                for (first, last), values in chunks:
+                    for name, array in arrays.items():
+                        array.reshape(-1, *values[name].shape[1:])[first:last] = values[name]
+                        forget(array)
+            if store is not None:
+                arrays = {name: np.load(store.folder / f"{name}.npy", mmap_mode="r") for name in arrays}
         swept = tuple(axis.name for axis in self.grid.axes)
         labelled = {name: "deg" if name.endswith(DEG) else units[name] for name in swept}
         labelled |= {i.name: i.unit for i in self.indices}
@@ -120,50 +129,16 @@ class GridWork:
         )
 
 
-class Target:
-    """An array that chunks fill: in memory, or in a file that takes none."""
-
-    def __init__(self, name: str, shape: tuple[int, ...], folder: Path | None) -> None:
-        """Make it, without values."""
-        self._path = None if folder is None else folder / f"{name}.npy"
-        if folder is None or self._path is None:
-            self._array = np.empty(shape)
-            return
-        self._part = folder / part_name(self._path.name)
-        try:
-            self._offset = np.lib.format.open_memmap(self._part, "w+", np.float64, shape).offset
-            self._file = self._part.open("r+b")
-        except OSError as error:
-            self._part.unlink(missing_ok=True)
-            raise naming(error, self._path) from None
-
-    def put(self, first: int, values: Floats) -> None:
-        """Take the values of points from `first` on."""
-        if self._path is None:
-            self._array.reshape(-1, *values.shape[1:])[first : first + len(values)] = values
-            return
-        try:  # a memory map would fill the memory, and a full disk end the process
-            self._file.seek(self._offset + first * (values.nbytes // len(values)))
-            self._file.write(np.ascontiguousarray(values).data)
-            self._file.flush()
-        except OSError as error:
-            raise naming(error, self._path) from None
-
-    def array(self) -> Floats:
-        """Return the full array; one in a file takes its name, and is read as it is needed."""
-        if self._path is None:
-            return self._array
-        self._file.close()
-        os.replace(self._part, self._path)
-        mapped: Floats = np.load(self._path, mmap_mode="r")
-        return mapped
-
-    def discard(self) -> None:
-        """Remove the file of an array that is not full."""
-        if self._path is not None:
-            with suppress(OSError):
-                self._file.close()
-            self._part.unlink(missing_ok=True)
+def _file_array(part: Path, name: str, shape: tuple[int, ...]) -> Floats:
+    """Return an array in a new file that has its room on the disk: without, a full disk ends the process."""
+    try:
+        array: Floats = np.lib.format.open_memmap(part, "w+", np.float64, shape)
+        with part.open("r+b") as file:
+            if hasattr(os, "posix_fallocate"):
+                os.posix_fallocate(file.fileno(), 0, part.stat().st_size)
+    except OSError as error:
+        raise naming(error, part.with_name(name)) from None
+    return array
 
 
 def _free(folder: Path) -> float:
