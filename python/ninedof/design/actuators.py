@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ninedof.design.duty import duty
 from ninedof.support.arguments import cleaned, finite, instance, items, number, path_argument, shown, text
 from ninedof.support.files import csv_table, finite_or_nan, read_text, require_entries
-from ninedof.support.schema import Table, entries, entry, read
+from ninedof.support.schema import Table, entries, entry
 from ninedof.support.short import short_repr
 
 LEG_KINDS = ("external", "upper", "lower")
@@ -26,16 +27,13 @@ def _name(name: str, value: Any) -> str:
     return text(name, value)
 
 
-def _positive(name: str, value: Any) -> float:
-    if not (x := finite(name, value)) > 0.0:
+def _above_zero(name: str, value: Any, check: Callable[[str, Any], float] = finite) -> float:
+    if not (x := check(name, value)) > 0.0:
         raise ValueError(f"{name}: got {shown(value)}, expected a number above 0")
     return x
 
 
-def _greatest(name: str, value: Any) -> float:
-    if not (x := number(name, value)) > 0.0:
-        raise ValueError(f"{name}: got {shown(value)}, expected a number above 0")
-    return x
+_greatest = partial(_above_zero, check=number)
 
 
 @short_repr
@@ -65,8 +63,8 @@ class Actuator(Table):
     """
 
     name: str = entry(_name)
-    shortest: float = entry(_positive)
-    longest: float = entry(_positive)
+    shortest: float = entry(_above_zero)
+    longest: float = entry(_above_zero)
     force: float = entry(_greatest, math.inf)
     rate: float = entry(_greatest, math.inf)
     price: float | None = entry(partial(finite, least=0.0), None)
@@ -92,11 +90,9 @@ COLUMNS = tuple(one.name for one in entries(Actuator))
 
 def actuator_rows(name: str, value: Any) -> tuple[Actuator, ...]:
     """Return the rows of an argument: actuators, or mappings of their entries."""
-    rows = []
-    for k, row in enumerate(items(name, value, "rows with name, shortest and longest")):
-        where = f"{name}[{k}]"
-        rows.append(row if isinstance(row, Actuator) else read(Actuator, row, where))
-    return _distinct(name, rows)
+    rows = items(name, value, "rows with name, shortest and longest")
+    own = duty(Actuator)
+    return _distinct(name, [own(f"{name}[{k}]", row) for k, row in enumerate(rows)])
 
 
 def _distinct(where: str, rows: Sequence[Actuator]) -> tuple[Actuator, ...]:

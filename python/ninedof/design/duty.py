@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import TRIPLES, Geometry, triples
+from ninedof.robot.geometry import Geometry, triples
 from ninedof.support.angles import degrees_of
 from ninedof.support.arguments import Vector, finite, instance, items, shown, text, vector
 from ninedof.support.arrays import Floats, as_floats
@@ -109,12 +110,7 @@ class Tool(Table):
     @property
     def axes(self) -> Floats:
         """The tool's axes in the platform's frame: the columns of a rotation."""
-        angle = float(np.linalg.norm(self.rotation))
-        if angle == 0.0:
-            return np.eye(3)
-        x, y, z = np.asarray(self.rotation) / angle
-        cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-        return np.asarray(np.eye(3) + np.sin(angle) * cross + 2.0 * np.sin(0.5 * angle) ** 2 * (cross @ cross))
+        return np.asarray(from_vectors(np.array([self.rotation]))[0])
 
     def words(self, unit: str = "") -> list[str]:
         """Return where it is on the plate and how it is turned, a line each; none where it is the plate's frame."""
@@ -142,22 +138,21 @@ class Tool(Table):
     def robot(self, geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Configuration]:
         """Return a robot in the frame of its plate, and configurations of the plate, as the tool sees them."""
         c = instance("configuration", configuration, Configuration)
-        own, seen = triples(instance("geometry", geometry, Geometry)), {}
+        seen = self._with_platform(geometry, lambda joints: (joints - np.array(self.position)) @ self.axes)
         if not self:
-            return geometry, c
-        for name in TRIPLES:
-            moves = name.startswith("platform")
-            seen[name] = (own[name] - np.array(self.position)) @ self.axes if moves else own[name]
+            return seen, c
         at = c.position + c.rotation @ np.array(self.position)
-        return Geometry(**seen), Configuration(at, c.rotation @ self.axes, c.internal_point)
+        return seen, Configuration(at, c.rotation @ self.axes, c.internal_point)
 
     def plates(self, geometry: Geometry) -> Geometry:
         """Return a robot as the tool sees it with each joint in the frame of its plate."""
+        return self._with_platform(geometry, self.own)
+
+    def _with_platform(self, geometry: Geometry, moved: Callable[[Floats], Floats]) -> Geometry:
+        """Return a robot with other joints of the platform, where the tool has a frame of its own."""
         joints = triples(instance("geometry", geometry, Geometry))
-        if not self:
-            return geometry
-        moved = {name: self.own(joints[name]) for name in TRIPLES if name.startswith("platform")}
-        return Geometry(**(joints | moved))
+        platform = {name: moved(points) for name, points in joints.items() if name.startswith("platform") and self}
+        return Geometry(**(joints | platform)) if platform else geometry
 
     def plate(self, configuration: Configuration) -> Configuration:
         """Return where the plate's own frame is for configurations of the tool's; O as it is."""
