@@ -15,7 +15,7 @@ from ninedof.support.extras import versions
 from ninedof.support.files import Arrays
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
-from ninedof.sweep.chunks import MOST_CHUNK, chunk_argument, computed, opened
+from ninedof.sweep.chunks import MOST_CHUNK, chunk_argument, computed
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.sample import BOUNDS, Sample, closed_form, squared_radius_ratio
 from ninedof.sweep.tally import Tally, condition_edges, ratio_edges
@@ -90,8 +90,8 @@ def atlas(
     count = whole("designs", designs, 1, MOST)
     work = AtlasWork(sample, count, chunk_argument(chunk, min(max(CHUNK, count // PIECES), MOST_CHUNK)))
     total = Tally()
-    with opened(work, out) as (work, store):
-        for _, arrays in computed(work, store, executor, progress):
+    with computed(work, out, executor, progress) as (_, chunks):
+        for _, arrays in chunks:
             total = total.plus(Tally(**arrays))
     counted = int(total.histogram.sum())
     if counted != work.points:

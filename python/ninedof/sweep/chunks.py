@@ -7,7 +7,7 @@ from collections.abc import Generator, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from itertools import islice
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from ninedof.support.arguments import executor_argument, path_argument, whole
 from ninedof.support.files import Arrays
@@ -49,7 +49,6 @@ class Chunk(NamedTuple):
     last: int
 
 
-W = TypeVar("W", bound=Work)
 Computed = Generator[tuple[Chunk, Arrays]]
 
 
@@ -59,23 +58,16 @@ def chunk_argument(chunk: object, default: int) -> int:
 
 
 @contextmanager
-def opened(work: W, out: str | os.PathLike[str] | None) -> Iterator[tuple[W, Store | None]]:
-    """Open the folder that keeps the finished chunks; yield the work in chunks of the size there, and the folder."""
-    if out is None:
-        yield work, None
-        return
-    with Store(path_argument("out", out), work.question(), work.chunk) as store:
-        yield replace(work, chunk=store.chunk), store  # type: ignore[type-var]  # every work is a dataclass
-
-
-def computed(work: Work, store: Store | None, executor: Executor | None, progress: Progress | None) -> Computed:
-    """Check the arguments; yield every chunk with its values: those that the folder has, then the others as they come.
+def computed(
+    work: Work, out: str | os.PathLike[str] | None, executor: Executor | None, progress: Progress | None
+) -> Iterator[tuple[Store | None, Computed]]:
+    """Check the arguments; yield the folder, and every chunk with its values: those kept there, then the others.
 
     Parameters
     ----------
     work : Work
-    store : Store, optional
-        Folder that keeps what is finished.
+    out : path, optional
+        Folder that keeps what is finished; a run that began there goes on in chunks of its size.
     executor : concurrent.futures.Executor, optional
         Where chunks are computed, in this process by default. Retries and lost workers are left to it: its exceptions
         end the run.
@@ -85,7 +77,12 @@ def computed(work: Work, store: Store | None, executor: Executor | None, progres
     """
     executor_argument(executor)
     progress_argument(progress)
-    return _computed(work, store, executor, progress)
+    if out is None:
+        yield None, _computed(work, None, executor, progress)
+        return
+    with Store(path_argument("out", out), work.question(), work.chunk) as store:
+        own: Any = work  # every work is a dataclass
+        yield store, _computed(replace(own, chunk=store.chunk), store, executor, progress)
 
 
 def _computed(work: Work, store: Store | None, executor: Executor | None, progress: Progress | None) -> Computed:

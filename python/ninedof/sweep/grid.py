@@ -22,7 +22,7 @@ from ninedof.support.progress import Progress
 from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
 from ninedof.sweep.axis import Grid
-from ninedof.sweep.chunks import computed, opened
+from ninedof.sweep.chunks import computed
 from ninedof.sweep.result import SweepResult
 
 if TYPE_CHECKING:
@@ -105,8 +105,7 @@ class GridWork:
         progress: Progress | None = None,
     ) -> SweepResult:
         """Compute everything and return it with its labels; `unit` is the name of the length unit."""
-        with opened(self, out) as (work, store):
-            chunks = computed(work, store, executor, progress)
+        with computed(self, out, executor, progress) as (store, chunks):
             with self._arrays(store) as arrays:
                 for (first, last), values in chunks:
                     for name, array in arrays.items():

@@ -33,17 +33,12 @@ if TYPE_CHECKING:
 POSES, DESIGNS = 65536, 1024
 
 
-class RunOptions(TypedDict, total=False):
-    """Options of every long computation, as keywords."""
+class GridOptions(TypedDict, total=False):
+    """Options of both kinds of sweeps, as keywords."""
 
     executor: Executor | None
     out: str | os.PathLike[str] | None
     progress: Progress | None
-
-
-class GridOptions(RunOptions, total=False):
-    """Options of both kinds of sweeps, as keywords."""
-
     characteristic_length: float | str
     chunk: int | None
     unit: str | None

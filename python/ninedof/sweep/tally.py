@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,6 +26,7 @@ def condition_edges() -> Floats:
     return np.power(10.0, np.arange(COLUMNS) / PER_DECADE)
 
 
+@dataclass(eq=False)
 class Tally:
     """Counts, and the best design of each bin of radius_ratio; without arrays that of no designs.
 
@@ -31,15 +34,9 @@ class Tally:
     with the least number is kept.
     """
 
-    def __init__(
-        self,
-        histogram: NDArray[np.int64] | None = None,
-        best: Floats | None = None,
-        number: NDArray[np.int64] | None = None,
-    ) -> None:
-        self.histogram = np.zeros((ROWS, COLUMNS), dtype=np.int64) if histogram is None else histogram
-        self.best: Floats = np.full(ROWS, np.inf) if best is None else best
-        self.number = np.full(ROWS, -1, dtype=np.int64) if number is None else number
+    histogram: NDArray[np.int64] = field(default_factory=lambda: np.zeros((ROWS, COLUMNS), dtype=np.int64))
+    best: Floats = field(default_factory=lambda: np.full(ROWS, np.inf))
+    number: NDArray[np.int64] = field(default_factory=lambda: np.full(ROWS, -1, dtype=np.int64))
 
     def add(self, first: int, squared_ratio: Floats, kappa: Floats) -> None:
         """Add designs first, first + 1, ...: their numbers are above all those added before."""
@@ -65,7 +62,7 @@ class Tally:
 
     def arrays(self) -> Arrays:
         """Return its arrays."""
-        return {"histogram": self.histogram, "best": self.best, "number": self.number}
+        return dict(vars(self))
 
 
 def _bin(value: Floats, per_unit: float, zero: int, most: int) -> NDArray[np.intp]:
