@@ -176,16 +176,15 @@ class ActuatorSearch:
 
     def _so_far(self, ended: Result) -> Result:
         """Return the best complete combination that was solved before the end; none before the first."""
-        complete = {rows: self._value(result, True) for rows, result in self.results.items() if None not in rows}
-        ranked = sorted((value, k, rows) for k, (rows, value) in enumerate(complete.items()) if value < math.inf)
+        values = {rows: self._value(result, True) for rows, result in self.results.items() if None not in rows}
+        best = min(values, key=lambda rows: values[rows], default=())
         words = f"the search of actuators ended after {len(self.results)} studies"
         how: dict[str, Any] = {"status": Status.STOPPED, "interrupted": ended.interrupted}
-        if not ranked:
+        if values.get(best, math.inf) == math.inf:
             reason = f"{words}, before a combination was solved"
             return replace(ended, candidates=(), region=None, study=self.study, reason=reason, **how)
-        rows = ranked[0][2]
         reason = f"{words}: other combinations may be better"
-        return self._with_choice(replace(self.results[rows], reason=reason, **how), rows, None)
+        return self._with_choice(replace(self.results[best], reason=reason, **how), best, None)
 
     def _nothing_fits(self) -> Result:
         """Return why no rows fit: of each kind of legs the nearest row, and the limit that fails."""

@@ -20,8 +20,9 @@ from ninedof.design.study import LENGTH
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.result import Result, Status
 from ninedof.proof.machine_record import PROVED
-from ninedof.robot.geometry import TRIPLES
-from ninedof.support.arguments import flag, whole
+from ninedof.robot.configuration import arrays_of
+from ninedof.robot.geometry import triples
+from ninedof.support.arguments import flag, instance, whole
 from ninedof.support.arrays import Floats
 
 EQUAL = 1e-9  # relative: two ways to one number
@@ -63,10 +64,10 @@ class Check:
 
     def __getitem__(self, name: str) -> Finding:
         """Return a finding by name."""
-        for finding in self.findings:
-            if finding.name == name:
-                return finding
-        raise KeyError(f"{name!r}; there are {', '.join(finding.name for finding in self.findings)}")
+        by_name = {finding.name: finding for finding in self.findings}
+        if name not in by_name:
+            raise KeyError(f"{name!r}; there are {', '.join(by_name)}")
+        return by_name[name]
 
     def __repr__(self) -> str:
         """Show the verdict and the tests that failed."""
@@ -75,12 +76,12 @@ class Check:
 
     def report(self) -> str:
         """Return the tests and their outcomes as text, one line per test."""
-        failed = sum(not finding.passed for finding in self.findings)
-        verdict = "all passed" if not failed else f"{failed} failed"
-        width = max((len(finding.name) for finding in self.findings), default=0)
+        failed = sum(not one.passed for one in self.findings)
+        verdict = f"{failed} failed" if failed else "all passed"
+        width = max((len(one.name) for one in self.findings), default=0)
         lines = [f"{self.title}: {len(self.findings)} tests, {verdict}"]
-        for finding in self.findings:
-            lines.append(f"  {'passed' if finding.passed else 'FAILED'}  {finding.name:<{width}}  {finding.sentence}")
+        for one in self.findings:
+            lines.append(f"  {'passed' if one.passed else 'FAILED'}  {one.name:<{width}}  {one.sentence}")
         return "\n".join(lines)
 
     def to_dict(self) -> dict[str, Any]:
@@ -125,10 +126,10 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0, *, certify: 
     (True, True)
 
     """
-    if getattr(result, "best", None) is None:
-        got = getattr(result, "status", None)
-        what = f"one without a design (status {str(got)!r})" if got is not None else type(result).__name__
-        raise ValueError(f"result: got {what}, expected a Result with a design")
+    if instance("result", result, Result).best is None:
+        raise ValueError(
+            f"result: got one without a design (status '{result.status}'), expected a Result with a design"
+        )
     if result.reserve is not None:  # an optimum of the study that was solved
         result = replace(result, study=result.reserve.study(result.study), reserve=None)
     steps = whole("perturbations", perturbations, 0, MOST_PERTURBATIONS)
@@ -176,14 +177,14 @@ def _robot(result: Result, point: DesignPoint) -> Finding:
         low, high = bounds.get(name, (-math.inf, math.inf))  # a length by its kind, or an offset of O at a pose
         size = 1.0 if name in study.angles else math.hypot(x, point.characteristic_length)
         outside = max(outside, (low - x) / size, (x - high) / size)
-    ours, theirs = ([np.asarray(getattr(d.geometry, name)) for name in TRIPLES] for d in (point, best))
-    same = float(np.abs(np.subtract(ours, theirs)).max()) <= EQUAL * float(np.abs(theirs).max())
-    one, other = point.configuration, best.configuration
-    for name, absolute in (("position", 0.0), ("internal_point", 0.0), ("rotation", EQUAL)):
-        same &= np.allclose(getattr(one, name), getattr(other, name), rtol=EQUAL, atol=absolute)
+    ours, theirs = (np.stack([*triples(d.geometry).values()]) for d in (point, best))
+    same = bool(np.abs(ours - theirs).max() <= EQUAL * np.abs(theirs).max())
+    for name, array in arrays_of(point.configuration).items():
+        absolute = EQUAL if name == "rotation" else 0.0
+        same &= np.allclose(array, getattr(best.configuration, name), rtol=EQUAL, atol=absolute)
     words = "the same joints as returned" if same else "NOT the joints returned"
     sentence = f"{len(best.variables)} variables within their bounds to {outside:.1e}, {words}"
-    return Finding("design", bool(same) and outside <= FEASIBLE, outside, sentence)
+    return Finding("design", same and outside <= FEASIBLE, outside, sentence)
 
 
 def _of_claims(result: Result, steps: int, seed: int) -> Iterator[Finding]:

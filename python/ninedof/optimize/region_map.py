@@ -15,6 +15,7 @@ from ninedof.design.region import Region
 from ninedof.design.region_outline import circle, section_outline
 from ninedof.design.region_poses import configurations_at
 from ninedof.motion.rotations import from_vectors
+from ninedof.optimize.machine_proofs import placing_of
 from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
 from ninedof.sheet.pose_limits import pose_limits
@@ -104,7 +105,7 @@ def region_map(result: Result) -> RegionMap | None:
     if region is None or best is None or (plane := _plane(region)) is None:
         return None
     g, neutral, length = best.geometry, best.configuration, best.characteristic_length
-    placing = result._placing()
+    placing = placing_of(result)
     places = _places(region, plane, placing is not None)
     at, words = _poses_at(region, plane, places)
     shape, rows = at.shape[:-1], at.reshape(-1, 6)

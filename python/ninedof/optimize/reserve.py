@@ -138,6 +138,5 @@ def _without(study: Study, result: Any, first: Any, reserve: Reserve, lacking: I
         reason = f"{UNPROVED}: {', '.join(name.replace('_', ' ') for name in lacking)}"
     else:
         reason = f"with a reserve for the tolerances: {result.reason}"
-    status = type(result.status).INFEASIBLE
-    none = replace(result, status=status, reason=reason, candidates=(), region=None)
+    none = replace(result, status=type(result.status).INFEASIBLE, reason=reason, candidates=(), region=None)
     return replace(_of(study, none, first), actuators=None, reserve=reserve)

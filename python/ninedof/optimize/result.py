@@ -15,36 +15,25 @@ from ninedof.design.changes import changed_variables
 from ninedof.design.design_point import design_point
 from ninedof.design.duty import Tolerances
 from ninedof.design.limit_numbers import leg_limits_of
-from ninedof.design.pose import rule_words
-from ninedof.design.region_poses import Placing, places_o
 from ninedof.design.study import Study
-from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.actuator_choice import ActuatorChoice
 from ninedof.optimize.candidate import DERIVED, Candidate, candidate_at, candidate_from, plain_fields
+from ninedof.optimize.machine_proofs import certified, largest, machine_of, placing_of
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.reserve import Reserve
-from ninedof.optimize.tables import candidates_table, design_words
-from ninedof.optimize.words import agreement_sentence, price_words, reached_words
-from ninedof.proof.machine import certify, machine_digest, open_limits
+from ninedof.optimize.tables import candidates_table, internal_point_words, summary_lines
+from ninedof.optimize.words import agreement_sentence
+from ninedof.proof.machine import machine_digest
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.optimum_proof import OptimumProof
-from ninedof.proof.point_rule import PointRule, rule_of
-from ninedof.proof.tolerance import largest_tolerance
-from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
-from ninedof.robot.idle import idle_names
 from ninedof.sheet.sheet import Sheet, sheet
-from ninedof.support.arguments import choice, finite, instance, items, known_keys
+from ninedof.support.arguments import choice, instance, items
 from ninedof.support.arrays import Floats
-from ninedof.support.progress import phase, progress_argument
 from ninedof.support.structs import entries_of
 from ninedof.tables.html import notebook
 
 T = TypeVar("T")
-
-PROOFS = 12  # about as many are needed for the largest tolerances
-MOST_PLACED = 200  # poses at which O is placed for the summary, a few milliseconds each
 
 
 class Status(StrEnum):
@@ -173,21 +162,7 @@ class Result:
     @cached_property
     def internal_points(self) -> str:
         """Place of O at the poses of the study, and legs that never move because of it; "" with fewer than two."""
-        best = self.best
-        if best is None or len(self.solved.objective.poses) < 2:
-            return ""
-        where = rule_words(self.solved.objective.poses)
-        idle = ", ".join(idle_names(leg_lengths(best.geometry, best.configurations)))
-        if not idle:
-            return where
-        sentence = f'{where}; {idle} never move, with internal_point = "best" they would'
-        poses = best.configurations[1:]
-        if self.study.objective.index != "condition_number" or len(poses) > MOST_PLACED:
-            return sentence
-        best_points = best_internal_point(
-            best.geometry, poses.position, poses.rotation, characteristic_length=best.characteristic_length
-        )
-        return f"{sentence}: this design would have {best_points.value.max():.6f} at worst, limits aside"
+        return internal_point_words(self)
 
     def __repr__(self) -> str:
         """Show the status, and the objective and active limits of the best candidate."""
@@ -256,7 +231,7 @@ class Result:
         values = changed_variables(self.study, best.variables, changes)
         study = self.study
         if region is not None:
-            region = replace(region, poses=region.poses if self._placing() is None else ())  # O is placed anew
+            region = replace(region, poses=region.poses if placing_of(self) is None else ())  # O is placed anew
             study = region.posed(study)
         problem = study.problem()
         try:
@@ -294,13 +269,7 @@ class Result:
             Without a design; for a bad option.
 
         """
-        design = self._machine()
-        progress_argument(options.get("progress"))
-        place = self._placing()
-        if options.get("rule") is None and options.get("resume") is None and place is not None:
-            how = options.get("threads", 0), options.get("progress")
-            options["rule"] = lambda: rule_of(place, *design, *how)
-        return certify(self.study, *design, **options)
+        return certified(self, options)
 
     def largest_tolerance(self, **options: Any) -> Tolerances:
         """Return the largest tolerances of manufacture with which `certify` proves all limits.
@@ -325,63 +294,17 @@ class Result:
             Without a design; for a bad option.
 
         """
-        known = {"condition_number", "slack", "time_limit", "threads", "rule", "progress"}
-        known_keys("largest_tolerance", options, known)
-        place, design = self._placing(), self._machine()
-        seconds = finite("time_limit", options.pop("time_limit", 60.0), 0.0) / PROOFS
-        progress = progress_argument(options.pop("progress", None))
-        threads = options.setdefault("threads", 0)
-        rule = options.pop("rule", None)
-        if place is not None and not isinstance(rule, PointRule):
-            rule = rule_of(place, *design, threads, progress)
-
-        def proved(tolerances: Tolerances) -> bool:
-            phase(progress, f"proving {max(tolerances.joints, tolerances.legs):.3g}")
-            return not open_limits(self.study, (*design, rule), tolerances, max(seconds, 0.5), **options)
-
-        return largest_tolerance(proved, self.study.tolerances, self.study.zp(design[1][0]))
+        return largest(self, options)
 
     def is_certified_by(self, certificate: MachineCertificate) -> bool:
         """Whether a certificate is one of this design at these poses, as `certify` returned it."""
         instance("certificate", certificate, MachineCertificate)
-        return self.best is not None and certificate.machine == machine_digest(
-            self.study, *self._machine(), certificate.tolerances
-        )
-
-    def _machine(self) -> tuple[Geometry, Configuration, float]:
-        best = self.best
-        if best is None:
-            raise ValueError(f"result: got one without a design, expected one to be proved: {self.reason}")
-        return best.geometry, best.configurations[: 1 + len(self.study.objective.poses)], best.characteristic_length
-
-    def _placing(self) -> Placing | None:
-        """Return how O is placed in the region, where the study places it anew at every pose."""
-        region, best = self.study.objective.region, self.best
-        if region is None or places_o(region) or best is None:
-            return None
-        ranges = () if self.region is None else self.region.leg_ranges
-        return Placing(self.study, best.configurations[0], best.variables, best.objective, ranges)
+        machine = machine_digest(self.study, *machine_of(self), certificate.tolerances) if self.candidates else None
+        return certificate.machine == machine
 
     def summary(self) -> str:
         """Return a few lines: status, objective, active limits and their prices, what the starts show."""
-        lines = [f"{self.status}: {self.reason}"]
-        best = self.best
-        if best is None:
-            return lines[0]
-        objective = self.study.objective
-        value = f"{self.words} {best.objective:.6f}"
-        if objective.index != "condition_number" or objective.poses or objective.region is not None:
-            value += f"; condition number {best.neutral_condition_number:.6f} at the neutral pose"
-        if len(best.conditions) > 1:
-            value += f", {min(best.conditions):.6f} to {max(best.conditions):.6f} over the poses"
-        lines.append(value)
-        lines.append(f"limits reached: {reached_words(self.study, best.variables, best.active)}")
-        lines.extend(design_words(self))
-        lines.extend(price_words(self.study, best.variables, best.prices))
-        if len(self.candidates) > 1:
-            lines.append(f"the next best optimum has {self.candidates[1].objective:.6f}")
-        lines.extend(self.agreement.split(". "))
-        return "\n".join(lines)
+        return "\n".join(summary_lines(self))
 
 
 def with_fixed_design(result: Result) -> Result:

@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ninedof.design.pose import rule_words
 from ninedof.design.study import LENGTH
-from ninedof.optimize.words import price_words
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.optimize.words import price_words, reached_words
+from ninedof.redundancy.redundancy import best_internal_point
+from ninedof.robot.idle import idle_names
 from ninedof.tables import RIGHT, SHORT, Column, Line, Table
 
 SHOWN = 4  # candidates, side by side
+MOST_PLACED = 200  # poses at which O is placed for the sentence on it, a few milliseconds each
 MOST_FIXED = 8  # variables; of more, only the free ones are listed
 
 
@@ -91,3 +96,44 @@ def proof_words(result: Any) -> tuple[str, str]:
         rest = f"; the search {ended} before {proof.target:.6g} was proved, {proof.open} boxes are left"
     boxes = f"{proof.boxes} boxes of designs, {proof.seconds:.1f} s{rest}."
     return proof.words, f"\nThe best design is within {near}; {boxes}"
+
+
+def internal_point_words(result: Any) -> str:
+    """Return where O is at the poses of a study, and legs that never move because of it; "" with fewer than two."""
+    best = result.best
+    if best is None or len(result.solved.objective.poses) < 2:
+        return ""
+    where = rule_words(result.solved.objective.poses)
+    idle = ", ".join(idle_names(leg_lengths(best.geometry, best.configurations)))
+    if not idle:
+        return where
+    sentence = f'{where}; {idle} never move, with internal_point = "best" they would'
+    poses = best.configurations[1:]
+    if result.study.objective.index != "condition_number" or len(poses) > MOST_PLACED:
+        return sentence
+    best_points = best_internal_point(
+        best.geometry, poses.position, poses.rotation, characteristic_length=best.characteristic_length
+    )
+    return f"{sentence}: this design would have {best_points.value.max():.6f} at worst, limits aside"
+
+
+def summary_lines(result: Any) -> list[str]:
+    """Return a few lines: status, objective, active limits and their prices, what the starts show."""
+    lines = [f"{result.status}: {result.reason}"]
+    best = result.best
+    if best is None:
+        return lines
+    objective = result.study.objective
+    value = f"{result.words} {best.objective:.6f}"
+    if objective.index != "condition_number" or objective.poses or objective.region is not None:
+        value += f"; condition number {best.neutral_condition_number:.6f} at the neutral pose"
+    if len(best.conditions) > 1:
+        value += f", {min(best.conditions):.6f} to {max(best.conditions):.6f} over the poses"
+    lines.append(value)
+    lines.append(f"limits reached: {reached_words(result.study, best.variables, best.active)}")
+    lines.extend(design_words(result))
+    lines.extend(price_words(result.study, best.variables, best.prices))
+    if len(result.candidates) > 1:
+        lines.append(f"the next best optimum has {result.candidates[1].objective:.6f}")
+    lines.extend(result.agreement.split(". "))
+    return lines

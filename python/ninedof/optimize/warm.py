@@ -38,7 +38,7 @@ def warm_variables(warm: Warm | Iterable[Warm] | None) -> list[Mapping[str, floa
         return []
     expected = "a Result, a Candidate, a mapping of names to values, or a sequence of them"
     entries = [warm] if isinstance(warm, Result | Candidate | Mapping) else warm
-    if isinstance(entries, str | bytes | bytearray | memoryview | np.ndarray) or not isinstance(entries, Iterable):
+    if isinstance(entries, str) or not isinstance(entries, Iterable):
         raise ValueError(f"warm: got {shown(warm)}, expected {expected}")
     starts: list[Mapping[str, float]] = []
     for item in entries:

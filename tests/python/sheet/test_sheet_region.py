@@ -14,6 +14,7 @@ import ninedof as nd
 from ninedof import _core
 from ninedof.design.region_poses import configurations_at, poses_at
 from ninedof.export.model import model_of
+from ninedof.optimize.machine_proofs import placing_of
 from ninedof.optimize.region_report import posed
 
 
@@ -163,7 +164,7 @@ def test_lengths_where_o_is_placed_are_those_of_the_region():
         assert leg.shortest <= external[:, k].min() <= leg.shortest * 1.01
         assert leg.longest >= external[:, k].max() >= leg.longest * 0.99
     near = np.concatenate([shift, tilt], axis=1)[: size(1000, 20_000)]
-    placed, _ = result._placing()(near)
+    placed, _ = placing_of(result)(near)
     lengths = nd.leg_lengths(g, placed)
     needed = np.array([(leg.shortest, leg.longest) for leg in found.legs]).T
     permitted = np.array([leg.permitted for leg in found.legs]).T
