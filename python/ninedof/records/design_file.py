@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -112,24 +112,24 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
         )
     known_keys("design", data, ("unit", "geometry", "configuration", "characteristic_length", "tool"))
     tool = read(Tool, data.get("tool", {}), "tool")
-    geometry, configuration = (table(name, _present(name, data, name)) for name in ("geometry", "configuration"))
+    names = ("geometry", "configuration")
+    geometry, configuration = (table(name, _present("", data, [name])[name]) for name in names)
     require_unit_at_top({"geometry": geometry, "configuration": configuration})
     if "zp" in configuration or "zs" in configuration:
         known_keys("configuration", configuration, ("zp", "zs", "theta_z", "theta_z_deg"))
         configuration = in_radians(configuration, {"theta_z": finite})
-        zp, zs = (_present(f"configuration.{name}", configuration, name) for name in ("zp", "zs"))
-        c = Configuration.neutral(zp, zs, configuration.get("theta_z", 0.0))
+        heights = _present("configuration.", configuration, ("zp", "zs"))
+        c = Configuration.neutral(**heights, theta_z=configuration.get("theta_z", 0.0))
         if c.shape:
             raise ValueError("configuration: got lists, expected one number for each of zp, zs and theta_z")
     else:
         known_keys("configuration", configuration, ("position", "rotation", "internal_point"))
-        for name in ("position", "internal_point"):
-            _present(f"configuration.{name}", configuration, name)
+        _present("configuration.", configuration, ("position", "internal_point"))
         c = Configuration(**configuration)
     hexagonal = any(name in geometry for name in HEXAGON)
-    names = HEXAGON if hexagonal else TRIPLES
-    known_keys("geometry", geometry, names)
-    values = {name: _present(f"geometry.{name}", geometry, name) for name in names}
+    joints = HEXAGON if hexagonal else TRIPLES
+    known_keys("geometry", geometry, joints)
+    values = _present("geometry.", geometry, joints)
     if hexagonal:
         g = Geometry.hexagonal(**{name: number(f"geometry.{name}", value) for name, value in values.items()})
     else:
@@ -140,10 +140,12 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
     return Design(*tool.robot(g, c), length, unit_argument(data.get("unit")), tool)
 
 
-def _present(where: str, data: Mapping[str, Any], name: str) -> Any:
-    if name not in data:
-        raise ValueError(f"{where}: got nothing, expected a value")
-    return data[name]
+def _present(where: str, data: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
+    """Return the values of names that a table must have."""
+    for name in names:
+        if name not in data:
+            raise ValueError(f"{where}{name}: got nothing, expected a value")
+    return {name: data[name] for name in names}
 
 
 def indices(design: Design) -> dict[str, Any]:

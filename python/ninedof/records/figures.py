@@ -53,8 +53,9 @@ def figures_of(run: Result | Comparison, say: Say, convergence: bool = False) ->
         result, compared = run, {}
     else:
         rows = [("published, best zs", run.best_zs), ("optimum", run.same_class)] if run.same_class is not None else []
-        rows_with_design = [(name, row) for name, row in rows if row is not None]
-        designs = [(name, row.geometry, row.configuration, row.condition_number, 1.0) for name, row in rows_with_design]
+        designs = [
+            (n, row.geometry, row.configuration, row.condition_number, 1.0) for n, row in rows if row is not None
+        ]
         result, compared = run.result, {"level": published.KAPPA, "crossings": run.crossings}
     if result.interrupted or not designs:
         return None
@@ -73,17 +74,10 @@ def _figures(
     region, tool = None if compared else result.study.objective.region, result.study.tool
     where = "" if compared else "the region" if region is not None else "the poses" * bool(result.study.objective.poses)
     worst = f"{result.study.words.split(' over ')[0]} over {where} {result.objective:.4f}; " if where else ""
-    panels = [
-        plot.Robot(
-            name,
-            g,
-            c,
-            kappa,
-            worst + _heights(tool.plate(c), note),
-            () if region is None else region_lines(region, c),
-        )
-        for name, g, c, kappa, _ in designs
-    ]
+    panels = []
+    for name, g, c, kappa, _ in designs:
+        lines = () if region is None else region_lines(region, c)
+        panels.append(plot.Robot(name, g, c, kappa, worst + _heights(tool.plate(c), note), lines))
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
     files += plot.save(plot.drawing(*designs[-1][1:3], note, tool), directory, "drawing")
     say("drawing the condition number along zs and theta_z")
@@ -180,8 +174,8 @@ def _over_poses(result: Result) -> list[DesignCurves]:
     index, _, over = study.words.partition(" over ")
     if result.region is not None:
         over = f"the {len(result.region.poses)} poses that ruled the region"
-    kappa = [[point.neutral_condition_number for point in points] for points in along]
-    passed = [[min(point.margins.values(), default=0.0) < -1e-6 for point in points] for points in along]
+    zs_kappa, twist_kappa = ([point.neutral_condition_number for point in points] for points in along)
+    zs_passed, twist_passed = ([min(p.margins.values(), default=0.0) < -1e-6 for p in points] for points in along)
     curves = DesignCurves(
         name=f"{index} over {over}",
         zs=heights,
@@ -190,8 +184,8 @@ def _over_poses(result: Result) -> list[DesignCurves]:
         along_theta_z=[point.objective for point in along[1]],
         point=(own, twist, best.objective),
         index="condition number" if is_condition else index,
-        neutral=(kappa[0], kappa[1]) if is_condition else None,
-        passed=(passed[0], passed[1]),
+        neutral=(zs_kappa, twist_kappa) if is_condition else None,
+        passed=(zs_passed, twist_passed),
     )
     return [curves]
 

@@ -45,9 +45,7 @@ def _of_now() -> Path:
         except FileExistsError:
             continue
         except OSError as error:
-            reason = error.strerror
-            raise ValueError(
-                f"out: got {path}, which cannot be created ({reason}), expected a writeable place"
-            ) from None
+            expected = "expected a writeable place"
+            raise ValueError(f"out: got {path}, which cannot be created ({error.strerror}), {expected}") from None
         return path
     raise AssertionError("unreachable")

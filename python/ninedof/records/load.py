@@ -112,10 +112,8 @@ def save(run: Loaded, path: str | os.PathLike[str]) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        reason = error.strerror
-        raise ValueError(
-            f"path: got {folder}, which cannot be created ({reason}), expected a writeable place"
-        ) from None
+        expected = "expected a writeable place"
+        raise ValueError(f"path: got {folder}, which cannot be created ({error.strerror}), {expected}") from None
     return write_motion(run, folder) if isinstance(run, Followed) else write_run(run, folder)
 
 
@@ -128,15 +126,14 @@ def split(name: str) -> tuple[Path, str]:
 def _point(run: Loaded, point: str, name: str) -> Result:
     """Return one point of a run, counted from 1."""
     if isinstance(run, Front):
-        count, what = len(run.results), "front"
+        points, what = run.results, "a front"
     elif isinstance(run, Result):
-        count, what = len(run.candidates), "optimization"
+        points = tuple(replace(run, candidates=run.candidates[k:]) for k in range(len(run.candidates)))
+        what = "an optimization"
     else:
         raise ValueError(f"{name}: got a point of a run that has none, expected a front or an optimization")
     number = int(point) if point.isdecimal() else 0
-    if not 1 <= number <= count:
-        expected = f"a number from 1 to {count}" if count else "no number: it has no design"
-        raise ValueError(f"{name}: got {point} of an {what}, expected {expected}".replace("an front", "a front"))
-    if isinstance(run, Front):
-        return run.results[number - 1]
-    return replace(run, candidates=run.candidates[number - 1 :])
+    if not 1 <= number <= len(points):
+        expected = f"a number from 1 to {len(points)}" if points else "no number: it has no design"
+        raise ValueError(f"{name}: got {point} of {what}, expected {expected}")
+    return points[number - 1]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -50,7 +50,7 @@ def write_motion(
     """
     folder = Path(directory)
     write_whole(folder / LEGS_FILE, legs_csv(motion))
-    write_whole(folder / POSES_FILE, _csv(*_poses(motion, {} if limits is None else limits.margins)))
+    write_whole(folder / POSES_FILE, _csv(_poses(motion, {} if limits is None else limits.margins)))
     motion.save(folder / ARRAYS_FILE)
     files = (LEGS_FILE, POSES_FILE, ARRAYS_FILE)
     record = Record("motion", question or {}, {"motion": plain(motion, limits)}, files=files)
@@ -59,7 +59,7 @@ def write_motion(
 
 def legs_csv(motion: Followed) -> bytes:
     """Return legs.csv: time, lengths, rates and accelerations of the legs, forces and powers of each load."""
-    return _csv(*_legs(motion))
+    return _csv(_legs(motion))
 
 
 def plain(motion: Followed, limits: PathLimits | None) -> dict[str, Any]:
@@ -77,8 +77,8 @@ def plain(motion: Followed, limits: PathLimits | None) -> dict[str, Any]:
     return out
 
 
-def _legs(motion: Followed) -> tuple[list[str], Iterable[Floats]]:
-    """Return t, nine lengths, nine rates, nine accelerations, and nine forces and powers for each load."""
+def _legs(motion: Followed) -> dict[str, Floats]:
+    """Return t, nine lengths, nine rates, nine accelerations, and nine forces and powers for each load, by name."""
     unit, shape = motion.unit, (-1, len(motion.time), 9)
     parts = [("", unit, motion.leg_lengths), (RATE, per(unit, "s"), motion.leg_rates)]
     parts.append((ACCELERATION, per(unit, "s^2"), motion.leg_accelerations))
@@ -88,26 +88,27 @@ def _legs(motion: Followed) -> tuple[list[str], Iterable[Floats]]:
             number = f"_{k}" if motion.load_count > 1 else ""
             parts.append((FORCE + number, motion.force_unit, forces))
             parts.append((POWER + number, "W" if motion.force_unit else "", powers))
-    names = ["t", *(with_unit(leg + what, of) for what, of, _ in parts for leg in LEGS)]
-    return names, (motion.time[:, None], *(values for *_, values in parts))
+    columns = {"t": motion.time}
+    for what, of, values in parts:
+        columns |= {with_unit(leg + what, of): values[:, k] for k, leg in enumerate(LEGS)}
+    return columns
 
 
-def _poses(motion: Followed, margins: Mapping[str, Floats]) -> tuple[list[str], Iterable[Floats]]:
-    c = motion.configurations
-    x, y, z, o_x, o_y, o_z = (with_unit(name, motion.unit) for name in LENGTHS)
-    names = ["t", x, y, z, *(f"Q{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)), o_x, o_y, o_z, "condition_number"]
-    names += [*motion.singularity_margins._fields, "leg_margin", *(f"margin_{name}" for name in margins)]
-    last = (motion.condition_number, *motion.singularity_margins, motion.leg_margins.min(axis=1), *margins.values())
-    return names, (
-        motion.time[:, None],
-        c.position,
-        c.rotation.reshape(-1, 9),
-        c.internal_point,
-        np.stack(last, axis=1),
-    )
+def _poses(motion: Followed, margins: Mapping[str, Floats]) -> dict[str, Floats]:
+    c, axes = motion.configurations, range(3)
+    return {
+        "t": motion.time,
+        **{with_unit(LENGTHS[k], motion.unit): c.position[:, k] for k in axes},
+        **{f"Q{i + 1}{j + 1}": c.rotation[:, i, j] for i in axes for j in axes},
+        **{with_unit(LENGTHS[3 + k], motion.unit): c.internal_point[:, k] for k in axes},
+        "condition_number": motion.condition_number,
+        **motion.singularity_margins._asdict(),
+        "leg_margin": motion.leg_margins.min(axis=1),
+        **{f"margin_{name}": margin for name, margin in margins.items()},
+    }
 
 
-def _csv(names: Sequence[str], columns: Iterable[Floats]) -> bytes:
+def _csv(columns: Mapping[str, Floats]) -> bytes:
     """Return a table whose numbers read back to the same bits."""
-    rows = np.concatenate(list(columns), axis=1).tolist()
-    return "\n".join([",".join(names), *(",".join(map(repr, row)) for row in rows), ""]).encode()
+    rows = np.stack(list(columns.values()), axis=1).tolist()
+    return "\n".join([",".join(columns), *(",".join(map(repr, row)) for row in rows), ""]).encode()
