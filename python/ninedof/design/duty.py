@@ -20,7 +20,7 @@ from ninedof.support.schema import Table, entry, read
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount, unit_argument
 
-Six = tuple[float, float, float, float, float, float]
+Six = tuple[float, ...]
 STANDARD: Vector = (0.0, 0.0, -9.81)
 positive_or_zero = partial(finite, least=0.0)
 
@@ -29,8 +29,7 @@ def _six(name: str, value: Any, expected: str) -> Six:
     six = items(name, value, expected)
     if len(six) != 6:
         raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
-    a, b, c, d, e, f = (finite(f"{name}[{k}]", x) for k, x in enumerate(six))
-    return a, b, c, d, e, f
+    return tuple(finite(f"{name}[{k}]", x) for k, x in enumerate(six))
 
 
 def _wrenches(name: str, value: Any) -> tuple[Six, ...]:

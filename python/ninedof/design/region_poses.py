@@ -39,28 +39,21 @@ class Placing:
         zp = self.study.zp(self.neutral)
         size = 1.0 if region.unit == "zp" else zp
         rows = _core.region_poses(region.for_core(), near)
-        poses = tuple(
-            Pose(tuple(row[6:9]), tuple(row[9:12]), tuple(s), region.unit)
-            for row, s in zip(rows.tolist(), (size * shift).tolist(), strict=True)
-        )
+        poses = _poses(region, np.column_stack([rows[:, :12], size * shift]))
         return Configuration(there.position, there.rotation, self.neutral.internal_point + zp * shift), poses
 
     def for_core(self) -> _core.PlacedDesign:
         """Return the design as the core takes it, its problem without poses."""
+        ruled = [name.removesuffix(".s_x") for name in self.variables if name.endswith(".s_x")]
         plain = replace(self.study, objective=replace(self.study.objective, poses=(), region=None)).problem()
-        low, high = ([r[k] for r in self.leg_ranges] for k in range(2))
+        low, high = np.transpose(self.leg_ranges) if self.leg_ranges else ((), ())
         return _core.PlacedDesign(
             problem=plain,
             variables=[self.variables[name] for name in plain.names],
             log_index=math.log(self.objective),
             ranges=[("", low, high, 0.0)] if self.leg_ranges else [],
-            known=self._known(),
+            known=[[self.variables[f"{pose}.s_{axis}"] for axis in "xyz"] for pose in ruled],  # shifts of O in zp
         )
-
-    def _known(self) -> list[tuple[float, ...]]:
-        """Return the shifts of O at the poses that ruled, in zp."""
-        names = [name.removesuffix(".s_x") for name in self.variables if name.endswith(".s_x")]
-        return [tuple(self.variables[f"{name}.s_{axis}"] for axis in "xyz") for name in names]
 
 
 def places_o(region: Region) -> bool:
@@ -96,5 +89,9 @@ def configurations_at(region: Region, neutral: Configuration, at: Floats) -> tup
 
 def poses_at(region: Region, at: Floats) -> tuple[Pose, ...]:
     """Return the poses nearest to given coordinates, for the poses of an objective."""
-    rows = _core.region_poses(region.for_core(), np.ascontiguousarray(at)).tolist()
-    return tuple(Pose(tuple(row[6:9]), tuple(row[9:12]), tuple(row[12:15]), region.unit) for row in rows)
+    return _poses(region, _core.region_poses(region.for_core(), np.ascontiguousarray(at)))
+
+
+def _poses(region: Region, rows: Floats) -> tuple[Pose, ...]:
+    """Return the poses of rows of the core: coordinates, shift of p, rotation vector, shift of O."""
+    return tuple(Pose(row[6:9], row[9:12], row[12:15], region.unit) for row in rows.tolist())

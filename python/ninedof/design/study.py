@@ -68,10 +68,10 @@ def variable_kinds(family: str) -> dict[str, str]:
     return {name: kind for name, kind, *_ in _core.family_variables(family)}
 
 
-def _in_radians(where: str, values: Any, kinds: Mapping[str, str], check: Check) -> dict[str, Any]:
-    """Return named values with angles in radians; raise for unknown names."""
+def _in_radians(values: Any, kinds: Mapping[str, str], check: Check) -> dict[str, Any]:
+    """Return variables by name with angles in radians; raise for unknown names."""
     angles = [name for name, kind in kinds.items() if kind == "angle"]
-    known_keys(where, values, [*kinds, *(name + DEG for name in angles)])
+    known_keys("variables", values, [*kinds, *(name + DEG for name in angles)])
     return in_radians(values, dict.fromkeys(angles, check))
 
 
@@ -211,7 +211,7 @@ class Study:
             object.__setattr__(self, "actuators", bought.catalogue(self.actuators, _unit("unit", self.unit)))
         check_entries(self)
         bought.require_together(self.actuators, self.greatest_price, self.constraints)
-        named = _in_radians("variables", self.variables, variable_kinds(self.family), bound)
+        named = _in_radians(self.variables, variable_kinds(self.family), bound)
         variables: dict[str, Bound] = {}
         for name, kind, *ends in _core.family_variables(self.family):
             length = self.characteristic_length
@@ -277,9 +277,9 @@ class Study:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the tables of a study file; `Study.from_dict` reads them back."""
-        design = {"family": self.family, "characteristic_length": plain(self.characteristic_length)}
-        if self.length_assumed and self.unit:
-            del design["characteristic_length"]  # so that a study read back says so again
+        design: dict[str, Any] = {"family": self.family}
+        if not (self.length_assumed and self.unit):  # else a study read back says so again
+            design[LENGTH] = plain(self.characteristic_length)
         if self.actuators_for != FOR[0]:
             design["actuators_for"] = self.actuators_for
         if self.greatest_price is not None:
@@ -305,8 +305,7 @@ class Study:
 
     def with_solver(self, starts: int | None = None, seed: int | None = None) -> Study:
         """Return the same study with another number of starts or another seed."""
-        changes = {"starts": self.starts if starts is None else starts, "seed": self.seed if seed is None else seed}
-        return self._with(**changes)
+        return self._with(starts=self.starts if starts is None else starts, seed=self.seed if seed is None else seed)
 
     def with_actuators(self, rows: Mapping[str, Actuator]) -> Study:
         """Return the study of legs that have these rows, by "external", "upper" and "lower": with their limits."""
@@ -369,14 +368,16 @@ class Study:
     def problem(self, over_region: bool = False) -> _core.Problem:
         """Return the study as the core's problem, validated there; of a region, without it, or to be solved over it."""
         if flag("over_region", over_region) not in self._problems:
-            bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
             require_stated(self.limits, self.stated)
-            limits = [self.limit_for_core(limit) for limit in self.limits]
-            objective, tool = self.objective.for_core(over_region), self.tool
-            problem = _core.Problem(
-                self.family, bounds, limits, self.characteristic_length, objective, tool.position, tool.rotation
+            self._problems[over_region] = _core.Problem(
+                self.family,
+                [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()],
+                [self.limit_for_core(limit) for limit in self.limits],
+                self.characteristic_length,
+                self.objective.for_core(over_region),
+                self.tool.position,
+                self.tool.rotation,
             )
-            self._problems[over_region] = problem
         return self._problems[over_region]
 
     def limit_for_core(self, limit: Limit) -> _core.Limit:
@@ -420,13 +421,13 @@ class Study:
         """
         names = self.problem().names
         kinds = dict.fromkeys(names, "") | variable_kinds(self.family)
-        values = {name: finite(name, x) for name, x in _in_radians("variables", variables, kinds, finite).items()}
+        values = {name: finite(name, x) for name, x in _in_radians(variables, kinds, finite).items()}
         for name, ends in self.variables.items():
             if name not in values and isinstance(ends, tuple):
                 raise ValueError(f"{name}: got no value, expected a number (the variable is free in this study)")
-        others: dict[str, Any] = dict.fromkeys(names, 0.0) | dict(self.variables)
-        others[LENGTH] = 1.0  # until it is known: the robot does not depend on it
-        x = [(others | values)[name] for name in names]
+        # The robot does not depend on the length, until it is known.
+        every: dict[str, Any] = {**dict.fromkeys(names, 0.0), **self.variables, LENGTH: 1.0, **values}
+        x = [every[name] for name in names]
         if LENGTH in names and LENGTH not in values:
             x[names.index(LENGTH)] = self._best_length(x)
         return x

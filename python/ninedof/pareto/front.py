@@ -121,12 +121,20 @@ class Front:
         columns = (self.limits, self.results, self.objectives, self.prices, self.dominated)
         for limit, result, value, price, flat in zip(*columns, strict=True):
             best = None if math.isnan(value) else result.best
-            active = best and [name for name in best.active if name != self.limit_name or price != 0.0]
-            row: dict[str, Any] = {"limit": limit, "status": str(result.status), "reason": result.reason}
-            row |= {"objective": best and best.objective, "condition_number": best and best.condition_number}
-            row["neutral_condition_number"] = best and best.neutral_condition_number
-            row |= {"price": price, "active": active, "variables": best and dict(best.variables), "dominated": flat}
-            rows.append(row)
+            rows.append(
+                {
+                    "limit": limit,
+                    "status": str(result.status),
+                    "reason": result.reason,
+                    "objective": best and best.objective,
+                    "condition_number": best and best.condition_number,
+                    "neutral_condition_number": best and best.neutral_condition_number,
+                    "price": price,
+                    "active": best and [name for name in best.active if name != self.limit_name or price != 0.0],
+                    "variables": best and dict(best.variables),
+                    "dominated": flat,
+                }
+            )
         return rows
 
     def to_dict(self) -> dict[str, Any]:

@@ -23,7 +23,7 @@ GAPS = (1e-9, 0.999)
 
 def require_certifiable(archetype: str, internal_point: Any) -> None:
     """Raise for kinds of workspaces of which nothing can be certified."""
-    if archetype == "orientation":
+    if isinstance(archetype, str) and archetype == "orientation":  # an array has no truth value
         raise ValueError("archetype: got 'orientation', expected positions: of orientations nothing is certified")
     if rule_of(internal_point).kind == "best":
         expected = "expected carried, shifted, held or a fraction: no proof where O is searched for"

@@ -53,17 +53,16 @@ def rule_words(keywords: Mapping[str, Any], unit: str) -> str:
 def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> Iterator[str]:
     """Yield a criterion in words, for legs of several kinds one for each; without nine ranges of legs if brief."""
     if name == "leg_limits":
-        low, high = (np.broadcast_to(end, 9) for end in value)
-        kinds = {"all": slice(0, 9)} if np.ptp(low) == 0.0 and len(set(high.tolist())) == 1 else KINDS
-        if any(len(set(end[legs].tolist())) > 1 for end in (low, high) for legs in KINDS.values()):
-            ranges = (f"{leg} {a:.6g} to {b:.6g}" for leg, a, b in zip(LEG_NAMES, low, high, strict=True))
+        ranges = [*zip(*(np.broadcast_to(end, 9).tolist() for end in value), strict=True)]
+        if any(len(set(ranges[legs])) > 1 for legs in KINDS.values()):
+            each = (f"{leg} {low:.6g} to {high:.6g}" for leg, (low, high) in zip(LEG_NAMES, ranges, strict=True))
             needs = "legs as the study has them"
-            yield needs if brief else amount(f"{needs}: {', '.join(ranges)}", unit)
+            yield needs if brief else amount(f"{needs}: {', '.join(each)}", unit)
             return
-        for kind, legs in kinds.items():
-            least, most = float(low[legs][0]), float(high[legs][0])
-            if least > 0.0 or math.isfinite(most):
-                yield amount(f"{kind} legs {least:.6g} to {most:.6g}", unit)
+        for kind, legs in KINDS.items() if len(set(ranges)) > 1 else [("all", slice(9))]:
+            low, high = ranges[legs][0]
+            if low > 0.0 or math.isfinite(high):
+                yield amount(f"{kind} legs {low:.6g} to {high:.6g}", unit)
         return
     row = ROWS[name]
     if row.kind == "sign":
