@@ -325,17 +325,19 @@ def with_fixed_design(result: Result) -> Result:
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:
     """Return the result of a mapping as `Result.to_dict` makes it."""
-    parts = ["status", "candidates", "study", "region", "proof", "actuators", "reserve"]
-    entries = entries_of(Result, data, skipped=parts)
-    region = None if data.get("region") is None else RegionReport.from_dict(data["region"])
-    problem = (study if region is None else region.posed(study)).problem()
+    kinds: dict[str, Any] = {
+        "region": RegionReport,
+        "proof": OptimumProof,
+        "actuators": ActuatorChoice,
+        "reserve": Reserve,
+    }
+    entries = entries_of(Result, data, skipped=["status", "candidates", "study", *kinds])
+    parts: dict[str, Any] = {n: kind.from_dict(data[n]) for n, kind in kinds.items() if data.get(n) is not None}
+    problem = (parts["region"].posed(study) if "region" in parts else study).problem()
     rows = items("candidates", data.get("candidates"), "a list of candidates")
     return Result(
         **entries,
-        region=region,
-        proof=None if data.get("proof") is None else OptimumProof.from_dict(data["proof"]),
-        actuators=None if data.get("actuators") is None else ActuatorChoice.from_dict(data["actuators"]),
-        reserve=None if data.get("reserve") is None else Reserve.from_dict(data["reserve"]),
+        **parts,
         status=Status(choice("status", data.get("status"), list(Status))),
         candidates=tuple(candidate_from(problem, entry, f"candidates[{k}]") for k, entry in enumerate(rows)),
         study=study,

@@ -57,11 +57,7 @@ def _row(study: Study, names: set[str], start: Mapping[str, Any]) -> list[float]
     fixed = {name: bound for name, bound in study.variables.items() if not isinstance(bound, tuple)}
     try:
         start = in_radians(start, dict.fromkeys(study.angles, finite))
-        values = {n: v for n, v in start.items() if n in names or not _of_the_poses(n)}
+        values = {n: v for n, v in start.items() if n in names or not (n == LENGTH or str(n).startswith("pose"))}
         return study.vector(values | {name: value for name, value in fixed.items() if name in values})
     except ValueError as error:
         raise ValueError(f"warm: {error}") from None
-
-
-def _of_the_poses(name: object) -> bool:
-    return name == LENGTH or (isinstance(name, str) and name.startswith("pose"))

@@ -53,9 +53,7 @@ def _part(study: Study, variables: Mapping[str, float], name: str, share: float 
 
 def _direction(study: Study, variables: Mapping[str, float], name: str) -> str:
     """Return the direction that relaxes a limit: "more", "less", or "wider" if both sides are limited."""
-    bound = study.variables.get(name)
-    if name == LENGTH:
-        bound = study.characteristic_length if isinstance(study.characteristic_length, tuple) else None
+    bound = study.characteristic_length if name == LENGTH else study.variables.get(name)
     if isinstance(bound, tuple):
         low, high = bound
         value = variables[name]

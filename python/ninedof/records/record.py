@@ -15,8 +15,6 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ninedof.design.study import Study
 from ninedof.motion import Followed
 from ninedof.optimize.result import Result, result_from
@@ -205,8 +203,7 @@ def _front(study: Study, record: Record) -> Front:
     limits = tuple(float(row["limit"]) for row in data["rows"])
     fields = entries_of(Front, data, skipped=["study", "limits", "results"])
     plain, degrees = without_degrees(fields["against"])
-    results = []
-    for limit, entries in zip(limits, data["results"], strict=True):
-        value = math.radians(limit) if degrees else limit
-        results.append(result_from(with_limit(study, plain, value if np.isfinite(value) else None), entries))
-    return Front(study, **fields, limits=limits, results=tuple(results))
+    values = [None if math.isinf(limit) else math.radians(limit) if degrees else limit for limit in limits]
+    each = zip(values, data["results"], strict=True)
+    results = tuple(result_from(with_limit(study, plain, value), entries) for value, entries in each)
+    return Front(study, **fields, limits=limits, results=results)
