@@ -313,6 +313,6 @@ DUTIES: dict[str, type[Table]] = {
 """The tables of a study file that say what the machine is for, by name."""
 
 
-def duty(kind: type[Table]) -> Callable[[str, Any], Any]:
-    """Return the check of an argument that is such a table or a mapping of its entries."""
-    return lambda name, value: value if isinstance(value, kind) else read(kind, value, name)
+def duty(kind: type[Table]) -> Callable[..., Any]:
+    """Return the check of an argument that is such a table or a mapping of its entries, besides their defaults."""
+    return lambda name, value, **defaults: value if isinstance(value, kind) else read(kind, value, name, **defaults)

@@ -25,7 +25,7 @@ CLEARANCE = next(name for name, parts in PARTS.items() if "-" in parts[0])
 SPREADS = _core.limits_over_lengths  # limits that compare poses
 LEGS = {
     name: [LEG_NAMES.index(part) for part in parts]
-    for name, parts in _core.limit_parts.items()
+    for name, parts in PARTS.items()
     if ROWS[name].kind == "length" and set(parts) <= set(LEG_NAMES)
 }
 """Constraints of lengths, and their legs in the order of `leg_lengths`."""

@@ -12,11 +12,12 @@ from typing import Any, Self
 
 from ninedof import _core
 from ninedof.design import poses
+from ninedof.design.duty import duty
 from ninedof.design.indices import objectives
 from ninedof.design.pose import Pose
 from ninedof.design.region import Region
 from ninedof.support.arguments import choice, finite, items, known_keys, number, text, whole
-from ninedof.support.schema import Table, entry, keys, read, within
+from ninedof.support.schema import Table, entry, keys, within
 from ninedof.support.short import short_repr
 
 AGGREGATES = {
@@ -45,13 +46,7 @@ def _poses(name: str, value: Any, **defaults: Any) -> tuple[Pose, ...]:
     entries = items(name, value, "a list of poses")
     if len(entries) > poses.MOST_POSES:
         raise ValueError(f"{name}: got {len(entries)}, expected at most {poses.MOST_POSES}")
-    return tuple(
-        one if isinstance(one, Pose) else read(Pose, one, f"{name}[{k}]", **defaults) for k, one in enumerate(entries)
-    )
-
-
-def _region(name: str, value: Any, **defaults: Any) -> Region:
-    return value if isinstance(value, Region) else read(Region, value, name, **defaults)
+    return tuple(duty(Pose)(f"{name}[{k}]", one, **defaults) for k, one in enumerate(entries))
 
 
 def _set(name: str, value: Any, shared: Mapping[str, Any]) -> tuple[Pose, ...]:
@@ -110,7 +105,7 @@ class Objective(Table):
     condition_limit: float | None = entry(_condition_limit, None)
     neutral_condition_limit: float | None = entry(_condition_limit, None)
     poses: tuple[Pose, ...] = entry(_poses, ())
-    region: Region | None = entry(_region, None)
+    region: Region | None = entry(duty(Region), None)
 
     def __post_init__(self) -> None:
         """Check every entry, and that they go together."""
@@ -164,7 +159,7 @@ class Objective(Table):
             if table.get("region") is not None:
                 # A region has no shift of s of its own: only a word for where O is, is a default for it too.
                 words = {name: word for name, word in shared.items() if isinstance(word, str)}
-                table["region"] = _region("region", table["region"], **words)
+                table["region"] = duty(Region)("region", table["region"], **words)
             return cls(**table, poses=tuple(chain(listed_poses, *sets)))
 
     def to_dict(self) -> dict[str, Any]:

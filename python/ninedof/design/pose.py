@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 from ninedof import _core
-from ninedof.redundancy.rules import STUDY_RULES, WORDS
+from ninedof.redundancy.rules import STUDY_RULES, where_o
 from ninedof.support.arguments import Vector, choice, finite, vector
 from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr
@@ -95,10 +95,6 @@ def rule_words(poses: Sequence[Pose]) -> str:
             del rules["shifted"]
             rules[next(iter(rules))] += len(at_rest)
     if len(rules) == 1:
-        return f"O is {_words(next(iter(rules)))} at every pose"
-    counts = (f"{_words(rule)} at {count} {'pose' if count == 1 else 'poses'}" for rule, count in rules.most_common())
+        return f"O is {where_o(next(iter(rules)))} at every pose"
+    counts = (f"{where_o(rule)} at {count} {'pose' if count == 1 else 'poses'}" for rule, count in rules.most_common())
     return f"O is {', '.join(counts)}"
-
-
-def _words(rule: str) -> str:
-    return WORDS.get(rule, rule)

@@ -51,7 +51,8 @@ def box(
     edges = vector("half", half, least=0.0)
     count = whole("points", points, 1, MOST_POSES)
     axes = [_grid(h, count if h > 0.0 else 1) for h in edges]
-    _few_enough(math.prod(len(axis) for axis in axes))
+    if (every := math.prod(map(len, axes))) > MOST_POSES:
+        raise ValueError(f"points: got {every} poses in all, expected at most {MOST_POSES}")
     places: list[Vector] = [(x, y, z) for x, y, z in itertools.product(*axes)]
     return _with_tilts(places, tilt, tilt_deg, internal_point, unit)
 
@@ -170,8 +171,3 @@ def _radians(name: str, radians: Any, degrees: Any, check: Check) -> Any:
     """Return an argument that has a second name for degrees; None without one."""
     values = {key: value for key, value in ((name, radians), (name + DEG, degrees)) if value is not None}
     return check(name, in_radians(values, {name: check})[name]) if values else None
-
-
-def _few_enough(count: int) -> None:
-    if count > MOST_POSES:
-        raise ValueError(f"points: got {count} poses in all, expected at most {MOST_POSES}")

@@ -75,10 +75,6 @@ def _in_radians(values: Any, kinds: Mapping[str, str], check: Check) -> dict[str
     return in_radians(values, dict.fromkeys(angles, check))
 
 
-def _family(name: str, value: Any) -> str:
-    return choice(name, value, FAMILIES)
-
-
 def _constraints(name: str, value: Any) -> Mapping[str, Any]:
     known_keys(name, value, ROWS)
     return Fixed({key: form(parse(key, limits)) for key, limits in value.items()})
@@ -177,7 +173,7 @@ class Study:
 
     """
 
-    family: str = entry(_family, "hexagonal")
+    family: str = entry(partial(choice, known=FAMILIES), "hexagonal")
     variables: Mapping[str, Bound] = entry(table, Fixed())
     constraints: Mapping[str, Any] = entry(_constraints, Fixed())
     characteristic_length: float | str | tuple[float, float] = entry(_length, UNGIVEN)

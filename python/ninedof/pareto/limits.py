@@ -62,10 +62,11 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
     of speed with a varying condition limit. The front is the same, with its axes exchanged.
     """
     names = names_with_max()
-    labels = [label(name, at) for at in AT for name in names]
-    if isinstance(against, str) and against in labels:
-        return study, against
-    if against == TOLERANCE:
+    labels = [label(one, at) for at in AT for one in names]
+    name = against if isinstance(against, str) else ""
+    if name in labels:
+        return study, name
+    if name == TOLERANCE:
         region = study.objective.region
         if region is not None and not places_o(region):
             raise ValueError(
@@ -75,16 +76,16 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
         return study, TOLERANCE
     index = study.objective.index
     indices = objectives()
-    if isinstance(against, str) and against in (CONDITION_LIMIT, *indices):
-        if against in (CONDITION_LIMIT, "condition_number") and index != "condition_number":
+    if name in (CONDITION_LIMIT, *indices):
+        if name in (CONDITION_LIMIT, "condition_number") and index != "condition_number":
             return study, CONDITION_LIMIT
-        if against in indices and index == "condition_number" and against != index:
-            return replace(study, objective=replace(study.objective, index=against)), CONDITION_LIMIT
+        if name in indices and index == "condition_number" and name != index:
+            return replace(study, objective=replace(study.objective, index=name)), CONDITION_LIMIT
         raise ValueError(
             f"against: got {shown(against)} for a study of the index {index!r}, expected one of the two to be the "
             "condition number and the other another index"
         )
-    hint = did_you_mean(against, [*labels, CONDITION_LIMIT, TOLERANCE, *indices]) if isinstance(against, str) else ""
+    hint = did_you_mean(name, [*labels, CONDITION_LIMIT, TOLERANCE, *indices])
     raise ValueError(
         f"against: got {shown(against)}, expected a constraint with a max ({', '.join(names)}; also "
         f'"{label(names[0], AT[1])}", "base_cone_deg"), '

@@ -37,12 +37,13 @@ def workspace_table(workspace: Any, most: int = SHOWN) -> Table:
     if len(workspace.pieces) > 1:
         rows.append(Line("  pieces", [len(workspace.pieces)]))
     if workspace.ball_radius > 0.0:
-        rows += [
-            Line("largest ball: radius", place([workspace.ball_radius]), unit=unit),
-            Line("largest ball: centre", place(workspace.ball_centre), unit=unit),
-            Line("largest box: sides", place(workspace.box_high - workspace.box_low), unit=unit),
-            Line("largest box: centre", place(0.5 * (workspace.box_low + workspace.box_high)), unit=unit),
-        ]
+        inscribed = {
+            "ball: radius": [workspace.ball_radius],
+            "ball: centre": workspace.ball_centre,
+            "box: sides": workspace.box_high - workspace.box_low,
+            "box: centre": 0.5 * (workspace.box_low + workspace.box_high),
+        }
+        rows += [Line(f"largest {what}", place(values), unit=unit) for what, values in inscribed.items()]
     rows += [
         (),
         Line("global conditioning index", [workspace.conditioning_index], ".5f"),
