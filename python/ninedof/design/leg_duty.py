@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from ninedof import _core
-from ninedof.design.duty import Loads, Masses, Speeds, Tool, duty
+from ninedof.design.duty import Loads, Masses, Speeds, duty
 from ninedof.design.limits import Limit
 from ninedof.design.objective import Objective
 from ninedof.design.pose import ZERO
@@ -36,12 +36,6 @@ class LegDuty(Table):
         )
 
 
-def stated(loads: Loads, masses: Masses, speeds: Speeds) -> dict[str, bool]:
-    """Return whether a study states "loads" and "speeds" of its legs."""
-    weighs = any((masses.platform, masses.cylinder, masses.rod, masses.internal_point))
-    return {"loads": bool(loads.wrenches) or weighs, "speeds": bool(speeds.linear or speeds.angular)}
-
-
 def require_stated(limits: Sequence[Limit], states: Mapping[str, bool]) -> None:
     """Raise ValueError if a limit is about loads or speeds that a study does not state."""
     expected = {"loads": "wrenches in [loads], or [masses]", "speeds": "linear or angular in [speeds]"}
@@ -49,11 +43,6 @@ def require_stated(limits: Sequence[Limit], states: Mapping[str, bool]) -> None:
         for table in limit.row.needs:
             if not states[table]:
                 raise ValueError(f"constraints.{limit.name}: got a study without {table}, expected {expected[table]}")
-
-
-def leg_duty(objective: Objective, tool: Tool, loads: Loads, masses: Masses, speeds: Speeds) -> LegDuty:
-    """Return the duty of the legs in a study."""
-    return LegDuty(loads, masses.seen_from(tool) if tool else masses, speeds, internal_motion(objective))
 
 
 def internal_motion(objective: Objective) -> str:

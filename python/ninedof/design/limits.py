@@ -42,7 +42,7 @@ class Row(NamedTuple):
         return self.kind == "angle"
 
 
-ROWS = {row.name: row for row in (Row(*values) for values in _core.constraint_table)}
+ROWS = {values[0]: Row(*values) for values in _core.constraint_table}
 STEPS, MOST_STEPS = _core.singularity_free_steps  # parts of the way from the neutral pose that singularity_free tests
 AT = ("poses", "neutral")
 """The places where a limit holds: every pose of the objective, the default, or the neutral pose alone."""

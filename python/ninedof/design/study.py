@@ -17,7 +17,7 @@ from ninedof.design import actuators as bought
 from ninedof.design.actuators import FOR, LEG_KINDS, Actuator
 from ninedof.design.design_point import DesignPoint, design_point
 from ninedof.design.duty import DUTIES, About, Loads, Masses, Speeds, Tolerances, Tool, duty
-from ninedof.design.leg_duty import LegDuty, leg_duty, require_stated, stated
+from ninedof.design.leg_duty import LegDuty, internal_motion, require_stated
 from ninedof.design.limits import ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
 from ninedof.robot.configuration import Configuration
@@ -68,10 +68,10 @@ def variable_kinds(family: str) -> dict[str, str]:
     return {name: kind for name, kind, *_ in _core.family_variables(family)}
 
 
-def _in_radians(values: Any, kinds: Mapping[str, str], check: Check) -> dict[str, Any]:
-    """Return variables by name with angles in radians; raise for unknown names."""
+def in_radians_by_kind(where: str, values: Any, kinds: Mapping[str, str], check: Check) -> dict[str, Any]:
+    """Return named values with angles in radians; raise for unknown names."""
     angles = [name for name, kind in kinds.items() if kind == "angle"]
-    known_keys("variables", values, [*kinds, *(name + DEG for name in angles)])
+    known_keys(where, values, [*kinds, *(name + DEG for name in angles)])
     return in_radians(values, dict.fromkeys(angles, check))
 
 
@@ -207,7 +207,7 @@ class Study:
             object.__setattr__(self, "actuators", bought.catalogue(self.actuators, _unit("unit", self.unit)))
         check_entries(self)
         bought.require_together(self.actuators, self.greatest_price, self.constraints)
-        named = _in_radians(self.variables, variable_kinds(self.family), bound)
+        named = in_radians_by_kind("variables", self.variables, variable_kinds(self.family), bound)
         variables: dict[str, Bound] = {}
         for name, kind, *ends in _core.family_variables(self.family):
             length = self.characteristic_length
@@ -324,7 +324,9 @@ class Study:
     @cached_property
     def stated(self) -> dict[str, bool]:
         """Whether it states "loads" and "speeds", without which forces and rates of legs are not looked at."""
-        return stated(self.loads, self.masses, self.speeds)
+        m, speeds = self.masses, self.speeds
+        weighs = any((m.platform, m.cylinder, m.rod, m.internal_point))
+        return {"loads": bool(self.loads.wrenches) or weighs, "speeds": bool(speeds.linear or speeds.angular)}
 
     @property
     def length_note(self) -> str:
@@ -383,7 +385,8 @@ class Study:
     @property
     def leg_duty(self) -> LegDuty:
         """What limits of the forces, rates and powers of legs are about."""
-        return leg_duty(self.objective, self.tool, self.loads, self.masses, self.speeds)
+        masses = self.masses.seen_from(self.tool) if self.tool else self.masses
+        return LegDuty(self.loads, masses, self.speeds, internal_motion(self.objective))
 
     @cached_property
     def _duty(self) -> _core.Duty:
@@ -417,7 +420,9 @@ class Study:
         """
         names = self.problem().names
         kinds = dict.fromkeys(names, "") | variable_kinds(self.family)
-        values = {name: finite(name, x) for name, x in _in_radians(variables, kinds, finite).items()}
+        values = {
+            name: finite(name, x) for name, x in in_radians_by_kind("variables", variables, kinds, finite).items()
+        }
         for name, ends in self.variables.items():
             if name not in values and isinstance(ends, tuple):
                 raise ValueError(f"{name}: got no value, expected a number (the variable is free in this study)")

@@ -8,13 +8,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
-from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.indices import What, indices_of
+from ninedof.design.study import FAMILIES, in_radians_by_kind, variable_kinds
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
-from ninedof.support.angles import DEG, in_radians, plain_name
+from ninedof.support.angles import plain_name
 from ninedof.support.arguments import choice, finite, flag, known_keys, shown
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress
@@ -206,14 +206,11 @@ def sweep_designs(
 
     """
     known_keys("sweep_designs", options, DesignOptions.__annotations__)
-    family = choice("family", options.get("family", "hexagonal"), _core.design_family_names())
-    variables = _core.family_variables(family)
-    names = [name for name, *_ in variables]
-    angles = [name for name, kind, *_ in variables if kind == "angle"]
-    grid = axes_of(over, names, angles)
-    known_keys("design", design, [*names, *(name + DEG for name in angles)])
-    in_rad = in_radians(design, dict.fromkeys(angles, finite))
-    fixed = {name: finite(f"design[{name!r}]", value) for name, value in in_rad.items()}
+    family = choice("family", options.get("family", "hexagonal"), FAMILIES)
+    kinds = variable_kinds(family)
+    grid = axes_of(over, list(kinds), [name for name, kind in kinds.items() if kind == "angle"])
+    in_radians = in_radians_by_kind("design", design, kinds, finite)
+    fixed = {name: finite(f"design[{name!r}]", value) for name, value in in_radians.items()}
     swept = [plain_name(axis.name) for axis in grid.axes]
     if both := [name for name in swept if name in fixed]:
         raise ValueError(f"design: got {both[0]}, which is swept, expected it in one place")
@@ -224,7 +221,8 @@ def sweep_designs(
     variants.check(indices)
     fast = all(variants.has_closed_form(i, swept) for i in indices)
     work = GridWork(variants, grid, indices, chunk_argument(options.get("chunk"), POSES if fast else DESIGNS), 1)
-    return _result(work, {name: "rad" if name in angles else "length" for name in names}, options)
+    units = {name: "rad" if kind == "angle" else "length" for name, kind in kinds.items()}
+    return _result(work, units, options)
 
 
 def _result(work: GridWork, units: Mapping[str, str], options: GridOptions) -> SweepResult:

@@ -25,7 +25,7 @@ SETS = ("reachable", "inclusive", "dexterous")
 ARCHETYPES = ("constant_orientation", "orientation", *SETS)
 SPREAD = 60  # rotations of a set that is not given
 MOST_ROTATIONS = 100_000
-ROWS = {row.name: row for row in (Row(*values) for values in _core.criterion_table)}
+ROWS = {values[0]: Row(*values) for values in _core.criterion_table}
 CRITERIA = tuple(ROWS)
 ENDS = {"min": "low", "max": "high"}
 
