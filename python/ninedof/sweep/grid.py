@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -14,9 +14,9 @@ import numpy as np
 
 from ninedof.design.indices import Index, identity
 from ninedof.support.angles import DEG
-from ninedof.support.arrays import Floats, forget
+from ninedof.support.arrays import Floats, blocks, forget
 from ninedof.support.extras import versions
-from ninedof.support.files import Arrays, part_name
+from ninedof.support.files import Arrays, naming, part_name
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
 from ninedof.support.store import Store
@@ -82,16 +82,16 @@ class GridWork:
                 raise ValueError(f"over: got {points} points, expected {expected}") from None
             yield arrays
             return
-        parts = {name: store.folder / part_name(f"{name}.npy") for name in shapes}
+        size = 2 * 8 * sum(map(math.prod, shapes.values()))  # the finished chunks, and the arrays
+        if not store.kept() and size > (free := _free(store.folder)):
+            room = f"their values take {size / 1e9:.4g} GB, and {free / 1e9:.3g} GB are free on the disk of out"
+            raise ValueError(f"over: got {points} points, expected fewer: {room}")
+        files = {name: store.folder / f"{name}.npy" for name in shapes}
+        parts = {name: file.with_name(part_name(file.name)) for name, file in files.items()}
         try:
-            try:
-                arrays = {name: _file_array(parts[name], shape) for name, shape in shapes.items()}
-            except OSError as error:
-                room = f"{8 * sum(map(math.prod, shapes.values())) / 1e9:.4g} GB for their values on the disk of out"
-                raise ValueError(f"over: got {points} points, expected fewer: {room}: {error.strerror}") from None
-            yield arrays
+            yield {name: _file_array(parts[name], files[name], shape) for name, shape in shapes.items()}
             for name, part in parts.items():
-                os.replace(part, store.folder / f"{name}.npy")
+                os.replace(part, files[name])
         finally:
             for part in parts.values():
                 part.unlink(missing_ok=True)
@@ -128,10 +128,25 @@ class GridWork:
         )
 
 
-def _file_array(part: Path, shape: tuple[int, ...]) -> Floats:
-    """Return an array in a new file that has its room on the disk: a disk that fills up later ends the process."""
-    array: Floats = np.lib.format.open_memmap(part, "w+", np.float64, shape)
-    with part.open("r+b") as file:
-        if hasattr(os, "posix_fallocate"):
-            os.posix_fallocate(file.fileno(), 0, part.stat().st_size)
+def _file_array(part: Path, file: Path, shape: tuple[int, ...]) -> Floats:
+    """Return an array in a new file. Zeros take its room on the disk, which must not be full behind a memory map."""
+    try:
+        array = np.lib.format.open_memmap(part, "w+", np.float64, shape)
+        with part.open("r+b") as opened:
+            opened.seek(array.offset)
+            for _, piece in blocks(array):
+                opened.write(piece.tobytes())
+    except OSError as error:
+        raise naming(error, file) from None
     return array
+
+
+def _free(folder: Path) -> float:
+    """Return the bytes that are free on a disk; infinity where it does not say."""
+    import shutil  # when it is needed, as it takes time to load
+
+    with suppress(OSError):
+        disk = shutil.disk_usage(folder)
+        if disk.total:
+            return disk.free
+    return math.inf

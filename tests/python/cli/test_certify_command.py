@@ -94,7 +94,7 @@ def test_an_interrupted_fit_of_a_rule_leaves_nothing(run, tmp_path, monkeypatch,
         progress.phase("fitting a rule for O of degree 1")
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(import_module("ninedof.optimize.result"), "certify", interrupted)
+    monkeypatch.setattr(import_module("ninedof.optimize.machine_proofs"), "certify", interrupted)
     folder = tmp_path / "run"
     shutil.copytree(run, folder, ignore=shutil.ignore_patterns("certify.json"))
     before = sorted(folder.iterdir())
