@@ -151,7 +151,7 @@ class _Run:
 
     def result(self, study: Study, warm: Sequence[Mapping[str, float]], part: str = "", explain: bool = True) -> Result:
         """Solve a study, a part of the work that may have a name, or return the result that was kept of it."""
-        left = max(self.end - perf_counter(), 1e-3)
+        left = max(self.end - perf_counter(), 1e-9)
         progress = part_of(self.progress, part) if part else self.progress
         settings = _core.Settings(
             starts=study.starts,
