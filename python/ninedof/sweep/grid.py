@@ -14,7 +14,7 @@ import numpy as np
 
 from ninedof.design.indices import Index, identity
 from ninedof.support.angles import DEG
-from ninedof.support.arrays import Floats, blocks, forget
+from ninedof.support.arrays import Floats, blocks
 from ninedof.support.extras import versions
 from ninedof.support.files import Arrays, naming, part_name
 from ninedof.support.json import plain
@@ -110,7 +110,6 @@ class GridWork:
                 for (first, last), values in chunks:
                     for name, array in arrays.items():
                         array.reshape(-1, *values[name].shape[1:])[first:last] = values[name]
-                        forget(array)
             if store is not None:
                 arrays = {name: np.load(store.folder / f"{name}.npy", mmap_mode="r") for name in arrays}
         swept = tuple(axis.name for axis in self.grid.axes)
