@@ -144,7 +144,7 @@ class Configuration:
         if not self.shape:
             raise TypeError("a single configuration cannot be indexed")
         picks: NDArray[np.intp] = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
-        return Configuration._of(*(array[picks] for array in _flat(**arrays_of(self))))
+        return Configuration._of(*(array[picks] for array in flat(self)))
 
     def __bool__(self) -> bool:
         """Return True also for an empty stack."""
@@ -169,6 +169,11 @@ class Configuration:
         """Restore a copied stack, or one pickled by protocol 2 or later; its arrays become read-only again."""
         for name, value in state[1].items():
             setattr(self, name, frozen(value) if name in Configuration.__slots__ else value)
+
+
+def flat(configuration: Configuration) -> Flat:
+    """Return the arrays of a stack for the core; of a single configuration those of a stack of one."""
+    return _flat(**arrays_of(configuration))
 
 
 def _flat(position: Floats, rotation: Floats, internal_point: Floats) -> Flat:

@@ -12,16 +12,17 @@ from typing import Any
 
 from ninedof.design.study import LENGTH
 from ninedof.sheet.limit_rows import LimitRow, limit_amount
-from ninedof.sheet.pose_words import pose_words
+from ninedof.sheet.plain_values import plain as plain_values
 from ninedof.sheet.sheet import Sheet, sheet
-from ninedof.sheet.tables import over
+from ninedof.sheet.tables import over, pose_of
 from ninedof.support.arguments import shown
 from ninedof.support.margins import is_violated, margin_words
-from ninedof.support.units import amount, metres
+from ninedof.support.units import amount, metres, unit_entry
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table
 from ninedof.tables.html import notebook
 from ninedof.tables.numbers import ROUNDING, short
 from ninedof.tables.plain import plain
+from ninedof.tables.table import WORDS
 
 MOST = 3  # designs: more do not fit on 80 columns
 NAMES = ("A", "B", "C")
@@ -56,28 +57,22 @@ class Comparison:
 
     def parts(self) -> list[Any]:
         """Return the tables and sentences that show it."""
-        columns = [Column(), *(Column(name, "", RIGHT) for name in self.names)]
-        two = len(self.names) == 2
-        if two:
+        of_each = list(zip(self.names, self.sheets, strict=True))
+        columns, numbers = self._columns(""), self.numbers
+        if len(self.names) == 2:
             columns.append(Column("difference", "", RIGHT))
+            numbers = {name: (one, other, other - one) for name, (one, other) in numbers.items()}
         lines = [
-            Line(
-                name,
-                [*values, *([values[1] - values[0]] if two else [])],
-                DEGREES if name.endswith(ANGLES) else SHORT,
-                self.unit if _long(name) else "",
-            )
-            for name, values in self.numbers.items()
+            Line(name, values, DEGREES if name.endswith(ANGLES) else SHORT, self.unit if _long(name) else "")
+            for name, values in numbers.items()
         ]
         out: list[Any] = [Table("Numbers over the poses of each study", columns, lines)]
-        for name, one in zip(self.names, self.sheets, strict=True):
-            c, unit = one.configurations, one.unit
-            out.append(f"{name}, {over(one)}, worst at {pose_words(c[one.condition_number.pose], c.rotation[0], unit)}")
+        for name, one in of_each:
+            out.append(f"{name}, {over(one)}, worst at {pose_of(one, one.condition_number.pose)}")
         if self.limits:
-            columns = [Column("limit"), *(Column(name, "", RIGHT) for name in self.names)]
             rows = [row for label, entry in self.limits.items() for row in _limit_rows(label, entry, self.sheets)]
-            out.append(Table("Limits", columns, rows))
-        for name, outside, one in zip(self.names, self.outside, self.sheets, strict=True):
+            out.append(Table("Limits", self._columns("limit"), rows))
+        for (name, one), outside in zip(of_each, self.outside, strict=True):
             if outside:
                 beyond = ", ".join(_outside_words(label, *ends, one.unit) for label, ends in outside.items())
                 out.append(f"{name} is outside of the bounds of its study: {beyond}")
@@ -85,21 +80,27 @@ class Comparison:
             if labels:
                 out.append(f"{name} breaks {', '.join(labels)}")
         if self.differences:
-            columns = [Column(), *(Column(name) for name in self.names)]
             entries = [[key, *map(_short_entry, values)] for key, values in self.differences.items()]
-            out.append(Table("What differs in the studies", columns, entries))
+            out.append(Table("What differs in the studies", self._columns("", WORDS), entries))
         return out
+
+    def _columns(self, first: str, form: str = RIGHT) -> list[Column]:
+        return [Column(first), *(Column(name, "", form) for name in self.names)]
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values; angles of limits in radians."""
         limits = {
-            label: [None if row is None else vars(row) | {"broken": _broken(row)} for row in rows]
+            label: [None if row is None else row._asdict() | {"broken": _broken(row)} for row in rows]
             for label, rows in self.limits.items()
         }
-        out = {"names": list(self.names), "numbers": {name: list(row) for name, row in self.numbers.items()}}
-        differences = {key: list(values) for key, values in self.differences.items()}
-        more = {"limits": limits, "differences": differences, "outside": list(self.outside)}
-        return ({"unit": self.unit} if self.unit else {}) | out | more
+        return {
+            **unit_entry(self.unit),
+            "names": list(self.names),
+            "numbers": plain_values(self.numbers),
+            "limits": limits,
+            "differences": plain_values(self.differences),
+            "outside": list(self.outside),
+        }
 
     def __str__(self) -> str:
         """Show all tables as text."""
@@ -153,18 +154,22 @@ def compare(*designs: Any, names: Sequence[str] | None = None) -> Comparison:
         if bool(one.unit) != bool(unit):
             units = f"{titles[0]} in {unit or 'no unit'} and {title} in {one.unit or 'no unit'}"
             raise ValueError(f"designs: got {units}, expected a unit of lengths for all or for none")
-    scales = [metres(one.unit) / metres(unit) if unit != one.unit else 1.0 for one in sheets]
-    rows = [{(row.name, row.side): row for row in one.limits} for one in sheets]
-    limits = {key: tuple(of.get(key) for of in rows) for key in dict.fromkeys(key for of in rows for key in of)}
+    limits = _beside([{f"{row.name} {row.side}": row for row in one.limits} for one in sheets])
     return Comparison(
         titles,
         unit,
-        _numbers(designs, sheets, scales),
-        {f"{name} {side}": entry for (name, side), entry in limits.items()},
+        _numbers(designs, sheets),
+        limits,
         _differences([getattr(design, "study", None) for design in designs]),
         tuple(map(_outside, designs)),
         sheets,
     )
+
+
+def _beside(entries: Sequence[Mapping[str, Any]], missing: Any = None) -> dict[str, tuple[Any, ...]]:
+    """Return each name of several mappings to its values in them."""
+    names = dict.fromkeys(name for one in entries for name in one)
+    return {name: tuple(one.get(name, missing) for one in entries) for name in names}
 
 
 QUANTITIES: dict[str, Callable[[Sheet], float]] = {
@@ -188,37 +193,33 @@ def _long(name: str) -> bool:
     return not name.endswith(NO_LENGTHS)
 
 
-def _numbers(designs: Sequence[Any], sheets: Sequence[Sheet], scales: Sequence[float]) -> dict[str, tuple[float, ...]]:
+def _numbers(designs: Sequence[Any], sheets: Sequence[Sheet]) -> dict[str, tuple[float, ...]]:
     """Return the quantities of the sheets, then the variables of the family that differ."""
-    out = {
-        name: tuple(get(one) * (scale if _long(name) else 1.0) for one, scale in zip(sheets, scales, strict=True))
-        for name, get in QUANTITIES.items()
-    }
-    own = [_variables(design) for design in designs]
-    for name in dict.fromkeys(name for values in own for name in values):
-        row = tuple(
-            values.get(name, math.nan) * (scale if _long(name) else 1.0)
-            for values, scale in zip(own, scales, strict=True)
-        )
-        if len(set(row)) > 1:
-            out[name] = row
-    return out
+    columns = []
+    for design, one in zip(designs, sheets, strict=True):
+        scale = metres(one.unit) / metres(sheets[0].unit)
+        values = {name: get(one) for name, get in QUANTITIES.items()} | _variables(design)
+        columns.append({name: value * (scale if _long(name) else 1.0) for name, value in values.items()})
+    rows = _beside(columns, math.nan)
+    return {name: row for name, row in rows.items() if name in QUANTITIES or len(set(row)) > 1}
 
 
-def _variables(design: Any) -> Mapping[str, float]:
-    study, values = getattr(design, "study", None), getattr(design, "variables", None) or {}
-    return {name: values[name] for name in study.variables if name in values} if study else {}
+def _variables(design: Any, more: Sequence[str] = ()) -> dict[str, float]:
+    """Return the variables of a design that are those of the family of its study, or among the others named."""
+    study: Any = getattr(design, "study", None)
+    names = () if study is None else (*study.variables, *more)
+    return {name: design.variables[name] for name in names if name in design.variables}
 
 
 def _outside(design: Any) -> dict[str, tuple[float, float, float]]:
     """Return the variables of a design outside of the bounds of its study, with these."""
-    study, values = getattr(design, "study", None), getattr(design, "variables", None) or {}
-    if study is None:
-        return {}
-    ends = {**study.variables, LENGTH: study.characteristic_length}
-    bounds = {name: two if isinstance(two, tuple) else (two, two) for name, two in ends.items() if name in values}
-    rows = {name: (values[name], *two) for name, two in bounds.items()}
-    return {name: row for name, row in rows.items() if max(row[1] - row[0], row[0] - row[2]) > ROUNDING * abs(row[0])}
+    out = {}
+    for name, value in _variables(design, [LENGTH]).items():
+        two = design.study.variables.get(name, design.study.characteristic_length)
+        low, high = two if isinstance(two, tuple) else (two, two)
+        if max(low - value, value - high) > ROUNDING * abs(value):
+            out[name] = (value, low, high)
+    return out
 
 
 def _outside_words(name: str, value: float, low: float, high: float, unit: str) -> str:
@@ -230,8 +231,7 @@ def _outside_words(name: str, value: float, low: float, high: float, unit: str) 
 
 def _differences(studies: Sequence[Any]) -> dict[str, tuple[Any, ...]]:
     """Return the entries that differ between studies: the solver's are none of the machine."""
-    flat = [{} if study is None else _flat(study.to_dict()) for study in studies]
-    rows = {key: tuple(one.get(key) for one in flat) for key in dict.fromkeys(key for one in flat for key in one)}
+    rows = _beside([{} if study is None else _flat(study.to_dict()) for study in studies])
     with_study = [k for k, study in enumerate(studies) if study is not None]
     return {
         key: row
@@ -253,15 +253,19 @@ def _broken(row: LimitRow) -> bool:
 
 def _limit_rows(label: str, entry: Sequence[LimitRow | None], sheets: Sequence[Sheet]) -> list[list[str]]:
     """Return what is allowed, the values and the margins."""
-    of = list(zip(entry, sheets, strict=True))
-    allowed = ["-" if row is None else limit_amount(row, row.limit, short, one.unit) for row, one in of]
-    values = ["-" if row is None else limit_amount(row, row.value, short, one.unit) for row, one in of]
-    margins = [
-        "" if row is None else f"{'broken ' * _broken(row)}{margin_words(row.margin, row.unit)}" for row in entry
-    ]
-    same = len(set(allowed)) == 1
-    head = f"{label} {allowed[0]}" if same else label
-    return [[head, *values], *([] if same else [["  allowed", *allowed]]), ["  margin", *margins]]
+    cells = (_limit_cells(row, one.unit) for row, one in zip(entry, sheets, strict=True))
+    allowed, values, margins = zip(*cells, strict=True)
+    below = [["  margin", *margins]]
+    if len(set(allowed)) == 1:
+        return [[f"{label} {allowed[0]}", *values], *below]
+    return [[label, *values], ["  allowed", *allowed], *below]
+
+
+def _limit_cells(row: LimitRow | None, unit: str) -> tuple[str, str, str]:
+    if row is None:
+        return "-", "-", ""
+    allowed, value = (limit_amount(row, x, short, unit) for x in (row.limit, row.value))
+    return allowed, value, f"{'broken ' * _broken(row)}{margin_words(row.margin, row.unit)}"
 
 
 def _short_entry(value: Any) -> str:

@@ -12,34 +12,32 @@ from numpy.typing import ArrayLike
 from ninedof.design.duty import Masses
 from ninedof.design.study import Study
 from ninedof.sheet.request import Weight
-from ninedof.support.arguments import Vector
+from ninedof.support.arguments import Vector, finite, shown, vector
+from ninedof.support.arrays import as_floats
 
 WEIGHTS = ("platform", "inertia", "cylinder", "rod", "cylinder_inertia", "rod_inertia", "internal_point")
 """Entries of masses of which one is not 0 where a machine has any."""
-SLOW = (1.0, 0.0)
-"""Linear and angular speed where nothing states them."""
 
 
 def with_duty(options: Mapping[str, Any], study: Study) -> tuple[dict[str, Any], tuple[str, ...]]:
     """Return the options of a sheet, those left out as the study states them, and the tables that gave some."""
-    speeds, tolerances, wrenches = study.speeds, study.tolerances, study.loads.wrenches
+    speeds, tolerances = study.speeds, study.tolerances
     moves = speeds.linear > 0.0 or speeds.angular > 0.0
-    linear, angular = (speeds.linear, speeds.angular) if moves else SLOW
-    stated: dict[str, tuple[str, Any]] = {
-        "linear_speed": ("speeds" * moves, linear),
-        "angular_speed": ("speeds" * moves, angular),
-        "loads": ("loads", np.array(wrenches) if wrenches else None),
-        "leg_errors": ("tolerances", tolerances.legs or None),
-        "joint_errors": ("tolerances", tolerances.joints or None),
-    }
+    stated = (
+        ("speeds", "linear_speed", speeds.linear if moves else None),
+        ("speeds", "angular_speed", speeds.angular if moves else None),
+        ("loads", "loads", study.loads.wrenches or None),
+        ("tolerances", "leg_errors", tolerances.legs or None),
+        ("tolerances", "joint_errors", tolerances.joints or None),
+    )
     out, tables = dict(options), []
-    for name, (table, value) in stated.items():
+    for table, name, value in stated:
         if out[name] is None and value is not None:
             out[name] = value
             tables.append(table)
     if (out["mass"] is None and study.masses.platform > 0.0) or masses_besides_platform(study) is not None:
         tables.append("masses")
-    return out, tuple(dict.fromkeys(table for table in tables if table))
+    return out, tuple(dict.fromkeys(tables))
 
 
 def weight_of(study: Study, mass: float | None, centre: ArrayLike | None, gravity: ArrayLike | None) -> Weight | None:
@@ -49,11 +47,21 @@ def weight_of(study: Study, mass: float | None, centre: ArrayLike | None, gravit
     """
     masses = study.masses
     mass = (masses.platform or None) if mass is None else mass
-    if mass is not None:
-        centre = masses.centre if centre is None else centre
-        gravity = study.loads.gravity if gravity is None else gravity
-    weight = Weight.of(mass, centre, gravity)
-    return weight if weight is None or not study.tool else weight._replace(centre=study.tool.seen(weight.centre))
+    if mass is None:
+        for name, value in (("centre", centre), ("gravity", gravity)):
+            if value is not None:
+                raise ValueError(f"{name}: got {shown(value)} without a mass, expected a mass too")
+        return None
+    at = _vector("centre", masses.centre if centre is None else centre)
+    return Weight(
+        finite("mass", mass, 0.0),
+        study.tool.seen(at),
+        _vector("gravity", study.loads.gravity if gravity is None else gravity),
+    )
+
+
+def _vector(name: str, value: ArrayLike) -> Vector:
+    return vector(name, as_floats(name, value, (3,)).tolist())
 
 
 def masses_of(study: Study, mass: float | None = None, centre: Vector | None = None) -> Masses | None:
@@ -68,7 +76,7 @@ def masses_of(study: Study, mass: float | None = None, centre: Vector | None = N
         masses = replace(masses, centre=centre)
     if not any(np.any(getattr(masses, name)) for name in WEIGHTS):
         return None
-    return masses.seen_from(study.tool) if study.tool else masses
+    return masses.seen_from(study.tool)
 
 
 def masses_besides_platform(study: Study) -> Masses | None:

@@ -14,7 +14,13 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.idle import idle_legs
 from ninedof.robot.leg_names import LEGS
+from ninedof.sheet.plain_values import rows_of
 from ninedof.support.arrays import Floats
+
+OF_EVERY_LEG = ("shortest", "longest", "neutral", "stroke", "stroke_ratio", "idle", "speed", "acceleration")
+CONES = ("base_cone", "platform_cone")
+RANGES = ("twist_speed", "twist_acceleration")
+LARGEST = ("speed", "acceleration", "power")
 
 
 @dataclass(frozen=True)
@@ -57,19 +63,14 @@ class LegRow:
 
     def flat(self) -> dict[str, Any]:
         """Return the columns of a table, angles in degrees, "" where a leg has no such joint."""
-        row: dict[str, Any] = {
-            "leg": self.name,
-            **{name: getattr(self, name) for name in ("shortest", "longest", "neutral", "stroke", "stroke_ratio")},
-            "idle": int(self.idle),
-            "speed": self.speed,
-            "acceleration": self.acceleration,
-        }
+        row: dict[str, Any] = {"leg": self.name} | {name: getattr(self, name) for name in OF_EVERY_LEG}
+        row["idle"] = int(self.idle)
         if self.permitted is not None:
             row |= dict(zip(("permitted_shortest", "permitted_longest"), self.permitted, strict=True))
-        for name in ("base_cone", "platform_cone"):
+        for name in CONES:
             angle = getattr(self, name)
             row[f"{name}_deg"] = "" if angle is None else float(np.degrees(angle))
-        for name in ("twist_speed", "twist_acceleration"):
+        for name in RANGES:
             if (ends := getattr(self, name)) is not None:
                 row |= {f"{name}_min": ends[0], f"{name}_max": ends[1]}
         if self.power is not None:
@@ -84,43 +85,37 @@ class LegRow:
         return row | {"idle": self.idle, "forces": [{"min": low, "max": high} for low, high in self.forces]}
 
 
-def leg_rows(g: Geometry, c: Configuration, numbers: Mapping[str, Floats]) -> tuple[LegRow, ...]:
-    """Return the nine rows over a stack of poses, the neutral one first, from the numbers of a sheet there."""
+def leg_rows(
+    g: Geometry, c: Configuration, numbers: Mapping[str, Floats], permitted: tuple[Floats, Floats] | None
+) -> tuple[LegRow, ...]:
+    """Return the nine rows over a stack of poses, the neutral one first, from the numbers of a sheet there.
+
+    `permitted` has the lengths that the limits of a study leave the legs, 0 and infinity for all where nothing does.
+    """
     lengths = leg_lengths(g, c)
     low, high = lengths.min(axis=0), lengths.max(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):  # a leg of length 0
         ratio = high / low
-    idle = idle_legs(lengths)
-    speed, acceleration = (numbers[name].max(axis=0) for name in ("speed", "acceleration"))
-    cones: dict[str, dict[str, float]] = {"base_cone": {}, "platform_cone": {}}
+    forces = numbers.get("force", np.empty((len(c), 0))).reshape(len(c), -1, 9)
+    columns: dict[str, Any] = {
+        "name": LEGS,
+        "shortest": low.tolist(),
+        "longest": high.tolist(),
+        "neutral": lengths[0].tolist(),
+        "stroke": (high - low).tolist(),
+        "stroke_ratio": ratio.tolist(),
+        "idle": idle_legs(lengths).tolist(),
+        "forces": [tuple(map(_ends, loads)) for loads in forces.T],
+    }
+    columns |= {name: numbers[name].max(axis=0).tolist() for name in LARGEST if name in numbers}
+    columns |= {name: map(_ends, numbers[name].T) for name in RANGES if name in numbers}
+    cones: dict[str, dict[str, Any]] = {name: dict.fromkeys(LEGS) for name in CONES}
     for name, (body, legs) in JOINTS.items():
         cones[f"{body}_cone"] |= zip(legs, numbers[name].max(axis=0).tolist(), strict=True)
-    forces = numbers.get("force", np.empty((len(c), 0))).reshape(len(c), -1, 9)
-    powers = numbers["power"].max(axis=0).tolist() if "power" in numbers else [None] * 9
-    ranges = [name for name in ("twist_speed", "twist_acceleration") if name in numbers]
-
-    def of_leg(k: int) -> dict[str, Any]:
-        return {name: angles.get(LEGS[k]) for name, angles in cones.items()} | {
-            name: _ends(numbers[name][:, k]) for name in ranges
-        }
-
-    return tuple(
-        LegRow(
-            name=LEGS[k],
-            shortest=float(low[k]),
-            longest=float(high[k]),
-            neutral=float(lengths[0, k]),
-            stroke=float(high[k] - low[k]),
-            stroke_ratio=float(ratio[k]),
-            idle=bool(idle[k]),
-            speed=float(speed[k]),
-            acceleration=float(acceleration[k]),
-            power=powers[k],
-            forces=tuple(_ends(f) for f in forces[:, :, k].T),
-            **of_leg(k),
-        )
-        for k in range(9)
-    )
+    columns |= {name: angles.values() for name, angles in cones.items()}
+    if permitted is not None and (permitted[0].any() or np.isfinite(permitted[1]).any()):
+        columns["permitted"] = list(zip(*(ends.tolist() for ends in permitted), strict=True))
+    return tuple(LegRow(**row) for row in rows_of(columns))
 
 
 def _ends(values: Floats) -> tuple[float, float]:

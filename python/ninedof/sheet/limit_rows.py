@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 from ninedof.design.limits import kind_unit
 from ninedof.design.objective import CONDITION_LIMITS
@@ -13,8 +13,7 @@ from ninedof.design.study import Study
 from ninedof.support.units import amount
 
 
-@dataclass(frozen=True)
-class LimitRow:
+class LimitRow(NamedTuple):
     """One side of a limit beside the worst value of the design at the study's own poses."""
 
     name: str

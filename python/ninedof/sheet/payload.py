@@ -8,19 +8,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
+from ninedof.design.duty import Tool
 from ninedof.design.study import Study
-from ninedof.robot.configuration import Configuration
+from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.duty import masses_of
-from ninedof.sheet.region_look import SAMPLES, RegionSearch, has_region, joined, look_over_design
-from ninedof.sheet.request import load_rows, robot_of
+from ninedof.sheet.region_look import SAMPLES, RegionSearch, look_over, robot_of
+from ninedof.sheet.request import load_rows
+from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.statics.masses import masses_for_core
 from ninedof.support.arguments import Vector, shown, vector, whole
 from ninedof.support.arrays import Floats, one_or_each
 from ninedof.support.short import short_repr
-
-MOST_SAMPLES = 10_000_000
 
 
 @short_repr
@@ -48,10 +48,9 @@ class Payload(NamedTuple):
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values."""
-        c = self.configuration
-        pose = {"position": c.position, "rotation": c.rotation, "internal_point": c.internal_point}
-        looked = None if self.region is None else self.region._asdict()
-        search = None if looked is None else {name: looked[name] for name in ("region", "looked_at")}
+        look = None if self.region is None else self.region._asdict()
+        search = None if look is None else {name: look[name] for name in ("region", "looked_at")}
+        pose = arrays_of(self.configuration)
         return {**self._asdict(), "configuration": pose, "region": search, "proved": False}
 
 
@@ -104,38 +103,36 @@ def largest_payload(
     (18.0, 'r', 'push')
 
     """
-    study = getattr(design, "solved", None)
-    duty = study or Study(**({"tool": design.tool} if hasattr(design, "tool") else {}))
+    duty = getattr(design, "solved", None) or Study(tool=getattr(design, "tool", Tool()))
     g, c, _ = robot_of(design, None)
-    own = duty.loads.wrenches if loads is None else load_rows(loads)
-    rows = np.array(own).reshape(-1, 6) if len(own) else np.zeros((1, 6))
+    rows = load_rows(duty.loads.wrenches or None if loads is None else loads)
+    rows = rows if len(rows) else np.zeros((1, 6))
     force = _stated(duty) if force is None else force
-    limits = [_limit(name, value) for name, value in (("force", force), ("pull", force if pull is None else pull))]
+    push, most_pull = _limit("force", force), _limit("pull", force if pull is None else pull)
     count = whole("samples", samples, 1, MOST_SAMPLES)
     gravity, masses = duty.loads.gravity, masses_of(duty)
     question = _core.SheetQuestion(g, c[0], loads=list(rows), gravity=gravity)
     if masses is not None:
         question.masses = masses_for_core(masses)
     at = duty.tool.seen(vector("centre", centre))
-    question.payload = _core.PayloadLimits(push=limits[0], pull=limits[1], centre=at, gravity=gravity)
-    look = None
-    if has_region(design):
-        look, worst, _ = look_over_design(design, c[0], question, count)
+    question.payload = _core.PayloadLimits(push=push, pull=most_pull, centre=at, gravity=gravity)
+    looked = look_over(design, c, question, count)
+    c, look = looked.configurations, looked.search
+    if look is not None:
         look = look._replace(mean=np.nan, mean_error=np.nan)  # of the condition number, which is not asked for
-        c = joined(c, worst)
     numbers = _core.sheet_numbers(question, c)
     shares = numbers["payload"].reshape(len(c), len(rows), 2, 9)
     most = float(shares.max())
     if most == np.inf:  # a limit is passed without a payload: where it is passed most
-        own_forces = numbers["force"].reshape(len(c), len(rows), 9)
-        shares = np.stack([own_forces - limits[0], -own_forces - limits[1]], axis=2)
-    pose, load, side, leg = (int(k) for k in np.unravel_index(int(np.argmax(shares)), shares.shape))
+        own = numbers["force"].reshape(len(c), len(rows), 9)
+        shares = np.stack([own - push, -own - most_pull], axis=2)
+    pose, load, side, leg = map(int, np.unravel_index(int(np.argmax(shares)), shares.shape))
     mass = 0.0 if most == np.inf else 1.0 / most if most > 0.0 else np.inf
     down = np.asarray(gravity) * (mass if np.isfinite(mass) else 0.0)
     wrench = rows[load] + np.concatenate([np.cross(c[pose].rotation @ np.asarray(at), down), down])
     forces = inverse_dynamics(g, c[pose], masses=masses, gravity=gravity, load=wrench).forces
     names = (LEGS[leg], ("push", "pull")[side]) if most > 0.0 else ("", "")
-    return Payload(mass, most < np.inf, *names, c[pose], forces, load, look, (limits[0], limits[1]))
+    return Payload(mass, most < np.inf, *names, c[pose], forces, load, look, (push, most_pull))
 
 
 def _stated(study: Study) -> float:

@@ -1,4 +1,4 @@
-"""A region looked over for a sheet."""
+"""The poses that a sheet is over: those of a study, and the worst of its region."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ import numpy as np
 from ninedof import _core
 from ninedof.design.pose import Pose
 from ninedof.design.region_poses import Placing, configurations_at, places_o, poses_at
-from ninedof.design.study import Study
-from ninedof.robot.configuration import Configuration
+from ninedof.robot.configuration import Configuration, flat
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import shown
 from ninedof.support.structs import from_core
 
 SAMPLES = 10_000
@@ -30,52 +31,69 @@ class RegionSearch(NamedTuple):
     """Standard error of it, from eight parts of the sample."""
 
 
-def look_over(
-    study: Study, neutral: Configuration, question: _core.SheetQuestion, count: int, placing: Placing | None = None
-) -> tuple[RegionSearch, Configuration, tuple[Pose, ...]]:
-    """Return how the region of a study was looked over, and its worst poses as configurations and as poses.
+class Looked(NamedTuple):
+    """The poses that were looked at."""
+
+    configurations: Configuration
+    """The neutral one, the study's, and the worst of a region: a stack."""
+    search: RegionSearch | None = None
+    """Of a region."""
+    worst: tuple[Pose, ...] = ()
+    """Of the region, as poses of an objective."""
+    placing: Placing | None = None
+    """Of O, where the region does not say where it is."""
+
+    @property
+    def leg_ranges(self) -> Any:
+        """The lengths that each leg keeps where O is placed in a region; None for others."""
+        return None if self.placing is None else self.placing.leg_ranges
+
+
+def look_over(design: Any, c: Configuration, question: _core.SheetQuestion, count: int) -> Looked:
+    """Return the poses `c` of a design, with the worst of the region of its study, if it has one that says where O is.
 
     Where O is placed anew at every pose, descents follow the lengths of the legs: those of the external legs do not
     depend on O, those of the others take O placed at every step. Of the other numbers it is the worst of the sample.
     """
-    region = study.objective.region
-    assert region is not None
-    design = None if placing is None else placing.for_core()
-    samples = 2 * (count if placing is None else min(count, PLACED))
-    end = _core.sheet_over_region(question, region.for_core(), samples, design)
+    study: Any = getattr(design, "study", None)
+    region = None if study is None else study.objective.region
+    ranges: Any = getattr(getattr(design, "region", None), "leg_ranges", None)
+    if region is None or not (places_o(region) or ranges is not None):
+        return Looked(c)
+    place = None if places_o(region) else Placing(study, c[0], design.variables, design.objective, ranges)
+    samples = 2 * (count if place is None else min(count, PLACED))
+    end = _core.sheet_over_region(question, region.for_core(), samples, None if place is None else place.for_core())
     search, at = from_core(RegionSearch, end, region=region.worded(study.unit)), end.worst
-    if placing is not None:
-        return search, *placing(at)
-    return search, configurations_at(region, neutral, at)[1], poses_at(region, at)
+    worst, poses = (configurations_at(region, c[0], at)[1], poses_at(region, at)) if place is None else place(at)
+    return Looked(_joined(c, worst), search, poses, place)
 
 
-def leg_ranges_of(design: Any) -> Any:
-    """Return the lengths that each leg keeps where O is placed in the region of a design's study; None for others."""
-    region, report = _region_of(design), getattr(design, "region", None)
-    return None if region is None or places_o(region) or report is None else report.leg_ranges
+def even_poses(design: Any, looked: Looked, count: int) -> Configuration:
+    """Return even poses of the region of a design's study, fewer where O is placed."""
+    region, place = design.study.objective.region, looked.placing
+    at = _core.even_poses(region.for_core(), count if place is None else min(count, PLACED))
+    return configurations_at(region, looked.configurations[0], at)[1] if place is None else place(at)[0]
 
 
-def has_region(design: Any) -> bool:
-    """Return whether a design has a study over a region that says where O is, or placed it."""
-    region = _region_of(design)
-    return region is not None and (places_o(region) or leg_ranges_of(design) is not None)
+def robot_of(design: Any, poses: Configuration | None) -> tuple[Geometry, Configuration, float | str]:
+    """Return geometry, stack of poses with the neutral one first, and characteristic length of a design."""
+    if poses is not None and (not isinstance(poses, Configuration) or len(poses.shape) != 1 or not len(poses)):
+        raise ValueError(f"poses: got {shown(poses)}, expected a stack of configurations of shape (n,)")
+    if isinstance(design, Geometry):
+        if poses is None:
+            raise ValueError("poses: got none, expected configurations for a Geometry, the neutral one first")
+        return design, poses, 1.0
+    try:
+        g, neutral, length = design.geometry, design.configuration, design.characteristic_length
+    except AttributeError:
+        raise ValueError(f"design: got {type(design).__name__}, expected a result, a design or a Geometry") from None
+    if g is None or neutral is None:
+        raise ValueError("design: got a result without a design, expected one")
+    if poses is None and hasattr(design, "configurations"):
+        poses = design.configurations[1:]
+    return g, _joined(neutral, *([] if poses is None else [poses])), length
 
 
-def look_over_design(
-    design: Any, neutral: Configuration, question: _core.SheetQuestion, count: int
-) -> tuple[RegionSearch, Configuration, tuple[Pose, ...]]:
-    """Return `look_over` of the region of a design that has one."""
-    ranges = leg_ranges_of(design)
-    own = getattr(design, "variables", None) or {}
-    place = None if ranges is None else Placing(design.study, neutral, own, design.objective, ranges)
-    return look_over(design.study, neutral, question, count, place)
-
-
-def _region_of(design: Any) -> Any:
-    return None if getattr(design, "solved", None) is None else design.study.objective.region
-
-
-def joined(c: Configuration, more: Configuration) -> Configuration:
-    """Return two stacks as one."""
-    names = ("position", "rotation", "internal_point")
-    return Configuration(*(np.concatenate([getattr(c, name), getattr(more, name)]) for name in names))
+def _joined(*stacks: Configuration) -> Configuration:
+    """Return configurations and stacks as one stack."""
+    return Configuration(*map(np.concatenate, zip(*map(flat, stacks), strict=True)))

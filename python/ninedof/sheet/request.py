@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from typing import Any, NamedTuple, TypedDict
 
 import numpy as np
@@ -15,12 +15,12 @@ from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.idle import IDLE
-from ninedof.support.arguments import Vector, choice, finite, shown, vector
+from ninedof.support.arguments import Vector, choice, finite, shown
 from ninedof.support.arrays import Floats, as_floats
 
 FASTEST = 1e100  # speeds: their squares must be numbers
+SLOW = {"linear_speed": 1.0, "angular_speed": 0.0}  # where nothing states them
 INTERNAL = ("least", "held", "shifted", "carried")
-STANDARD = (0.0, 0.0, -9.81)
 
 
 class SheetArguments(TypedDict, total=False):
@@ -58,28 +58,6 @@ class Motion(NamedTuple):
     twist_rate: tuple[float, ...] = (0.0,) * 6
     """Its time derivative."""
 
-    @classmethod
-    def of(
-        cls,
-        linear_speed: float,
-        angular_speed: float,
-        internal: str,
-        twist: ArrayLike | None = None,
-        twist_rate: ArrayLike | None = None,
-    ) -> Motion:
-        """Return the motion of valid arguments."""
-        speeds = (
-            finite("linear_speed", linear_speed, 0.0, FASTEST),
-            finite("angular_speed", angular_speed, 0.0, FASTEST),
-        )
-        rule = choice("internal", internal, INTERNAL)
-        if twist is None:
-            if twist_rate is not None:
-                raise ValueError(f"twist_rate: got {shown(twist_rate)} without a twist, expected a twist too")
-            return cls(*speeds, rule)
-        rate = (0.0,) * 6 if twist_rate is None else _six("twist_rate", twist_rate)
-        return cls(*speeds, rule, _six("twist", twist), rate)
-
 
 class Weight(NamedTuple):
     """The weight of the platform with what it carries."""
@@ -90,51 +68,32 @@ class Weight(NamedTuple):
     gravity: Vector
     """Force per mass, base axes: with 9.81 and kilograms forces are in newtons, in any unit of length."""
 
-    @classmethod
-    def of(cls, mass: float | None, centre: ArrayLike | None, gravity: ArrayLike | None) -> Weight | None:
-        """Return the weight of valid arguments, None without a mass; at the platform's origin by default."""
-        if mass is None:
-            for name, value in (("centre", centre), ("gravity", gravity)):
-                if value is not None:
-                    raise ValueError(f"{name}: got {shown(value)} without a mass, expected a mass too")
-            return None
-        at = vector("centre", (0.0, 0.0, 0.0) if centre is None else as_floats("centre", centre, (3,)).tolist())
-        return cls(
-            finite("mass", mass, 0.0),
-            at,
-            vector("gravity", STANDARD if gravity is None else as_floats("gravity", gravity, (3,)).tolist()),
-        )
 
-    def wrench(self, rotation: Floats) -> Floats:
-        """Return (moment about p, force) at each rotation of the platform, (n, 3, 3), in base axes, shape (n, 6)."""
-        arm = rotation @ np.asarray(self.centre)
-        force = np.broadcast_to(self.mass * np.asarray(self.gravity), arm.shape)
-        return np.concatenate([np.cross(arm, force), force], axis=-1)
+def motion_of(options: Mapping[str, Any], c: Configuration) -> Motion:
+    """Return the motion of the options of a sheet; where they do not say how O moves, it is as in a stack of poses."""
+    speeds = {name: slow if options[name] is None else options[name] for name, slow in SLOW.items()}
+    linear, angular = (finite(name, speed, 0.0, FASTEST) for name, speed in speeds.items())
+    internal, twist, rate = (options[name] for name in ("internal", "twist", "twist_rate"))
+    internal = _internal_over(c) if internal is None else choice("internal", internal, INTERNAL)
+    if twist is not None:
+        rate = (0.0,) * 6 if rate is None else _six("twist_rate", rate)
+        return Motion(linear, angular, internal, _six("twist", twist), rate)
+    if rate is not None:
+        raise ValueError(f"twist_rate: got {shown(rate)} without a twist, expected a twist too")
+    return Motion(linear, angular, internal)
 
 
-def question_of(
-    g: Geometry,
-    neutral: Configuration,
-    study: Study | None,
-    motion: Motion,
-    loads: Sequence[Floats] = (),
-    weight: Weight | None = None,
-) -> _core.SheetQuestion:
-    """Return the question about legs and loads as the core takes it, without tolerances, stiffness and l_c."""
+def question_of(g: Geometry, neutral: Configuration, study: Study, motion: Motion) -> _core.SheetQuestion:
+    """Return the question about a robot in motion, without loads, tolerances, stiffness and l_c."""
     moving = _core.PlatformMotion(
         internal=motion.internal, linear_speed=motion.linear_speed, angular_speed=motion.angular_speed
     )
     if motion.twist is not None:
         moving.given = _core.TwistMotion(twist=motion.twist, rate=motion.twist_rate)
-    out = _core.SheetQuestion(
-        g, neutral, limits=_limits(study), exempt=exempt_pairs(g, study), motion=moving, loads=loads
-    )
-    if weight is not None:
-        out.weight = _core.Weight(**weight._asdict())
-    return out
+    return _core.SheetQuestion(g, neutral, limits=_limits(study), exempt=exempt_pairs(g, study), motion=moving)
 
 
-def internal_over(c: Configuration) -> str:
+def _internal_over(c: Configuration) -> str:
     """Return the rule that O follows over a stack of poses: "held", "carried", "shifted", or "least" where none."""
     if len(c) < 2:
         return "least"
@@ -147,22 +106,19 @@ def internal_over(c: Configuration) -> str:
     return "least"
 
 
-def _limits(study: Study | None) -> list[_core.Limit]:
+def _limits(study: Study) -> list[_core.Limit]:
     """Return limits at poses: of each kind of joint about its axis, then all that the study has.
 
     Ratios, which the sheet has no table of, only where the study limits them. Forces, rates and powers of legs are
     numbers of the sheet anyhow.
     """
-    limits = study.limits if study is not None else ()
-    own = {limit.name for limit in limits}
-    cones = [study.limit_for_core(one) for one in limits if one.row.is_angle] if study is not None else []
-    joints = []
-    for name, one in cone_limits(study).items():
-        axis = (0.0, 0.0, 0.0) if one is None or study is None else study.limit_for_core(one).axis
-        joints.append(_core.Limit(name=name, axis=axis))
     names = [name for name in PARTS if len(ROWS[name].sides) == 1 and name not in CONES and not ROWS[name].needs]
-    others = [_core.Limit(name=name) for name in names if ROWS[name].kind != "ratio" or name in own]
-    return others + joints + [one for one in cones if one.name not in JOINTS]
+    out = [_core.Limit(name=name) for name in names if ROWS[name].kind != "ratio" or name in study.constraints]
+    for name, limit in cone_limits(study).items():
+        axis = (0.0, 0.0, 0.0) if limit is None else study.limit_for_core(limit).axis
+        out.append(_core.Limit(name=name, axis=axis))
+    cones = (one for one in study.limits if one.row.is_angle and one.name not in JOINTS)
+    return out + [study.limit_for_core(one) for one in cones]
 
 
 def _six(name: str, value: ArrayLike) -> tuple[float, ...]:
@@ -170,27 +126,6 @@ def _six(name: str, value: ArrayLike) -> tuple[float, ...]:
     if numbers.shape != (6,) or not np.isfinite(numbers).all():
         raise ValueError(f"{name}: got {shown(value)}, expected six finite numbers, rotation first")
     return tuple(numbers.tolist())
-
-
-def robot_of(design: Any, poses: Configuration | None) -> tuple[Geometry, Configuration, float | str]:
-    """Return geometry, stack of poses with the neutral one first, and characteristic length of a design."""
-    if poses is not None and (not isinstance(poses, Configuration) or len(poses.shape) != 1 or not len(poses)):
-        raise ValueError(f"poses: got {shown(poses)}, expected a stack of configurations of shape (n,)")
-    if isinstance(design, Geometry):
-        if poses is None:
-            raise ValueError("poses: got none, expected configurations for a Geometry, the neutral one first")
-        return design, poses, 1.0
-    try:
-        g, neutral, length = design.geometry, design.configuration, design.characteristic_length
-    except AttributeError:
-        raise ValueError(f"design: got {type(design).__name__}, expected a result, a design or a Geometry") from None
-    if g is None or neutral is None:
-        raise ValueError("design: got a result without a design, expected one")
-    more = getattr(design, "configurations", None) if poses is None else poses
-    stacks = [neutral, *([] if more is None else [more[1:] if poses is None else more])]
-    p, q, s = ([np.atleast_2d(getattr(x, name)) for x in stacks] for name in ("position", "rotation", "internal_point"))
-    q = [x.reshape(-1, 3, 3) for x in q]
-    return g, Configuration(np.concatenate(p), np.concatenate(q), np.concatenate(s)), length
 
 
 def load_rows(loads: ArrayLike | None) -> Floats:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple, Unpack
 
 import numpy as np
@@ -15,6 +15,7 @@ from ninedof.conditioning.characteristic_length import characteristic_length as 
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_limits
+from ninedof.design.pose import Pose
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
@@ -22,9 +23,10 @@ from ninedof.sheet.duty import masses_besides_platform, weight_of, with_duty
 from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
+from ninedof.sheet.plain_values import plain_fields, rows_of
 from ninedof.sheet.pose_words import turn_deg
-from ninedof.sheet.region_look import SAMPLES, RegionSearch, has_region, joined, leg_ranges_of, look_over_design
-from ninedof.sheet.request import Motion, SheetArguments, Weight, internal_over, load_rows, question_of, robot_of
+from ninedof.sheet.region_look import SAMPLES, Looked, RegionSearch, look_over, robot_of
+from ninedof.sheet.request import Motion, SheetArguments, Weight, load_rows, motion_of, question_of
 from ninedof.sheet.tables import lengths_table, limits_table, summary_parts, worst_table
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import MOST_SAMPLES
@@ -178,36 +180,32 @@ class Sheet:
 
         "unit" names the length unit where there is one.
         """
-        c = self.configurations
+        c, motion = self.configurations, self.motion
+        poses = {
+            "position": c.position,
+            "rotation": c.rotation,
+            "rotation_deg": turn_deg(c, c.rotation[0]),
+            "internal_point": c.internal_point,
+        }
         out: dict[str, Any] = {
             "joints": {name: {"own_frame": own, "neutral_pose": at_neutral} for name, own, at_neutral in self.joints()},
-            "poses": [
-                {"position": p, "rotation": q, "rotation_deg": turn, "internal_point": s}
-                for p, q, turn, s in zip(
-                    c.position, c.rotation, turn_deg(c, c.rotation[0]), c.internal_point, strict=True
-                )
-            ],
+            "poses": rows_of(poses),
+            **plain_fields(self, "geometry", "configurations"),
         }
-        empty = [name for name in ("unit", "tool") if not getattr(self, name)]
-        skipped = ("geometry", "configurations", *empty)
-        out |= {f.name: _plain(getattr(self, f.name)) for f in fields(self) if f.name not in skipped}
-        if self.tool:
-            out["tool"] = self.tool.to_dict()
         out["motion"] = {
-            "linear_speed": self.motion.linear_speed,
-            "angular_speed_deg": float(np.degrees(self.motion.angular_speed)),
-            "internal": self.motion.internal,
-            "twist": self.motion.twist,
-            "twist_rate": None if self.motion.twist is None else self.motion.twist_rate,
+            "linear_speed": motion.linear_speed,
+            "angular_speed_deg": float(np.degrees(motion.angular_speed)),
+            "internal": motion.internal,
+            "twist": motion.twist,
+            "twist_rate": None if motion.twist is None else motion.twist_rate,
         }
-        turn = out["singularities"]["turn"]
-        turn["distance_deg"] = float(np.degrees(turn.pop("distance")))
-        out["legs"] = [leg.to_dict() for leg in self.legs]
+        _in_degrees(out["singularities"]["turn"], "distance")
         if self.accuracy is not None:
-            out["accuracy"]["rotation_deg"] = _degrees(out["accuracy"].pop("rotation"))
+            turn = out["accuracy"].pop("rotation")
+            out["accuracy"]["rotation_deg"] = turn | {"value": float(np.degrees(turn["value"]))}
         for row in out["limits"]:
             if row["unit"] == "angle":
-                row |= {f"{key}_deg": float(np.degrees(row.pop(key))) for key in ("limit", "value")}
+                _in_degrees(row, "limit", "value")
         return {**out, "idle": list(self.idle)}
 
     def to_csv(self) -> str:
@@ -307,33 +305,27 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     g, c, own_length = robot_of(design, poses)
     length = length_argument(own_length if values["characteristic_length"] is None else values["characteristic_length"])
     weight = weight_of(duty, values["mass"], values["centre"], values["gravity"])
-    internal = internal_over(c) if values["internal"] is None else values["internal"]
-    motion = Motion.of(values["linear_speed"], values["angular_speed"], internal, values["twist"], values["twist_rate"])
-    bodies = masses_besides_platform(duty)
+    motion, bodies = motion_of(values, c), masses_besides_platform(duty)
     weighs = weight is not None or bodies is not None
-    loads = load_rows(np.zeros((1, 6)) if values["loads"] is None and weighs else values["loads"])
+    loads = load_rows(np.zeros(6) if values["loads"] is None and weighs else values["loads"])
     length = float(length_of(g, c[0], length)) if isinstance(length, str) else length
     count = whole("samples", values["samples"], 1, MOST_SAMPLES)
-    variables, look = getattr(design, "variables", None), None
-    question = question_of(g, c[0], study, motion, list(loads), weight)
+    question = question_of(g, c[0], duty, motion)
+    question.loads = list(loads)
+    if weight is not None:
+        question.weight = _core.Weight(**weight._asdict())
     if bodies is not None:
-        question.masses, question.gravity = (
-            masses_for_core(bodies),
-            duty.loads.gravity if weight is None else weight.gravity,
-        )
+        question.masses = masses_for_core(bodies)
+        question.gravity = duty.loads.gravity if weight is None else weight.gravity
     question.errors = _tolerances(values["leg_errors"], values["joint_errors"])
     if values["leg_stiffness"] is not None:
         question.leg_stiffness = one_or_each("leg_stiffness", values["leg_stiffness"], 9)
     question.characteristic_length = length if np.isfinite(length) else None
-    ranges = leg_ranges_of(design) if poses is None else None
-    if poses is None and study is not None and has_region(design):
-        look, worst, shifts = look_over_design(design, c[0], question, count)
-        c = joined(c, worst)
-        study = replace(study, objective=replace(study.objective, poses=(*study.objective.poses, *shifts)))
+    looked = look_over(design, c, question, count) if poses is None else Looked(c)
+    c, region = looked.configurations, looked.search
     numbers = _core.sheet_numbers(question, c)
     kappa = numbers["condition_number"][:, 0] if "condition_number" in numbers else np.full(len(c), np.inf)
     determinants = _determinants(g, c)
-    legs = zip(leg_rows(g, c, numbers), _permitted(design), strict=True)
     return Sheet(
         geometry=g,
         configurations=c,
@@ -341,33 +333,30 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         motion=motion,
         loads=loads,
         weight=weight,
-        legs=tuple(replace(leg, permitted=band) for leg, band in legs),
-        condition_number=_extreme(kappa, np.argmax),
-        mean_condition_number=float(kappa.mean()) if look is None else look.mean,
+        legs=leg_rows(g, c, numbers, getattr(design, "permitted_lengths", None)),
+        condition_number=extreme(kappa, np.argmax),
+        mean_condition_number=float(kappa.mean()) if region is None else region.mean,
         clearance=_clearance(numbers[CLEARANCE]),
         determinants=determinants,
         nearest_singularity=min(determinants, key=lambda name: determinants[name].value),
         singularities=near_singularities(g, c, motion.internal),
-        accuracy=Accuracy(*(_extreme(x, np.argmax) for x in numbers["error"].T)) if "error" in numbers else None,
-        stiffness=Stiffness(*(_extreme(x, np.argmin) for x in numbers["stiffness"].T))
+        accuracy=Accuracy(*(extreme(x, np.argmax) for x in numbers["error"].T)) if "error" in numbers else None,
+        stiffness=Stiffness(*(extreme(x, np.argmin) for x in numbers["stiffness"].T))
         if "stiffness" in numbers
         else None,
-        limits=limit_rows(study, variables) if study is not None and isinstance(variables, Mapping) else (),
-        region=look,
+        limits=() if study is None else limit_rows(_with_poses(study, looked.worst), design.variables),
+        region=region,
         unit=getattr(study or design, "unit", "") if values["unit"] is None else unit_argument(values["unit"]),
-        cone_axes={name: () if one is None else one.axis for name, one in cone_limits(study).items()},
-        leg_ranges=ranges,
+        cone_axes={name: () if one is None else one.axis for name, one in cone_limits(duty).items()},
+        leg_ranges=looked.leg_ranges,
         has_leg_masses=bodies is not None,
         stated=stated,
         tool=duty.tool,
     )
 
 
-def _permitted(design: Any) -> Sequence[tuple[float, float] | None]:
-    """Return the lengths that a study leaves each leg, None for all where nothing limits a leg."""
-    low, high = getattr(design, "permitted_lengths", None) or (np.zeros(9), np.full(9, np.inf))
-    limited = low.any() or np.isfinite(high).any()
-    return list(zip(low.tolist(), high.tolist(), strict=True)) if limited else (None,) * 9
+def _with_poses(study: Study, poses: Sequence[Pose]) -> Study:
+    return replace(study, objective=replace(study.objective, poses=(*study.objective.poses, *poses)))
 
 
 def _tolerances(legs: ArrayLike | None, joints: ArrayLike | None) -> _core.Tolerances | None:
@@ -379,7 +368,8 @@ def _tolerances(legs: ArrayLike | None, joints: ArrayLike | None) -> _core.Toler
     )
 
 
-def _extreme(values: Floats, place: Callable[[Floats], Any]) -> Extreme:
+def extreme(values: Floats, place: Callable[[Floats], Any]) -> Extreme:
+    """Return the value at the pose that np.argmin or np.argmax selects, with that pose."""
     at = int(place(values))
     return Extreme(float(values[at]), at)
 
@@ -397,19 +387,10 @@ def _determinants(g: Geometry, c: Configuration) -> dict[str, Determinant]:
     for name in ("det_b", "det_c", "det_n"):
         values = np.asarray(getattr(margins, name))
         changes = bool(np.any(values * np.sign(values[0]) <= 0.0))
-        determinants[name] = Determinant(*_extreme(np.abs(values), np.argmin), changes)
+        determinants[name] = Determinant(*extreme(np.abs(values), np.argmin), changes)
     return determinants
 
 
-def _plain(value: Any) -> Any:
-    if hasattr(value, "_asdict"):
-        return {key: _plain(v) for key, v in value._asdict().items()}
-    if is_dataclass(value) and not isinstance(value, type):
-        return {f.name: _plain(getattr(value, f.name)) for f in fields(value)}
-    if isinstance(value, dict):
-        return {key: _plain(v) for key, v in value.items()}
-    return [_plain(v) for v in value] if isinstance(value, tuple) else value
-
-
-def _degrees(extreme: dict[str, Any]) -> dict[str, Any]:
-    return extreme | {"value": float(np.degrees(extreme["value"]))}
+def _in_degrees(row: dict[str, Any], *names: str) -> None:
+    """Replace angles by those in degrees, behind the other entries."""
+    row |= {f"{name}_deg": float(np.degrees(row.pop(name))) for name in names}

@@ -55,7 +55,7 @@ def poses_table(sheet: Any) -> Table:
     worst = sheet.condition_number
     rows: list[Any] = [
         Line("worst condition number", [worst.value], ".6f"),
-        Line("at", [_pose(sheet, worst.pose)]),
+        Line("at", [pose_of(sheet, worst.pose)]),
         Line("mean condition number", [sheet.mean_condition_number], ".6f"),
         (),
     ]
@@ -101,7 +101,7 @@ def worst_table(sheet: Any) -> Table:
     rows = list(_worst_rows(sheet))
     used = sorted({row[2] for row in rows if row and row[2]})
     cells = [(*row[:2], "" if row[2] is None else row[2] or "neutral", row[3]) if row else () for row in rows]
-    return Table(title, columns, cells, [f"pose {k}: {_pose(sheet, k)}" for k in used])
+    return Table(title, columns, cells, [f"pose {k}: {pose_of(sheet, k)}" for k in used])
 
 
 def _worst_rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
@@ -299,5 +299,6 @@ def _axes_words(axes: Mapping[str, Sequence[float]]) -> str:
     return ", ".join(words)
 
 
-def _pose(sheet: Any, k: int) -> str:
+def pose_of(sheet: Any, k: int) -> str:
+    """Return a pose of a sheet in words."""
     return pose_words(sheet.configurations[k], sheet.configurations.rotation[0], sheet.unit)

@@ -75,7 +75,7 @@ def test_no_direction_accelerates_a_leg_more(seed, internal):
     for turn, shift in ways:
         for k, w in enumerate((0.7, 0.0)):
             motion = Motion(1.0, 0.0, internal, (*(w * turn).tolist(), *(1.3 * shift).tolist()))
-            question = question_of(g, c[0], None, motion)
+            question = question_of(g, c[0], nd.Study(), motion)
             worst[k] = np.maximum(worst[k], np.abs(_core.sheet_numbers(question, c)["twist_acceleration"][0]))
     assert (worst[0] <= np.array([leg.acceleration for leg in both.legs]) + 1e-9).all()
     exact = np.array([leg.acceleration for leg in still.legs])

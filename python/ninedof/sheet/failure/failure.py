@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
@@ -13,18 +12,17 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_argument, resolve_length
 from ninedof.conditioning.conditioning import condition_number as condition_numbers
-from ninedof.design.region_poses import Placing, configurations_at, places_o
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import jacobian
 from ninedof.kinematics.velocity import forward_velocity
-from ninedof.robot.configuration import Configuration, operands
+from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.duty import masses_of
 from ninedof.sheet.failure.result import Failure, FreeLeg, LegLoad, LockedLegs
-from ninedof.sheet.region_look import PLACED, SAMPLES, RegionSearch, joined, look_over
-from ninedof.sheet.request import load_rows, robot_of
-from ninedof.sheet.sheet import Extreme
+from ninedof.sheet.region_look import SAMPLES, Looked, even_poses, look_over, robot_of
+from ninedof.sheet.request import load_rows
+from ninedof.sheet.sheet import Extreme, extreme
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.support.arguments import finite, flag, whole
@@ -108,96 +106,61 @@ def failure(
     rows, count = load_rows(loads), whole("samples", samples, 1, MOST_SAMPLES)
     sets = SETS if flag("pairs", pairs) else SETS[:9]
     bound = None if condition_number is None else finite("condition_number", condition_number, 1.0)
-    over = _Poses.of(design, c, length, sets, count) if poses is None else _Poses(c)
-    c = over.worst
-    gravity = study.loads.gravity
+    question = _core.SheetQuestion(g, c[0], characteristic_length=length, locked=list(sets))
+    looked = look_over(design, c, question, count) if poses is None else Looked(c)
+    even = None if looked.search is None else even_poses(design, looked, count)
+    c, gravity = looked.configurations, study.loads.gravity
     forces = [inverse_dynamics(g, c, masses=masses, gravity=gravity, load=row).forces for row in rows]
-    healthy = np.asarray(condition_numbers(g, c, length))
-    at = int(np.argmax(healthy))
-    bound = 2.0 * float(healthy[at]) if bound is None else bound
-    locked = _locked(g, over, length, sets, (float(healthy[at]), bound))
+    healthy = extreme(np.asarray(condition_numbers(g, c, length)), np.argmax)
+    bound = 2.0 * healthy.value if bound is None else bound
+
+    def numbers(at: Configuration, of: Sequence[tuple[int, int]] = sets) -> Floats:
+        return _core.locked_condition_numbers(g, at, np.array([length]), list(of), 0)
+
+    shares = [None] * len(sets) if even is None else (numbers(even) <= bound).mean(axis=0).tolist()
+    worst = [extreme(column, np.argmax) for column in numbers(c).T]
+    locked = []
+    for legs, one, share in zip(sets, worst, shares, strict=True):
+        from_home = None
+        if even is not None and legs[0] >= 3 and legs[1] < 0:
+            stuck = _at_length(g, even, legs[0], float(_leg(g, c[:1], legs[0])[1][0]))
+            from_home = float((numbers(stuck, [legs]) <= bound).mean())
+        locked.append(_locked(legs, one, healthy.value, share, from_home))
     return Failure(
         geometry=g,
         configurations=c,
         characteristic_length=length,
-        healthy=Extreme(float(healthy[at]), at),
+        healthy=healthy,
         bound=bound,
-        locked=locked[:9],
-        pairs=locked[9:],
-        free=tuple(_free(g, c, length, [np.abs(each) for each in forces])),
-        relative_manipulability=_core.relative_manipulability(*operands(g, c), 0),
+        locked=tuple(locked[:9]),
+        pairs=tuple(locked[9:]),
+        free=_free(g, c, length, [np.abs(each) for each in forces]),
+        relative_manipulability=_core.relative_manipulability(g, c, 0),
         loads=rows,
         masses=masses,
-        region=over.region,
-        leg_ranges=over.ranges,
+        region=looked.search,
+        leg_ranges=looked.leg_ranges,
         unit=getattr(getattr(design, "solved", None) or design, "unit", ""),
     )
 
 
-@dataclass(frozen=True)
-class _Poses:
-    """The poses that are looked at."""
-
-    worst: Configuration
-    """The neutral one first."""
-    even: Configuration | None = None
-    """Of a region."""
-    region: RegionSearch | None = None
-    ranges: tuple[tuple[float, float], ...] | None = None
-
-    @staticmethod
-    def of(design: Any, c: Configuration, length: float, sets: Sequence[tuple[int, int]], count: int) -> _Poses:
-        """Return the poses of a design, of the result of a region study the worst of the region too."""
-        study: Any = getattr(design, "study", None)
-        report = getattr(design, "region", None)
-        region = None if study is None else study.objective.region
-        ranges = None if region is None or places_o(region) or report is None else report.leg_ranges
-        if region is None or not (places_o(region) or ranges is not None):
-            return _Poses(c)
-        place = None
-        if ranges is not None:
-            place = Placing(study, c[0], design.variables or {}, design.objective, ranges)
-        question = _core.SheetQuestion(design.geometry, c[0], characteristic_length=length, locked=list(sets))
-        look, worst, _ = look_over(study, c[0], question, count, place)
-        at = _core.even_poses(region.for_core(), count if place is None else min(count, PLACED))
-        even = configurations_at(region, c[0], at)[1] if place is None else place(at)[0]
-        return _Poses(joined(c, worst), even, look, ranges)
-
-
 def _locked(
-    g: Geometry, over: _Poses, length: float, sets: Sequence[tuple[int, int]], healthy_and_bound: tuple[float, float]
-) -> tuple[LockedLegs, ...]:
-    def numbers(c: Configuration, of: Sequence[tuple[int, int]] = sets) -> Floats:
-        return _core.locked_condition_numbers(*operands(g, c), np.array([length]), list(of), 0)
-
-    healthy, bound = healthy_and_bound
-    worst, even, home = numbers(over.worst), over.even, over.worst[:1]
-    shares = None if even is None else (numbers(even) <= bound).mean(axis=0)
-    out = []
-    for k, (one, other) in enumerate(sets):
-        legs = (LEGS[one],) if other < 0 else (LEGS[one], LEGS[other])
-        pose = int(np.argmax(worst[:, k]))
-        remaining, freedoms = float(worst[pose, k]), 6 - sum(leg in EXTERNAL for leg in legs)
-        remaining = remaining if remaining < LOST else np.inf
-        all_left = freedoms == 6
-        from_home = None
-        if even is not None and all_left and other < 0:
-            stuck = _at_length(g, even, one, float(_leg(g, home, one)[1][0]))
-            from_home = float((numbers(stuck, [(one, -1)]) <= bound).mean())
-        out.append(
-            LockedLegs(
-                legs=legs,
-                freedoms=freedoms,
-                controlled=all_left and bool(np.isfinite(remaining)),
-                condition_number=remaining if all_left else np.inf,
-                remaining=remaining,
-                pose=pose,
-                ratio=remaining / healthy,
-                share=None if shares is None else float(shares[k]) if all_left else 0.0,
-                share_from_home=from_home,
-            )
-        )
-    return tuple(out)
+    numbers: tuple[int, int], worst: Extreme, healthy: float, share: float | None, from_home: float | None
+) -> LockedLegs:
+    legs = tuple(LEGS[k] for k in numbers if k >= 0)
+    freedoms = 6 - sum(leg in EXTERNAL for leg in legs)
+    remaining = worst.value if worst.value < LOST else np.inf
+    return LockedLegs(
+        legs=legs,
+        freedoms=freedoms,
+        controlled=freedoms == 6 and bool(np.isfinite(remaining)),
+        condition_number=remaining if freedoms == 6 else np.inf,
+        remaining=remaining,
+        pose=worst.pose,
+        ratio=remaining / healthy,
+        share=share if share is None or freedoms == 6 else 0.0,
+        share_from_home=from_home,
+    )
 
 
 def _leg(g: Geometry, c: Configuration, leg: int) -> tuple[Floats, Floats, Floats]:
@@ -216,26 +179,24 @@ def _at_length(g: Geometry, c: Configuration, leg: int, length: float) -> Config
     return Configuration(c.position, c.rotation, joint + arm * (length / np.maximum(now, 1e-300))[:, None])
 
 
-def _free(g: Geometry, c: Configuration, length: float, forces: Sequence[Floats]) -> list[FreeLeg]:
+def _free(g: Geometry, c: Configuration, length: float, forces: Sequence[Floats]) -> tuple[FreeLeg, ...]:
     columns = jacobian(g, c, length)
     sizes = np.where(np.isnan(columns).any(axis=1), np.inf, np.linalg.norm(columns, axis=1))
     omega, pdot, sdot = forward_velocity(g, c[0], np.eye(9))
-    out = []
-    for k, leg in enumerate(LEGS):
-        least, most = int(np.argmin(sizes[:, k])), int(np.argmax(sizes[:, k]))
-        out.append(
-            FreeLeg(
-                leg=leg,
-                twist=tuple(np.concatenate([omega[k], pdot[k]]).tolist()),
-                internal_point=tuple(sdot[k].tolist()),
-                size=float(sizes[0, k]),
-                share=float(sizes[0, k] / sizes[0].max()) if np.isfinite(sizes[0]).all() else np.nan,
-                least=Extreme(float(sizes[least, k]), least),
-                largest=Extreme(float(sizes[most, k]), most),
-                loads=tuple(_leg_load(each, k) for each in forces),
-            )
+    shares = sizes[0] / sizes[0].max() if np.isfinite(sizes[0]).all() else np.full(9, np.nan)
+    return tuple(
+        FreeLeg(
+            leg=leg,
+            twist=(*omega[k].tolist(), *pdot[k].tolist()),
+            internal_point=tuple(sdot[k].tolist()),
+            size=float(sizes[0, k]),
+            share=float(shares[k]),
+            least=extreme(sizes[:, k], np.argmin),
+            largest=extreme(sizes[:, k], np.argmax),
+            loads=tuple(_leg_load(each, k) for each in forces),
         )
-    return out
+        for k, leg in enumerate(LEGS)
+    )
 
 
 def _leg_load(forces: Floats, k: int) -> LegLoad:

@@ -9,6 +9,7 @@ from ninedof.design.duty import Masses
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.failure.tables import failure_parts, free_table, locked_table
+from ninedof.sheet.plain_values import plain_fields, poses_of
 from ninedof.sheet.region_look import RegionSearch
 from ninedof.sheet.sheet import Extreme
 from ninedof.support.arrays import Floats
@@ -128,24 +129,5 @@ class Failure:
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values; poses are indices into "poses"."""
-        c = self.configurations
-        poses = zip(c.position, c.rotation, c.internal_point, strict=True)
-        return {
-            "poses": [{"position": p, "rotation": q, "internal_point": s} for p, q, s in poses],
-            "characteristic_length": self.characteristic_length,
-            "healthy": self.healthy._asdict(),
-            "bound": self.bound,
-            "locked": [one._asdict() for one in self.locked],
-            "pairs": [one._asdict() for one in self.pairs],
-            "free": [
-                one._asdict()
-                | {"least": one.least._asdict(), "largest": one.largest._asdict()}
-                | {"loads": [load._asdict() for load in one.loads]}
-                for one in self.free
-            ],
-            "relative_manipulability": self.relative_manipulability,
-            "loads": self.loads,
-            **({} if self.masses is None else {"masses": self.masses.to_dict()}),
-            "region": None if self.region is None else self.region._asdict(),
-            **({"unit": self.unit} if self.unit else {}),
-        }
+        own = plain_fields(self, "geometry", "configurations", "leg_ranges")
+        return {"poses": poses_of(self.configurations), **own}

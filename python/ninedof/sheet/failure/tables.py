@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.sheet.pose_words import pose_words, vector_words
-from ninedof.sheet.tables import load_words, over, region_words
+from ninedof.sheet.pose_words import vector_words
+from ninedof.sheet.tables import load_words, over, pose_of, region_words
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 from ninedof.tables import RIGHT, SHORT, Column, Table, grouped
@@ -59,7 +59,7 @@ def locked_table(failure: Any, locked: Sequence[Any]) -> Table:
     if shares:
         notes.append(f"share: of the region's poses with a condition number of at most {failure.bound:g}")
         notes.append("from home: the same with the leg at its length at home, O moved to the nearest point for it")
-    notes += [f"pose {k}: {_pose(failure, k)}" for k in sorted({one.pose for one in locked} - {0})]
+    notes += [f"pose {k}: {pose_of(failure, k)}" for k in sorted({one.pose for one in locked} - {0})]
     what = "one leg locked" if len(locked[0].legs) == 1 else "two legs locked"
     return Table(f"Condition number with {what}, worst {over(failure)}", columns, list(grouped(rows)), notes)
 
@@ -161,8 +161,4 @@ def _percent(share: float | None) -> str:
 
 
 def _place(failure: Any, k: int) -> str:
-    return "at the neutral pose" if k == 0 else f"at pose {k}: {_pose(failure, k)}"
-
-
-def _pose(failure: Any, k: int) -> str:
-    return pose_words(failure.configurations[k], failure.configurations.rotation[0], failure.unit)
+    return "at the neutral pose" if k == 0 else f"at pose {k}: {pose_of(failure, k)}"
