@@ -21,7 +21,7 @@ from ninedof.robot.idle import idle_names, unloaded_names
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.statics.dynamics import inverse_dynamics
-from ninedof.statics.masses import GRAVITY, MassesOf, gravity_for_core, masses_for_core
+from ninedof.statics.masses import GRAVITY, gravity_for_core, masses_for_core
 from ninedof.support.arguments import choice, finite, instance, pair
 from ninedof.support.arrays import Floats, as_number
 from ninedof.support.files import Arrays, Saved, from_json_array, json_array
@@ -245,7 +245,7 @@ def follow(
     limits: tuple[ArrayLike, ArrayLike] | None = None,
     characteristic_length: float | str | None = None,
     load: tuple[ArrayLike | None, ArrayLike | None] = (None, None),
-    masses: MassesOf | None = None,
+    masses: Any = None,
     gravity: ArrayLike = GRAVITY,
 ) -> Followed:
     """Return lengths, rates and accelerations of the legs along a trajectory, and what limits it.

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ninedof.design.duty import Masses
+from ninedof.design.duty import Masses, Tool
 from ninedof.design.study import Study
 from ninedof.sheet.request import Weight
 from ninedof.support.arguments import Vector, finite, shown, vector
@@ -17,6 +17,12 @@ from ninedof.support.arrays import as_floats
 
 WEIGHTS = ("platform", "inertia", "cylinder", "rod", "cylinder_inertia", "rod_inertia", "internal_point")
 """Entries of masses of which one is not 0 where a machine has any."""
+
+
+def duty_of(design: Any) -> Study:
+    """Return the study of a design with the poses that it was solved for; without one, with its unit and its tool."""
+    study: Study | None = getattr(design, "solved", None)
+    return study or Study(unit=getattr(design, "unit", ""), tool=getattr(design, "tool", Tool()))
 
 
 def with_duty(options: Mapping[str, Any], study: Study) -> tuple[dict[str, Any], tuple[str, ...]]:

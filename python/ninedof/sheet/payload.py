@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.duty import Tool
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.duty import masses_of
+from ninedof.sheet.duty import duty_of, masses_of
 from ninedof.sheet.region_look import SAMPLES, RegionSearch, look_over, robot_of
 from ninedof.sheet.request import load_rows
 from ninedof.statics.accuracy import MOST_SAMPLES
@@ -103,8 +102,8 @@ def largest_payload(
     (18.0, 'r', 'push')
 
     """
-    duty = getattr(design, "solved", None) or Study(tool=getattr(design, "tool", Tool()))
-    g, c, _ = robot_of(design, None)
+    duty = duty_of(design)
+    g, c, _ = robot_of(design, length=1.0)
     rows = load_rows(duty.loads.wrenches or None if loads is None else loads)
     rows = rows if len(rows) else np.zeros((1, 6))
     force = _stated(duty) if force is None else force

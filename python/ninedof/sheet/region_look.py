@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof import _core
+from ninedof.conditioning.characteristic_length import characteristic_length, length_argument
 from ninedof.design.pose import Pose
 from ninedof.design.region_poses import Placing, configurations_at, places_o, poses_at
 from ninedof.robot.configuration import Configuration, flat
@@ -75,23 +76,34 @@ def even_poses(design: Any, looked: Looked, count: int) -> Configuration:
     return configurations_at(region, looked.configurations[0], at)[1] if place is None else place(at)[0]
 
 
-def robot_of(design: Any, poses: Configuration | None) -> tuple[Geometry, Configuration, float | str]:
-    """Return geometry, stack of poses with the neutral one first, and characteristic length of a design."""
+def robot_of(
+    design: Any, poses: Configuration | None = None, length: float | str | None = None
+) -> tuple[Geometry, Configuration, float]:
+    """Return geometry, stack of poses with the neutral one first, and characteristic length.
+
+    The length is that of the design by default; a kind is taken at the neutral pose, NaN where it has no value there.
+    """
     if poses is not None and (not isinstance(poses, Configuration) or len(poses.shape) != 1 or not len(poses)):
         raise ValueError(f"poses: got {shown(poses)}, expected a stack of configurations of shape (n,)")
     if isinstance(design, Geometry):
         if poses is None:
             raise ValueError("poses: got none, expected configurations for a Geometry, the neutral one first")
-        return design, poses, 1.0
+        return design, poses, _number(design, poses, 1.0 if length is None else length)
     try:
-        g, neutral, length = design.geometry, design.configuration, design.characteristic_length
+        g, neutral, own = design.geometry, design.configuration, design.characteristic_length
     except AttributeError:
         raise ValueError(f"design: got {type(design).__name__}, expected a result, a design or a Geometry") from None
     if g is None or neutral is None:
         raise ValueError("design: got a result without a design, expected one")
     if poses is None and hasattr(design, "configurations"):
         poses = design.configurations[1:]
-    return g, _joined(neutral, *([] if poses is None else [poses])), length
+    c = _joined(neutral, *([] if poses is None else [poses]))
+    return g, c, _number(g, c, own if length is None else length)
+
+
+def _number(g: Geometry, c: Configuration, length: float | str) -> float:
+    length = length_argument(length)
+    return float(characteristic_length(g, c[0], length)) if isinstance(length, str) else length
 
 
 def _joined(*stacks: Configuration) -> Configuration:

@@ -11,15 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.conditioning.characteristic_length import characteristic_length as length_of
-from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_limits
 from ninedof.design.pose import Pose
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.sheet.duty import masses_besides_platform, weight_of, with_duty
+from ninedof.sheet.duty import duty_of, masses_besides_platform, weight_of, with_duty
 from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
@@ -299,16 +297,13 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     ('r1', 'r2', 'r3')
 
     """
-    study: Study | None = getattr(design, "solved", None)
-    duty = study or Study(tool=getattr(design, "tool", Tool()))
+    duty = duty_of(design)
     values, stated = with_duty(options_of("sheet", SheetArguments, options, samples=SAMPLES), duty)
-    g, c, own_length = robot_of(design, poses)
-    length = length_argument(own_length if values["characteristic_length"] is None else values["characteristic_length"])
+    g, c, length = robot_of(design, poses, values["characteristic_length"])
     weight = weight_of(duty, values["mass"], values["centre"], values["gravity"])
     motion, bodies = motion_of(values, c), masses_besides_platform(duty)
     weighs = weight is not None or bodies is not None
     loads = load_rows(np.zeros(6) if values["loads"] is None and weighs else values["loads"])
-    length = float(length_of(g, c[0], length)) if isinstance(length, str) else length
     count = whole("samples", values["samples"], 1, MOST_SAMPLES)
     question = question_of(g, c[0], duty, motion)
     question.loads = list(loads)
@@ -344,9 +339,9 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         stiffness=Stiffness(*(extreme(x, np.argmin) for x in numbers["stiffness"].T))
         if "stiffness" in numbers
         else None,
-        limits=() if study is None else limit_rows(_with_poses(study, looked.worst), design.variables),
+        limits=limit_rows(_with_poses(duty, looked.worst), design.variables) if hasattr(design, "solved") else (),
         region=region,
-        unit=getattr(study or design, "unit", "") if values["unit"] is None else unit_argument(values["unit"]),
+        unit=duty.unit if values["unit"] is None else unit_argument(values["unit"]),
         cone_axes={name: () if one is None else one.axis for name, one in cone_limits(duty).items()},
         leg_ranges=looked.leg_ranges,
         has_leg_masses=bodies is not None,

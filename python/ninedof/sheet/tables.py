@@ -72,32 +72,22 @@ def poses_table(sheet: Any) -> Table:
 def limits_table(sheet: Any) -> Table:
     """Return the limits of the study beside the values and margins."""
     where = "at its poses" if sheet.region is None else "over its region"
-    columns = [
-        Column("limit"),
-        Column(),
-        Column(),
-        *(Column(name, "", RIGHT) for name in ("allowed", "here", "margin")),
-    ]
+    columns = [Column("limit"), Column(), Column(), *columns_of("allowed", "here", "margin")]
+    rows = []
+    for row in sheet.limits:
+        ends = (limit_amount(row, value, short, sheet.unit) for value in (row.limit, row.value))
+        rows.append([row.name, row.part, row.side, *ends, margin_words(row.margin, row.unit)])
     violated = [is_violated(row.margin, row.unit, row.limit) for row in sheet.limits]
-    columns += [Column()] * any(violated)
-    rows: list[tuple[Any, ...]] = [
-        (
-            row.name,
-            row.part,
-            row.side,
-            *(limit_amount(row, value, short, sheet.unit) for value in (row.limit, row.value)),
-            margin_words(row.margin, row.unit),
-            *["violated" * mark] * any(violated),
-        )
-        for row, mark in zip(sheet.limits, violated, strict=True)
-    ]
+    if any(violated):
+        columns.append(Column())
+        rows = [[*row, "violated" * mark] for row, mark in zip(rows, violated, strict=True)]
     return Table(f"Limits of the study, {where}", columns, rows)
 
 
 def worst_table(sheet: Any) -> Table:
     """Return the worst values with their poses, which the notes describe."""
     title = "At the neutral pose" if len(sheet.configurations) == 1 else f"Worst {over(sheet)}"
-    columns = [Column(), Column("value", "", RIGHT), Column("pose", "", RIGHT), Column()]
+    columns = [Column(), *columns_of("value", "pose"), Column()]
     rows = list(_worst_rows(sheet))
     used = sorted({row[2] for row in rows if row and row[2]})
     cells = [(*row[:2], "" if row[2] is None else row[2] or "neutral", row[3]) if row else () for row in rows]
@@ -137,8 +127,13 @@ def _worst_rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
         yield "least turning stiffness, per rad", text, turning.pose, ""
 
 
+def columns_of(*names: str, form: str = RIGHT, unit: str = "") -> list[Column]:
+    """Return columns of one kind."""
+    return [Column(name, unit, form) for name in names]
+
+
 def _joints(sheet: Any) -> Table:
-    columns = [Column("joint"), *(Column(name, sheet.unit, SHORT) for name in ("x", "y", "z", "neutral x", "y", "z"))]
+    columns = [Column("joint"), *columns_of("x", "y", "z", "neutral x", "y", "z", form=SHORT, unit=sheet.unit)]
     rows = [
         (name.replace("_", " "), *(round(float(x), 9) for x in (*own, *at_neutral)))
         for name, own, at_neutral in sheet.joints()
@@ -147,54 +142,52 @@ def _joints(sheet: Any) -> Table:
     return Table(title, columns, list(grouped(rows)))
 
 
+def _of_legs(title: str, sheet: Any, columns: Sequence[Column], rows: Any, notes: Sequence[str] = ()) -> Table:
+    """Return a table with a row for each leg."""
+    named = ((leg.name, *row) for leg, row in zip(sheet.legs, rows, strict=True))
+    return Table(title, [Column("leg"), *columns], list(grouped(named)), notes)
+
+
 def lengths_table(sheet: Any) -> Table:
     """Return the lengths of the legs."""
-    permitted = any(leg.permitted for leg in sheet.legs)
-    names = ["shortest", "longest", "neutral", "stroke"]
-    if permitted:
+    names, title = ["shortest", "longest", "neutral", "stroke"], "lengths"
+    if any(leg.permitted for leg in sheet.legs):
         names = ["needs from", "needs to", "neutral", "stroke", "permitted from", "permitted to"]
-    columns = [Column("leg"), *(Column(name, sheet.unit, SHORT) for name in names), Column("ratio", "", ".4f")]
-    rows = [
-        (leg.name, leg.shortest, leg.longest, leg.neutral, leg.stroke, *(leg.permitted or ()), leg.stroke_ratio)
+        title = "lengths that the poses need, and that limits permit"
+    columns = [*columns_of(*names, form=SHORT, unit=sheet.unit), Column("ratio", "", ".4f")]
+    rows = (
+        (leg.shortest, leg.longest, leg.neutral, leg.stroke, *(leg.permitted or ()), leg.stroke_ratio)
         for leg in sheet.legs
-    ]
-    title = "lengths that the poses need, and that limits permit" if permitted else "lengths"
-    return Table(f"Legs {over(sheet)}: {title}", columns, list(grouped(rows)))
+    )
+    return _of_legs(f"Legs {over(sheet)}: {title}", sheet, columns, rows)
 
 
 def _motions(sheet: Any) -> Table:
-    columns = [*_speeds(sheet, ".5g"), Column("base cone", "", DEGREES), Column("platform cone", "", DEGREES)]
-    rows = [(leg.name, leg.speed, leg.acceleration, leg.base_cone, leg.platform_cone) for leg in sheet.legs]
-    return Table(f"Legs {over(sheet)}: speeds and cones", columns, list(grouped(rows)))
+    columns = [*_speeds(sheet, ".5g"), *columns_of("base cone", "platform cone", form=DEGREES)]
+    rows = ((leg.speed, leg.acceleration, leg.base_cone, leg.platform_cone) for leg in sheet.legs)
+    return _of_legs(f"Legs {over(sheet)}: speeds and cones", sheet, columns, rows)
 
 
 def _speeds(sheet: Any, form: str = RIGHT) -> list[Column]:
-    units = ("speed", per(sheet.unit, "s")), ("acceleration", per(sheet.unit, "s²"))
-    return [Column("leg"), *(Column(name, unit, form) for name, unit in units)]
+    return [Column("speed", per(sheet.unit, "s"), form), Column("acceleration", per(sheet.unit, "s²"), form)]
 
 
-def _ranges(sheet: Any, ranges: Sequence[Sequence[Any]]) -> list[Any]:
-    """Return a row for each leg with the ranges of each column."""
-    tiny = [ROUNDING * max(abs(end) for ends in column for end in ends) for column in ranges]
-    rows = (
-        (leg.name, *(spread(column[k][0], column[k][1], least) for column, least in zip(ranges, tiny, strict=True)))
-        for k, leg in enumerate(sheet.legs)
-    )
-    return list(grouped(rows))
+def _ranges(rows: Sequence[Sequence[tuple[float, float]]]) -> list[list[str]]:
+    """Return ranges as text; what is rounding beside the largest number of its column is 0."""
+    tiny = [ROUNDING * max(abs(end) for ends in column for end in ends) for column in zip(*rows, strict=True)]
+    return [[spread(*ends, least) for ends, least in zip(row, tiny, strict=True)] for row in rows]
 
 
 def _twist(sheet: Any) -> Table:
     """Return the rates and accelerations for the given twist."""
-    rows = _ranges(sheet, [[leg.twist_speed for leg in sheet.legs], [leg.twist_acceleration for leg in sheet.legs]])
+    rows = _ranges([(leg.twist_speed, leg.twist_acceleration) for leg in sheet.legs])
     twists = (("", sheet.motion.twist), ("rate: ", sheet.motion.twist_rate))
-    notes = [f"{words}angular {vector_words(x[:3])}, linear {vector_words(x[3:])}" for words, x in twists if x]
-    return Table(f"Legs {over(sheet)}: least to largest for the twist", _speeds(sheet), rows, notes)
+    notes = [f"{words}angular {vector_words(x[:3])}, linear {vector_words(x[3:])}" for words, x in twists]
+    return _of_legs(f"Legs {over(sheet)}: least to largest for the twist", sheet, _speeds(sheet), rows, notes)
 
 
 def _forces(sheet: Any) -> Table:
     """Return the forces in the legs for each load."""
-    columns = [Column("leg"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(sheet.loads) + 1))]
-    rows = _ranges(sheet, [list(column) for column in zip(*(leg.forces for leg in sheet.legs), strict=True)])
     notes = [load_words(k, load, sheet.unit) for k, load in enumerate(sheet.loads, start=1)]
     if sheet.weight is not None:
         notes.append(weight_words(sheet.weight, sheet.tool))
@@ -203,22 +196,24 @@ def _forces(sheet: Any) -> Table:
     for k, names in enumerate(map(unloaded_names, sheet.forces()), start=1):
         if 0 < len(names) < len(sheet.legs):
             notes.append(f"{', '.join(names)} never carry load {k}: {NEVER_CARRY}")
-    return Table(f"Leg forces, least to largest {over(sheet)}, pushing positive", columns, rows, notes)
+    title = f"Leg forces, least to largest {over(sheet)}, pushing positive"
+    return _of_legs(title, sheet, load_columns(sheet), _ranges([leg.forces for leg in sheet.legs]), notes)
+
+
+def load_columns(sheet: Any) -> list[Column]:
+    """Return a column for each load."""
+    return columns_of(*(f"load {k}" for k in range(1, len(sheet.loads) + 1)))
 
 
 def _powers(sheet: Any) -> Table:
     """Return the drives beside each other: greatest force, speed and power of each leg."""
-    force = [max(abs(end) for ends in leg.forces for end in ends) for leg in sheet.legs]
-    speeds, powers = ([getattr(leg, name) for leg in sheet.legs] for name in ("speed", "power"))
-    columns = [Column("leg"), Column("force", "", RIGHT), Column("speed", per(sheet.unit, "s"), RIGHT)]
-    columns.append(Column("power", times("force", per(sheet.unit, "s")), RIGHT))
-    rows = zip((leg.name for leg in sheet.legs), *(map(_g, values) for values in (force, speeds, powers)), strict=True)
+    speed = per(sheet.unit, "s")
+    columns = [Column("force", "", RIGHT), Column("speed", speed, RIGHT), Column("power", times("force", speed), RIGHT)]
+    forces = (max(abs(end) for ends in leg.forces for end in ends) for leg in sheet.legs)
+    numbers = ((force, leg.speed, leg.power) for force, leg in zip(forces, sheet.legs, strict=True))
+    rows = ([f"{x:.5g}" for x in row] for row in numbers)
     note = "power: the most of force times speed at one pose, at rest or at constant speed"
-    return Table(f"Drives, largest {over(sheet)}", columns, list(grouped(rows)), [note])
-
-
-def _g(value: float) -> str:
-    return f"{value:.5g}"
+    return _of_legs(f"Drives, largest {over(sheet)}", sheet, columns, rows, [note])
 
 
 def weight_words(weight: Any, tool: Any) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands_with
 from ninedof.robot.geometry import Geometry
-from ninedof.statics.masses import GRAVITY, MassesOf, gravity_for_core, masses_for_core
+from ninedof.statics.masses import GRAVITY, gravity_for_core, masses_for_core
 from ninedof.support.arrays import Floats
 from ninedof.support.short import short_repr
 from ninedof.support.units import metres, unit_argument
@@ -35,7 +35,7 @@ def inverse_dynamics(
     configuration: Configuration,
     velocity: ArrayLike = (0.0,) * 9,
     acceleration: ArrayLike = (0.0,) * 9,
-    masses: MassesOf | None = None,
+    masses: Any = None,
     gravity: ArrayLike = GRAVITY,
     load: ArrayLike = (0.0,) * 6,
     unit: str = "",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,28 +17,11 @@ GRAVITY = (0.0, 0.0, -9.81)
 OF_LEGS = ("cylinder", "rod", "cylinder_centre", "rod_centre", "cylinder_inertia", "rod_inertia")
 
 
-class MassesOf(Protocol):
-    """The attributes of `ninedof.Masses`; those of legs may also be nine numbers."""
+def masses_for_core(masses: Any, unit: str = "") -> _core.Masses:
+    """Return `ninedof.Masses` such that the forces of the core are newtons for kilograms and lengths of a unit.
 
-    @property
-    def platform(self) -> float:
-        """Mass."""
-
-    @property
-    def centre(self) -> Any:
-        """Of mass, platform frame."""
-
-    @property
-    def inertia(self) -> Any:
-        """(ixx, iyy, izz, ixy, ixz, iyz) about the centre, platform frame."""
-
-    @property
-    def internal_point(self) -> float:
-        """Mass."""
-
-
-def masses_for_core(masses: MassesOf, unit: str = "") -> _core.Masses:
-    """Return masses such that the forces of the core are newtons for kilograms and lengths of a unit."""
+    Those of legs may also be nine numbers.
+    """
     if not hasattr(masses, "platform") or not hasattr(masses, "rod_inertia"):
         raise ValueError(f"masses: got {shown(masses)}, expected Masses")
     scale = metres(unit)

@@ -10,15 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.conditioning.characteristic_length import length_argument, resolve_length
 from ninedof.conditioning.conditioning import condition_number as condition_numbers
-from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import jacobian
 from ninedof.kinematics.velocity import forward_velocity
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.duty import masses_of
+from ninedof.sheet.duty import duty_of, masses_of
 from ninedof.sheet.failure.result import Failure, FreeLeg, LegLoad, LockedLegs
 from ninedof.sheet.region_look import SAMPLES, Looked, even_poses, look_over, robot_of
 from ninedof.sheet.request import load_rows
@@ -96,10 +94,9 @@ def failure(
     (('l1',), 5, False)
 
     """
-    g, c, own_length = robot_of(design, poses)
-    length = length_argument(own_length if characteristic_length is None else characteristic_length)
-    length = float(resolve_length(g, c[0], length)[0])
-    study = getattr(design, "solved", None) or Study()
+    g, c, length = robot_of(design, poses, characteristic_length)
+    length = 1.0 if np.isnan(length) else length  # of a singular robot, whose numbers are infinite with any
+    study = duty_of(design)
     masses, own = masses_of(study), study.loads.wrenches
     if loads is None and (own or masses is not None):
         loads = own or np.zeros(6)
@@ -140,7 +137,7 @@ def failure(
         masses=masses,
         region=looked.search,
         leg_ranges=looked.leg_ranges,
-        unit=getattr(getattr(design, "solved", None) or design, "unit", ""),
+        unit=study.unit,
     )
 
 

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from ninedof.sheet.pose_words import vector_words
-from ninedof.sheet.tables import load_words, over, pose_of, region_words
+from ninedof.sheet.tables import columns_of, load_columns, load_words, over, pose_of, region_words
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
-from ninedof.tables import RIGHT, SHORT, Column, Table, grouped
+from ninedof.tables import SHORT, Column, Table, grouped
 from ninedof.tables.numbers import cell
 from ninedof.tables.table import Cell, Part
 
@@ -35,7 +35,7 @@ def failure_parts(failure: Any) -> Iterator[Part]:
         yield pairs_table(failure)
         yield from _pairs_beside(failure)
     yield free_table(failure)
-    yield from (free_words(failure, one) for one in failure.free)
+    yield from (f"{one.leg} free: {motion_words(failure, np.array(one.twist))}" for one in failure.free)
     if len(failure.loads):
         yield loads_table(failure)
         yield "Locked legs bear load as before: a locked leg changes no force."
@@ -43,20 +43,21 @@ def failure_parts(failure: Any) -> Iterator[Part]:
 
 def locked_table(failure: Any, locked: Sequence[Any]) -> Table:
     """Return what is left with each of some sets of legs locked."""
-    shares = failure.region is not None
-    names = {"freedoms": RIGHT, "worst": SHORT, "times": SHORT, "pose": RIGHT}
-    columns = [Column("locked"), *(Column(name, "", form) for name, form in names.items())]
-    if shares:
-        columns += [Column(name, "", RIGHT) for name in ("share", "from home")]
-    rows: list[Sequence[Cell]] = []
-    for one in locked:
-        cells: list[Cell] = [", ".join(one.legs), str(one.freedoms), _number(one.remaining), _number(one.ratio)]
-        cells.append(str(one.pose) if one.pose else "neutral")
-        if shares:
-            cells += [_percent(one.share), _percent(one.share_from_home)]
-        rows.append(tuple(cells))
+    columns = [
+        Column("locked"),
+        *columns_of("freedoms"),
+        *columns_of("worst", "times", form=SHORT),
+        *columns_of("pose"),
+    ]
     notes = ["times: of the worst with nine legs at work"]
-    if shares:
+    rows: list[list[Cell]] = [
+        [", ".join(one.legs), str(one.freedoms), _number(one.remaining), _number(one.ratio), str(one.pose or "neutral")]
+        for one in locked
+    ]
+    if failure.region is not None:
+        columns += columns_of("share", "from home")
+        for row, one in zip(rows, locked, strict=True):
+            row += [_percent(one.share), _percent(one.share_from_home)]
         notes.append(f"share: of the region's poses with a condition number of at most {failure.bound:g}")
         notes.append("from home: the same with the leg at its length at home, O moved to the nearest point for it")
     notes += [f"pose {k}: {pose_of(failure, k)}" for k in sorted({one.pose for one in locked} - {0})]
@@ -72,7 +73,7 @@ def pairs_table(failure: Any) -> Table:
     for k, leg in enumerate(names[:-1]):
         cells = [_number(numbers[leg, other].condition_number) for other in names[k + 1 :]]
         rows.append((leg, *[""] * k, *cells))
-    columns = [Column("and"), *(Column(name, "", SHORT) for name in names[1:])]
+    columns = [Column("and"), *columns_of(*names[1:], form=SHORT)]
     worst = max(numbers.values(), key=lambda one: one.condition_number)
     notes = [f"worst: {' and '.join(worst.legs)}, {_words(worst.condition_number)}, {_place(failure, worst.pose)}"]
     if worst.share is not None:
@@ -83,8 +84,8 @@ def pairs_table(failure: Any) -> Table:
 
 def free_table(failure: Any) -> Table:
     """Return the size of the motion that each free leg leaves to itself."""
-    names = {"at home": SHORT, "of largest": RIGHT, "least": SHORT, "most": SHORT}
-    columns = [Column("free"), *(Column(name, "", form) for name, form in names.items())]
+    columns = [Column("free"), Column("at home", "", SHORT), *columns_of("of largest")]
+    columns += columns_of("least", "most", form=SHORT)
     rows = [
         (one.leg, _number(one.size), _percent(one.share), _number(one.least.value), _number(one.largest.value))
         for one in failure.free
@@ -98,7 +99,7 @@ def free_table(failure: Any) -> Table:
 
 def loads_table(failure: Any) -> Table:
     """Return which loads the other eight legs bear."""
-    columns = [Column("free"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(failure.loads) + 1))]
+    columns = [Column("free"), *load_columns(failure)]
     values = [value for one in failure.free for x in one.loads for value in (x.largest, x.carries)]
     text = partial(cell, form=SHORT, among=[x for x in values if math.isfinite(x)])
     rows = []
@@ -111,28 +112,21 @@ def loads_table(failure: Any) -> Table:
     return Table(f"Loads with one leg free, {over(failure)}", columns, list(grouped(rows)), notes)
 
 
-def free_words(failure: Any, one: Any) -> str:
-    """Return the motion of the platform with a leg free, at the neutral pose."""
-    p = failure.configurations.position[0]
-    motion = motion_words(np.array(one.twist), p, failure.characteristic_length, failure.unit)
-    return f"{one.leg} free: {motion}"
-
-
-def motion_words(twist: Floats, p: Floats, length: float, unit: str) -> str:
-    """Return a twist (omega, pdot) at p as a screw, in words."""
+def motion_words(failure: Any, twist: Floats) -> str:
+    """Return a motion (omega, pdot) of the platform at the neutral pose as a screw, in words."""
     if np.isnan(twist).any():
         return "the pose is singular"
     omega, pdot = twist[:3], twist[3:]
     turn, shift = float(np.linalg.norm(omega)), float(np.linalg.norm(pdot))
-    if turn * length <= PURE * shift:
+    if turn * failure.characteristic_length <= PURE * shift:
         return "the platform rests" if shift == 0.0 else f"the platform shifts along {_direction(pdot / shift)}"
-    point = p + np.cross(omega, pdot) / turn**2
+    point = failure.configurations.position[0] + np.cross(omega, pdot) / turn**2
     rise = float(omega @ pdot) / turn**2 * math.tau
-    through = amount(vector_words(float(f"{x:.4g}") for x in point), unit)
+    through = amount(vector_words(float(f"{x:.4g}") for x in point), failure.unit)
     words = f"the platform turns about {_direction(omega / turn)} through {through}"
     if abs(rise) <= PURE * shift / turn:
         return words
-    return f"{words}, advancing {amount(f'{rise:.4g}', unit)} a turn"
+    return f"{words}, advancing {amount(f'{rise:.4g}', failure.unit)} a turn"
 
 
 def _pairs_beside(failure: Any) -> Iterator[str]:
