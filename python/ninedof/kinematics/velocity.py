@@ -38,7 +38,7 @@ def forward_velocity(
         At a singular configuration the components that the leg rates do not determine are NaN.
 
     """
-    shape, flat, (rates,) = operands_with(geometry, configuration, leg_rates=(leg_rates, 9))
+    shape, flat, rates = operands_with(geometry, configuration, leg_rates=(leg_rates, 9))
     return _three_vectors(_core.forward_velocity(*flat, rates, 0), shape)
 
 
@@ -98,7 +98,7 @@ def inverse_velocity(
     if sdot is None:
         sdot = internal_velocity(geometry, configuration, omega, pdot, weights)
     shape, flat, velocity = operands_with(geometry, configuration, omega=(omega, 3), pdot=(pdot, 3), sdot=(sdot, 3))
-    return _core.inverse_velocity(*flat, np.concatenate(velocity, axis=1), 0).reshape(*shape, 9)
+    return _core.inverse_velocity(*flat, velocity, 0).reshape(*shape, 9)
 
 
 @takes_designs
@@ -148,10 +148,8 @@ def internal_velocity(
 
     """
     weights = np.ones(9) if weights is None else weights
-    shape, flat, (*twist, weight) = operands_with(
-        geometry, configuration, omega=(omega, 3), pdot=(pdot, 3), weights=(weights, 9)
-    )
-    return _core.internal_velocity(*flat, np.concatenate(twist, axis=1), weight, 0).reshape(*shape, 3)
+    shape, flat, rows = operands_with(geometry, configuration, omega=(omega, 3), pdot=(pdot, 3), weights=(weights, 9))
+    return _core.internal_velocity(*flat, rows[:, :6], rows[:, 6:], 0).reshape(*shape, 3)
 
 
 @takes_designs
@@ -230,10 +228,10 @@ def forward_acceleration(
     (array([0.    , 0.    , 0.2168]), array([ 0.    ,  0.    , -0.3526]))
 
     """
-    shape, flat, (rates, accelerations) = operands_with(
+    shape, flat, rows = operands_with(
         geometry, configuration, leg_rates=(leg_rates, 9), leg_accelerations=(leg_accelerations, 9)
     )
-    return _three_vectors(_core.forward_acceleration(*flat, rates, accelerations, 0), shape)
+    return _three_vectors(_core.forward_acceleration(*flat, rows[:, :9], rows[:, 9:], 0), shape)
 
 
 @takes_designs
@@ -278,9 +276,8 @@ def inverse_acceleration(
 
     """
     motion = {"omega": omega, "pdot": pdot, "sdot": sdot, "alpha": alpha, "pddot": pddot, "sddot": sddot}
-    shape, flat, parts = operands_with(geometry, configuration, **{name: (v, 3) for name, v in motion.items()})
-    velocity, acceleration = np.concatenate(parts[:3], axis=1), np.concatenate(parts[3:], axis=1)
-    return _core.inverse_acceleration(*flat, velocity, acceleration, 0).reshape(*shape, 9)
+    shape, flat, rows = operands_with(geometry, configuration, **{name: (v, 3) for name, v in motion.items()})
+    return _core.inverse_acceleration(*flat, rows[:, :9], rows[:, 9:], 0).reshape(*shape, 9)
 
 
 @takes_designs
@@ -335,7 +332,7 @@ def jacobian_rate(
     lc = resolve_length(geometry, configuration, characteristic_length)
     if lc.size != 1:  # one per configuration, broadcast to the velocities
         lc = np.ascontiguousarray(np.broadcast_to(lc.reshape(configuration.shape), shape)).reshape(-1)
-    return _core.jacobian_rate(*flat, np.concatenate(velocity, axis=1), lc, 0).reshape(*shape, 6, 9)
+    return _core.jacobian_rate(*flat, velocity, lc, 0).reshape(*shape, 6, 9)
 
 
 def _three_vectors(flat: Floats, shape: tuple[int, ...]) -> tuple[Floats, Floats, Floats]:

@@ -362,4 +362,4 @@ def _loads(geometry: Geometry, trajectory: Trajectory, force: Any, moment: Any) 
     shape, _, load = operands_with(geometry, poses, moment=(moment, 3), force=(force, 3))
     if shape[-1:] != poses.shape or not 1 <= len(shape) <= 2 or 0 in shape:
         raise ValueError(f"load: got stacks of shape {shape}, expected one load for each of {len(poses)} poses")
-    return np.concatenate(load, axis=1).reshape(*shape, 6)
+    return load.reshape(*shape, 6)

@@ -313,7 +313,7 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
     path = lengths.shape[len(start.shape) : -1][-1:]
     steps = path[0] if path else 1
     rows = lengths.reshape(*lengths.shape[: lengths.ndim - len(path) - 1], steps * 9)
-    shape, home, (rows,) = broadcast_flat(start, leg_lengths=(rows, steps * 9))
+    shape, home, rows = broadcast_flat(start, leg_lengths=(rows, steps * 9))
     flat, status = _core.track(geometry, rows.reshape(-1, 9), steps, home, thread_argument(threads))
     full = (*shape, *path)
     words = np.array([TrackStatus(word) for word in _core.track_statuses], dtype=object)[status]

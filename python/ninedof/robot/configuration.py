@@ -110,7 +110,7 @@ class Configuration:
             against the configuration.
 
         """
-        shape, flat, (t,) = broadcast_flat(self, tangent=(tangent, 9))
+        shape, flat, t = broadcast_flat(self, tangent=(tangent, 9))
         return Configuration(*(a.reshape(shape + a.shape[1:]) for a in _core.moved(*flat, t)))
 
     @property
@@ -187,16 +187,17 @@ def arrays_of(configuration: Configuration) -> dict[str, Floats]:
 
 def broadcast_flat(
     configuration: Configuration, **others: tuple[ArrayLike, int]
-) -> tuple[tuple[int, ...], Flat, list[Floats]]:
+) -> tuple[tuple[int, ...], Flat, Floats]:
     """Broadcast a configuration against arrays of shape (..., k), each given with its k.
 
-    Return the leading shape, the flat arrays of the configuration, and the other arrays as (n, k). ValueError names the
-    argument that has another shape or an infinite number.
+    Return the leading shape, the flat arrays of the configuration, and the others beside each other in one array of n
+    rows. ValueError names the argument that has another shape or an infinite number.
     """
     own = {name: (array, array.ndim - len(configuration.shape)) for name, array in arrays_of(configuration).items()}
     arrays = {name: (without_infinity(name, as_floats(name, values, (k,))), 1) for name, (values, k) in others.items()}
     shape, (p, q, s, *rest) = broadcast_leading(own | arrays)
-    return shape, _flat(p, q, s), [a.reshape(math.prod(shape), a.shape[-1]) for a in rest]
+    flat_rest = [a.reshape(math.prod(shape), a.shape[-1]) for a in rest]
+    return shape, _flat(p, q, s), np.concatenate(flat_rest, axis=1)
 
 
 def require_single(name: str, configuration: Any) -> None:
@@ -212,11 +213,11 @@ def operands(geometry: Geometry, configuration: Configuration, name: str = "conf
 
 def operands_with(
     geometry: Geometry, configuration: Configuration, **others: tuple[ArrayLike, int]
-) -> tuple[tuple[int, ...], Operands, list[Floats]]:
-    """Return the leading shape, the operands of the core, and the other arrays, as `broadcast_flat`."""
+) -> tuple[tuple[int, ...], Operands, Floats]:
+    """Return the leading shape, the operands of the core, and the other arrays as one, as `broadcast_flat`."""
     operands(geometry, configuration)
-    shape, flat, arrays = broadcast_flat(configuration, **others)
-    return shape, (geometry, flat), arrays
+    shape, flat, rows = broadcast_flat(configuration, **others)
+    return shape, (geometry, flat), rows
 
 
 def single(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:

@@ -88,7 +88,7 @@ def distance_to_singularity(
     (2.4432, <Mechanism.B: 'b'>)
 
     """
-    shape, flat, (t,) = operands_with(geometry, configuration, direction=(direction, 9))
+    shape, flat, t = operands_with(geometry, configuration, direction=(direction, 9))
     out = _core.distance_to_singularity(*flat, t, as_number("most", most), thread_argument(threads))
     return SingularityDistance(
         out[:, 0].reshape(shape)[()],

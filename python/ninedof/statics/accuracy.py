@@ -192,5 +192,4 @@ def _with_tolerances(
     g: Geometry, c: Configuration, leg_errors: ArrayLike, joint_errors: ArrayLike
 ) -> tuple[tuple[int, ...], Operands, Floats]:
     legs, joints = one_or_each("leg_errors", leg_errors, 9), one_or_each("joint_errors", joint_errors, 12)
-    shape, flat, tolerances = operands_with(g, c, leg_errors=(legs, 9), joint_errors=(joints, 12))
-    return shape, flat, np.concatenate(tolerances, axis=1)
+    return operands_with(g, c, leg_errors=(legs, 9), joint_errors=(joints, 12))

@@ -92,7 +92,7 @@ def inverse_dynamics(
     shape, flat, rows = operands_with(
         geometry, configuration, velocity=(velocity, 9), acceleration=(acceleration, 9), load=(load, 6)
     )
-    motion = np.concatenate([*rows, np.zeros((len(rows[0]), 3))], axis=1)
+    motion = np.hstack([rows, np.zeros((len(rows), 3))])
     out = _core.inverse_dynamics(*flat, motion, bodies, gravity_for_core(gravity, name), 0)
     forces, rates, unbalanced = (out.reshape(*shape, 3, 9)[..., k, :].copy() for k in range(3))
     with np.errstate(over="ignore", invalid="ignore"):  # infinite where it is no number of double precision

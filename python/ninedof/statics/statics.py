@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
@@ -75,7 +74,7 @@ def leg_forces(
     shape, flat, load = operands_with(
         geometry, configuration, moment=(moment, 3), force=(force, 3), force_at_o=(force_at_o, 3)
     )
-    out = _core.leg_forces(*flat, np.concatenate(load, axis=1), 0).reshape(*shape, 2, 9)
+    out = _core.leg_forces(*flat, load, 0).reshape(*shape, 2, 9)
     return LegForces(out[..., 0, :].copy(), out[..., 1, :].copy())
 
 
@@ -161,7 +160,7 @@ def stiffness(
 
     """
     k = one_or_each("leg_stiffness", leg_stiffness, 9)
-    shape, flat, (k,) = operands_with(geometry, configuration, leg_stiffness=(k, 9))
+    shape, flat, k = operands_with(geometry, configuration, leg_stiffness=(k, 9))
     core, size = (_core.stiffness_with_o, 9) if flag("internal", internal) else (_core.stiffness, 6)
     return core(*flat, k, 0).reshape(*shape, size, size)
 
@@ -261,5 +260,4 @@ def force_ellipsoid(
 def _ellipsoid(kind: str, part: str, g: Geometry, c: Configuration, length: ArrayLike | str) -> Ellipsoid:
     core = getattr(_core, f"{kind}_ellipsoid_{choice('part', part, PARTS)}")
     out, n = core(*operands_and_length(g, c, length), 0), 6 if part == "twist" else 3
-    directions, semi_axes = np.split(out, [n * n], axis=1)
-    return Ellipsoid(directions.reshape(*c.shape, n, n).copy(), semi_axes.reshape(*c.shape, n).copy())
+    return Ellipsoid(out[:, :-n].reshape(*c.shape, n, n).copy(), out[:, -n:].reshape(*c.shape, n).copy())
