@@ -14,7 +14,7 @@ from ninedof.conditioning.characteristic_length import characteristic_length as 
 from ninedof.motion.trajectory import Trajectory
 from ninedof.redundancy.redundancy import leg_limits
 from ninedof.redundancy.rules import RULES
-from ninedof.robot.configuration import Configuration, operands_with, single
+from ninedof.robot.configuration import Configuration, broadcast_flat, single
 from ninedof.robot.designs import HasRobot, robot_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.robot.idle import idle_names, unloaded_names
@@ -153,8 +153,8 @@ class Followed(Saved):
 
     def to_dict(self) -> dict[str, Any]:
         """Return a summary as plain values: extremes of each leg, the worst poses, limits that break, the check."""
-        worst = int(np.argmax(self.condition_number))
-        margins = np.abs(np.stack(self.singularity_margins))
+        kappa, margins = self.condition_number, np.abs(np.stack(self.singularity_margins))
+        worst = int(np.argmax(kappa))
         near = np.unravel_index(int(np.argmin(margins)), margins.shape)
         columns = {
             "shortest": self.leg_lengths.min(axis=0),
@@ -164,9 +164,8 @@ class Followed(Saved):
             "low": self.limits[0],
             "high": self.limits[1],
             "margin": self.leg_margins.min(axis=0),
+            **self.drives,
         }
-        columns |= self.drives
-        legs = {leg: {name: float(values[k]) for name, values in columns.items()} for k, leg in enumerate(LEGS)}
         return {
             **unit_entry(self.unit),
             "poses": len(self.time),
@@ -174,16 +173,16 @@ class Followed(Saved):
             "end": float(self.time[-1]),
             "closed": self.trajectory.closed,
             "internal_point": self.internal_point,
-            "legs": legs,
+            "legs": {leg: {name: float(x[k]) for name, x in columns.items()} for k, leg in enumerate(LEGS)},
             "idle_legs": list(self.idle_legs),
             "unloaded_legs": list(self.unloaded_legs),
             **({"force_unit": self.force_unit} if self.force_unit else {}),
             **({"loads": self.load_count} if self.load_count > 1 else {}),
             "characteristic_length": self.characteristic_length,
             "condition_number": {
-                "first": float(self.condition_number[0]),
-                "last": float(self.condition_number[-1]),
-                "worst": float(self.condition_number[worst]),
+                "first": float(kappa[0]),
+                "last": float(kappa[-1]),
+                "worst": float(kappa[worst]),
                 "at": float(self.time[worst]),
             },
             "nearest_singularity": {
@@ -203,31 +202,27 @@ class Followed(Saved):
         return f"<Followed: {len(self.time)} poses, {'breaks ' + limits if limits else 'within limits'}>"
 
     def _contents(self) -> dict[str, Any]:
-        path = self.trajectory
-        arrays = {**triples(self.geometry), "time": path.time, "position": path.position, "rotation": path.rotation}
-        arrays |= {name: np.stack(getattr(self, name)) for name in ("limits", "singularity_margins")}
-        arrays["o"] = self.configurations.internal_point
-        words = {}
-        for name in (field.name for field in fields(self) if field.name not in arrays):
-            value = getattr(self, name)
-            if isinstance(value, np.ndarray):
-                arrays[name] = value
-            elif not isinstance(value, Geometry | Trajectory | Configuration):
-                words[name] = value
+        words = {one.name: getattr(self, one.name) for one in fields(self)}
+        arrays = triples(words.pop("geometry")) | {"o": words.pop("configurations").internal_point}
+        path = words.pop("trajectory")
+        arrays |= {"time": path.time, "position": path.position, "rotation": path.rotation}
+        for name, value in list(words.items()):
+            if isinstance(value, np.ndarray | tuple):
+                arrays[name] = np.array(words.pop(name))
         return {"words": json_array({"format": self.FORMAT, **words}), **arrays}
 
     @classmethod
     def _made(cls, contents: Arrays) -> Followed:
-        data: dict[str, Any] = {**from_json_array(contents["words"]), **contents}
-        del data["words"]
+        data = contents | from_json_array(contents.pop("words"))
         if data.pop("format") != cls.FORMAT:
             raise ValueError
-        geometry = Geometry(**{name: data.pop(name) for name in TRIPLES})
+        data["geometry"] = Geometry(**{name: data.pop(name) for name in TRIPLES})
         path = Trajectory(data.pop("time"), data.pop("position"), data.pop("rotation"), data["unit"])
-        poses = Configuration(path.position, path.rotation, data.pop("o"))
+        data["trajectory"] = path
+        data["configurations"] = Configuration(path.position, path.rotation, data.pop("o"))
         data["limits"] = tuple(data["limits"])
         data["singularity_margins"] = SingularityMargins(*data["singularity_margins"])
-        return cls(geometry=geometry, trajectory=path, configurations=poses, **data)
+        return cls(**data)
 
 
 def stretches(
@@ -307,59 +302,56 @@ def follow(
 
     """
     instance("trajectory", trajectory, Trajectory)
-    rule, lc = internal_point, characteristic_length
-    if isinstance(geometry, Geometry):
-        g = geometry
+    rule, lc, design = internal_point, characteristic_length, geometry
+    if isinstance(design, Geometry):
+        g = design
     else:
-        g, home = robot_of(geometry), geometry.configuration if home is None else home
-        limits = getattr(geometry, "permitted_lengths", None) if limits is None else limits
-        lc = geometry.characteristic_length if lc is None else lc
-        study = getattr(geometry, "study", None)
-        region = None if study is None else study.objective.region
-        rule = region.internal_point if rule is None and region is not None else rule
+        g, home = robot_of(design), design.configuration if home is None else home
+        limits = getattr(design, "permitted_lengths", None) if limits is None else limits
+        lc = design.characteristic_length if lc is None else lc
+        if (study := getattr(design, "study", None)) and study.objective.region and rule is None:
+            rule = study.objective.region.internal_point
     rule, lc = "carried" if rule is None else rule, 1.0 if lc is None else lc
     if home is None:
         raise ValueError("home: got none, expected the neutral configuration of a Geometry")
     single(g, home, "home")
     rule = choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
     lc = float(length_of(geometry, home, lc)) if isinstance(lc, str) else as_number("characteristic_length", lc)
-    time, p, q = trajectory.time, trajectory.position, trajectory.rotation
-    bounds, loads = leg_limits(limits), _loads(g, trajectory, *pair("load", load, "force and moment"))
-    bodies = None if masses is None else masses_for_core(masses, trajectory.unit)
-    down = gravity_for_core(gravity, trajectory.unit)
-    several = loads.ndim == 3
-    motion = _core.follow(g, home, time, p, q, rule, bounds, lc, loads[0] if several else loads, bodies, down)
-    poses, margins, own = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
-    c = Configuration(p, q, motion.pop("internal_point"))
-    forces: Floats | None = own if len(own) else None
-    if several:
+    path = trajectory
+    bounds, loads = leg_limits(limits), _loads(path, *pair("load", load, "force and moment"))
+    bodies = None if masses is None else masses_for_core(masses, path.unit)
+    down, first = gravity_for_core(gravity, path.unit), loads[0] if loads.ndim == 3 else loads
+    motion = _core.follow(g, home, path.time, path.position, path.rotation, rule, bounds, lc, first, bodies, down)
+    poses, margins, forces = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
+    c = Configuration(path.position, path.rotation, motion.pop("internal_point"))
+    if loads.ndim == 3:
         v, a = motion["velocity"], motion["acceleration"]
-        others = [inverse_dynamics(g, c, v, a, masses, gravity, load, trajectory.unit).forces for load in loads[1:]]
-        forces = np.stack([own, *others])
+        others = [inverse_dynamics(g, c, v, a, masses, gravity, one, path.unit).forces for one in loads[1:]]
+        forces = np.stack([forces, *others])
     return Followed(
         geometry=g,
-        trajectory=trajectory,
+        trajectory=path,
         configurations=c,
         internal_point=rule,
         characteristic_length=lc,
         singularity_margins=SingularityMargins(*margins),
         limits=bounds,
-        leg_forces=forces,
-        tracked=poses == len(trajectory),
-        tracked_until=float(time[poses - 1]),
-        unit=trajectory.unit,
-        force_unit="N" if masses is not None and trajectory.unit else "",
+        leg_forces=forces if len(forces) else None,
+        tracked=poses == len(path),
+        tracked_until=float(path.time[poses - 1]),
+        unit=path.unit,
+        force_unit="N" if masses is not None and path.unit else "",
         **motion,
     )
 
 
-def _loads(geometry: Geometry, trajectory: Trajectory, force: Any, moment: Any) -> Floats:
+def _loads(path: Trajectory, force: Any, moment: Any) -> Floats:
     """Return moment and force at each pose, shape (n, 6), of k loads (k, n, 6); no rows without a load."""
     if force is None and moment is None:
         return np.empty((0, 6))
     moment, force = (np.zeros(3) if value is None else value for value in (moment, force))
-    poses = Configuration(trajectory.position, trajectory.rotation, trajectory.position)
-    shape, _, load = operands_with(geometry, poses, moment=(moment, 3), force=(force, 3))
+    poses = Configuration(path.position, path.rotation, path.position)
+    shape, _, load = broadcast_flat(poses, moment=(moment, 3), force=(force, 3))
     if shape[-1:] != poses.shape or not 1 <= len(shape) <= 2 or 0 in shape:
         raise ValueError(f"load: got stacks of shape {shape}, expected one load for each of {len(poses)} poses")
     return load.reshape(*shape, 6)

@@ -32,16 +32,13 @@ def from_euler(yaw: Floats, pitch: Floats, roll: Floats) -> Floats:
 
 def to_quaternions(rotations: Floats) -> Floats:
     """Return the quaternions (w, x, y, z) of matrices, shape (n, 4); each the nearer one to that before."""
-    r = rotations
+    r, inverse = rotations, np.swapaxes(rotations, 1, 2)
     trace = np.trace(r, axis1=1, axis2=2)
     # Row k is 4 q_k q: the row of the largest component is accurate.
     rows = np.empty((len(r), 4, 4))
     rows[:, 0, 0] = 1.0 + trace
-    for k in range(3):
-        i, j = (k + 1) % 3, (k + 2) % 3
-        rows[:, k + 1, k + 1] = 1.0 - trace + 2.0 * r[:, k, k]
-        rows[:, 0, k + 1] = rows[:, k + 1, 0] = r[:, j, i] - r[:, i, j]
-        rows[:, i + 1, j + 1] = rows[:, j + 1, i + 1] = r[:, i, j] + r[:, j, i]
+    rows[:, 0, 1:] = rows[:, 1:, 0] = (r - inverse)[:, (2, 0, 1), (1, 2, 0)]
+    rows[:, 1:, 1:] = r + inverse + (1.0 - trace)[:, None, None] * np.eye(3)
     largest = np.argmax(np.diagonal(rows, axis1=1, axis2=2), axis=1)
     out: Floats = rows[np.arange(len(r)), largest]
     out /= np.linalg.norm(out, axis=1, keepdims=True)

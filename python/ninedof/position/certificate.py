@@ -47,20 +47,21 @@ def with_gaps(counts: NDArray[Any], values: NDArray[Any], width: int, gap: float
     return out
 
 
+def each(shape: tuple[int, ...], values: NDArray[Any]) -> Any:
+    """Return values of rows in the shape of their stack; one as Python has it where there is no stack."""
+    return values.reshape(shape)[()] if shape else values.item()
+
+
 def certificate_of(shape: tuple[int, ...], counts: NDArray[Any], data: Any, chunks: list[Any]) -> ModesCertificate:
     """Build the certificate from what the core returns for chunks of rows; `data` says which rows have lengths."""
     proved, undecided, boxes, radius, places, place_radius = (np.concatenate([c[k] for c in chunks]) for k in range(6))
-
-    def each(values: Any) -> Any:
-        return values.reshape(shape)[()] if shape else values.item()
-
     rows = with_gaps(undecided, places, 15, np.nan)
     full = (*shape, rows.shape[1])
     return ModesCertificate(
-        complete=each((undecided == 0) & data),
-        proved=each(proved.astype(np.int64)),
-        undecided=each(undecided.astype(np.int64)),
-        boxes=each(boxes),
+        complete=each(shape, (undecided == 0) & data),
+        proved=each(shape, proved.astype(np.int64)),
+        undecided=each(shape, undecided.astype(np.int64)),
+        boxes=each(shape, boxes),
         radius=with_gaps(counts, radius, 1, np.nan).reshape(*shape, -1 if len(counts) else 0),
         places=Configuration._shaped(full, rows[..., :3], rows[..., 3:12], rows[..., 12:]),
         place_radius=with_gaps(undecided, place_radius, 1, np.nan).reshape(full),

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.position.certificate import certificate_of, with_gaps
+from ninedof.position.certificate import certificate_of, each, with_gaps
 from ninedof.robot.configuration import Configuration, broadcast_flat, operands
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
@@ -182,23 +182,21 @@ def forward_position(
         _core.forward_position(geometry, rows[k : k + CHUNK], flag("certify", certify), workers)
         for k in range(0, max(1, len(rows)), CHUNK)
     ]
-    counts, certain, flat, separation, sides = (np.concatenate([c[k] for c in chunks]) for k in (0, 3, 4, 5, 6))
-    status = [PositionStatus(word or "no_data") for c in chunks for word in c[1]]
-    reason = [OBSTACLES.get(word, "") for c in chunks for word in c[2]]
+    counts, statuses, obstacles, certain, flat, separation, sides = (
+        np.concatenate([c[k] for c in chunks]) for k in range(7)
+    )
+    status = np.array([PositionStatus(word or "no_data") for word in statuses], dtype=object)
+    reason = np.array([OBSTACLES.get(word, "") for word in obstacles], dtype=object)
     shape = lengths.shape[:-1]
     full = (*shape, int(counts.max(initial=0)))
-
-    def each(values: Any) -> Any:
-        return values.reshape(shape)[()] if shape else values.item()
-
     base_side, platform_side = np.moveaxis(with_gaps(counts, sides.astype(np.int64), 2, 0), -1, 0).reshape(2, *full)
     return AssemblyModes._with(
         full,
         with_gaps(counts, flat, 15, np.nan).reshape(-1, 15),
-        status=each(np.array(status, dtype=object)),
-        reason=each(np.array(reason, dtype=object)),
-        count=each(counts.astype(np.int64)),
-        certain=each(certain.astype(bool)),
+        status=each(shape, status),
+        reason=each(shape, reason),
+        count=each(shape, counts.astype(np.int64)),
+        certain=each(shape, certain.astype(bool)),
         separation=with_gaps(counts, separation, 1, np.nan).reshape(full),
         base_side=base_side,
         platform_side=platform_side,

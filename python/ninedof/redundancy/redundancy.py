@@ -269,8 +269,8 @@ def leg_limits(limits: Any, name: str = "limits") -> tuple[Floats, Floats]:
     """Return least and greatest lengths of the nine legs from (low, high), each a number or nine."""
     if limits is None:
         return np.zeros(9), np.full(9, np.inf)
-    ends = dict(zip(("low", "high"), pair(name, limits, "(low, high), each a number or nine"), strict=True))
-    low, high = (one_or_each(f"{name} ({side})", end, 9) for side, end in ends.items())
+    least, greatest = pair(name, limits, "(low, high), each a number or nine")
+    low, high = one_or_each(f"{name} (low)", least, 9), one_or_each(f"{name} (high)", greatest, 9)
     if low.ndim + high.ndim > 2:
         raise ValueError(f"{name}: got shapes {low.shape} and {high.shape}, expected numbers or shape (9,)")
     return low, high

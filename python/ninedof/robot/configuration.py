@@ -200,10 +200,11 @@ def broadcast_flat(
     return shape, _flat(p, q, s), np.concatenate(flat_rest, axis=1)
 
 
-def require_single(name: str, configuration: Any) -> None:
-    """Raise ValueError, naming the argument, unless it is one Configuration and no stack."""
+def require_single(name: str, configuration: Any) -> Configuration:
+    """Return one Configuration; raise ValueError, naming the argument, for a stack and for all else."""
     if (shape := instance(name, configuration, Configuration).shape) != ():
         raise ValueError(f"{name}: got a stack of shape {shape}, expected a single one")
+    return configuration  # type: ignore[no-any-return]
 
 
 def operands(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:
@@ -222,6 +223,4 @@ def operands_with(
 
 def single(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:
     """Return the operands of the core for a single configuration; a stack raises ValueError."""
-    both = operands(geometry, configuration, name)
-    require_single(name, configuration)
-    return both
+    return instance("geometry", geometry, Geometry), require_single(name, configuration)

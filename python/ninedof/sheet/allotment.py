@@ -69,10 +69,10 @@ def tolerances_for(
         raise ValueError(f"weights: got {shown(weights)}, expected one above 0")
     out = []
     for weight, joints in zip(parts, (1.0, 0.0), strict=True):
-        worst = sheet(design, joint_errors=joints, leg_errors=1.0 - joints).accuracy if weight else None
-        if worst is None:
+        if not weight:
             out.append(0.0)
             continue
+        worst = sheet(design, joint_errors=joints, leg_errors=1.0 - joints).accuracy
         errors = {name: getattr(worst, name).value for name in allowed}
         if not all(map(math.isfinite, errors.values())):
             raise ValueError("design: got one with a singular pose, expected one whose errors tolerances bound")

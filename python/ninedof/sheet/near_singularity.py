@@ -8,7 +8,6 @@ from ninedof import _core
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.singularity.singularity import mechanism_of
-from ninedof.support.structs import from_core
 
 MOTIONS = ("shift", "turn", "internal")
 
@@ -36,16 +35,16 @@ class NearSingularity(NamedTuple):
 def near_singularities(g: Geometry, c: Configuration, internal: str) -> dict[str, NearSingularity]:
     """Return the nearest singularity of a stack of poses, `nearest_singularity`, for each of MOTIONS."""
     out = {}
-    for name, nearest in zip(MOTIONS, _core.nearest_singularities(g, c, internal == "held"), strict=True):
-        there = nearest.configuration
-        out[name] = from_core(
-            NearSingularity,
-            nearest,
-            motion=name,
-            mechanism=str(mechanism_of(nearest.mechanism)),
-            direction=tuple(nearest.direction.tolist()),
-            position=tuple(there.position.tolist()),
-            rotation=tuple(map(tuple, there.rotation.tolist())),
-            internal_point=tuple(there.internal_point.tolist()),
+    for name, near in zip(MOTIONS, _core.nearest_singularities(g, c, internal == "held"), strict=True):
+        there = near.configuration
+        out[name] = NearSingularity(
+            name,
+            near.distance,
+            str(mechanism_of(near.mechanism)),
+            near.pose,
+            tuple(near.direction.tolist()),
+            tuple(there.position.tolist()),
+            tuple(map(tuple, there.rotation.tolist())),
+            tuple(there.internal_point.tolist()),
         )
     return out

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number as condition_numbers
-from ninedof.kinematics.kinematics import jacobian
+from ninedof.kinematics.kinematics import jacobian, leg_lengths
 from ninedof.kinematics.velocity import forward_velocity
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -115,12 +115,13 @@ def failure(
         return _core.locked_condition_numbers(g, at, np.array([length]), list(of), 0)
 
     shares = [None] * len(sets) if even is None else (numbers(even) <= bound).mean(axis=0).tolist()
+    home = leg_lengths(g, c[0])
     worst = [extreme(column, np.argmax) for column in numbers(c).T]
     locked = []
     for legs, one, share in zip(sets, worst, shares, strict=True):
         from_home = None
         if even is not None and legs[0] >= 3 and legs[1] < 0:
-            stuck = _at_length(g, even, legs[0], float(_leg(g, c[:1], legs[0])[1][0]))
+            stuck = _at_length(g, even, legs[0], float(home[legs[0]]))
             from_home = float((numbers(stuck, [legs]) <= bound).mean())
         locked.append(_locked(legs, one, healthy.value, share, from_home))
     return Failure(
@@ -160,20 +161,12 @@ def _locked(
     )
 
 
-def _leg(g: Geometry, c: Configuration, leg: int) -> tuple[Floats, Floats, Floats]:
-    """Return the joint of an internal leg, base frame, its length and its vector to O, at each pose."""
-    if leg < 6:
-        joint = c.position + c.rotation @ g.platform_internal[leg - 3]
-    else:
-        joint = np.broadcast_to(g.base_internal[leg - 6], c.position.shape)
-    arm = c.internal_point - joint
-    return joint, np.linalg.norm(arm, axis=-1), arm
-
-
 def _at_length(g: Geometry, c: Configuration, leg: int, length: float) -> Configuration:
     """Return configurations with O moved along an internal leg until it has a length."""
-    joint, now, arm = _leg(g, c, leg)
-    return Configuration(c.position, c.rotation, joint + arm * (length / np.maximum(now, 1e-300))[:, None])
+    joint = c.position + c.rotation @ g.platform_internal[leg - 3] if leg < 6 else g.base_internal[leg - 6]
+    arm = c.internal_point - joint
+    now = np.linalg.norm(arm, axis=-1, keepdims=True)
+    return Configuration(c.position, c.rotation, joint + arm * (length / np.maximum(now, 1e-300)))
 
 
 def _free(g: Geometry, c: Configuration, length: float, forces: Sequence[Floats]) -> tuple[FreeLeg, ...]:
