@@ -486,8 +486,9 @@ def any_admissible(
     threads: int,
     seconds: float,
     resolution: float,
+    certificate: bool,
     progress: _Progress | None = ...,
-) -> tuple[str, list[float], int, int, bool]: ...
+) -> tuple[str, list[float], int, int, bool, bytes]: ...
 def design_certificate(
     question: DesignQuestion,
     pieces: Mapping[str, Any],

@@ -118,21 +118,24 @@ void bind_admissible(py::module_& m) {
       py::arg("undecided"), py::arg("earlier") = py::none(), py::arg("progress") = py::none());
   m.def(
       "any_admissible",
-      [](const DesignQuestion& question, int threads, double seconds, double resolution, const py::object& progress) {
+      [](const DesignQuestion& question, int threads, double seconds, double resolution, bool certificate,
+         const py::object& progress) {
         require_sound_arithmetic();
         const DesignExistence found = interruptible(
             progress,
             [&](const WorkControl& control) {
-              return any_admissible(question, {threads, seconds, resolution}, control);
+              return any_admissible(question, {threads, seconds, resolution, 0.0, certificate}, control);
             },
             [](DesignExistence& one) { return one.interrupted = true; });
+        const bool proved = certificate && found.state == DesignExistence::State::none;
+        const py::bytes file(proved ? design_certificate(question, found.refuted) : "");
         constexpr std::array words{"exists", "none", "undecided"};
         const std::vector<double> design(found.design.begin(), found.design.begin() + std::ssize(question.varied));
         return py::make_tuple(words[static_cast<std::size_t>(found.state)], design, found.looked_at, found.open,
-                              found.interrupted);
+                              found.interrupted, file);
       },
       py::arg("question"), py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("resolution"),
-      py::arg("progress") = py::none());
+      py::arg("certificate"), py::arg("progress") = py::none());
   m.def(
       "design_certificate",
       [](const DesignQuestion& question, const py::dict& pieces,

@@ -22,6 +22,8 @@ class Existence(NamedTuple):
     left: int
     """Boxes that are not decided."""
     interrupted: bool
+    certificate: bytes
+    """Of "none", where it is asked for: a file that ninedof_check replays."""
 
 
 def existence(
@@ -30,11 +32,16 @@ def existence(
     seconds: float = LONGEST,
     resolution: float = 0.0,
     threads: int = 0,
+    certificate: bool = False,
     progress: Progress | None = None,
 ) -> Existence:
     """Say whether any design of the range keeps every limit at every pose."""
-    state, x, designs, left, interrupted = _core.any_admissible(
-        of.for_core(), threads=threads, seconds=min(seconds, LONGEST), resolution=resolution, progress=progress
+    state, x, *rest = _core.any_admissible(
+        of.for_core(),
+        threads=threads,
+        seconds=min(seconds, LONGEST),
+        resolution=resolution,
+        certificate=certificate,
+        progress=progress,
     )
-    design = dict(zip(of.vary, x, strict=True)) if state == EXISTS else None
-    return Existence(state, design, designs, left, interrupted)
+    return Existence(state, dict(zip(of.vary, x, strict=True)) if state == EXISTS else None, *rest)

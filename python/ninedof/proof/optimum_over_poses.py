@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from time import perf_counter
+from typing import Any
 
 from ninedof.design.study import Study
 from ninedof.proof.admissible import DesignRange, design_range
@@ -45,7 +46,7 @@ def prove_over_poses(
     """
     begin, boxes, bound = perf_counter(), 0, 1.0
     where = "over the region" if study.objective.region is not None else "at its poses" if study.objective.poses else ""
-    better, left, interrupted, aim = None, 0, False, condition_number * (1.0 - gap)
+    better, left, interrupted, aim, certificate = None, 0, False, condition_number * (1.0 - gap), b""
     steps = STEPS if len(_free(study)) <= FEW else (*COARSE, *STEPS)
     for one in (*(step for step in steps if step > gap), gap):
         target = condition_number * (1.0 - one)
@@ -53,12 +54,13 @@ def prove_over_poses(
             continue
         phase(progress, f"proving that no design is below {target:.6g}")
         seconds = begin + time_limit - perf_counter()
-        found = existence(range_to_prove(study, target), seconds=max(seconds, 0.0), threads=threads, progress=progress)
+        how: dict[str, Any] = {"seconds": max(seconds, 0.0), "threads": threads, "progress": progress}
+        found = existence(range_to_prove(study, target), certificate=True, **how)
         boxes, left, interrupted = boxes + found.designs, found.left, found.interrupted
         if found.state != NONE:
             better = target if found.state == EXISTS else None
             break
-        bound = target
+        bound, certificate = target, found.certificate
     return OptimumProof(
         lower_bound=bound,
         target=aim,
@@ -69,6 +71,7 @@ def prove_over_poses(
         better=better,
         interrupted=interrupted,
         where=where,
+        certificate=certificate,
     )
 
 

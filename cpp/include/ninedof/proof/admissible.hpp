@@ -52,6 +52,7 @@ struct DesignSettings {
   double seconds = 60.0;  ///< of wall time
   double resolution = 0.0;  ///< boxes are not divided below this part of each range
   double undecided = 0.0;  ///< the search ends where no more of the volume is left
+  bool keep_outside = false;  ///< of any_admissible: the boxes outside, for a certificate
 };
 
 struct DesignSet {
@@ -74,6 +75,7 @@ struct DesignExistence {
   long open = 0;  ///< boxes of designs that are left
   long looked_at = 0;  ///< boxes of designs
   bool interrupted = false;
+  DesignSet refuted;  ///< of `none`, where they are kept: all designs, in boxes outside
 };
 /// Poses are not covered but met: of each box those where designs near it broke a limit. Where a middle breaks none,
 /// its own worst poses join them, and where there are none, the middle is a design that is inside. Of the settings

@@ -27,14 +27,16 @@ struct Unrefuted {
 struct Refutation {
   std::vector<Unrefuted> rests;
   Witnesses found;
+  std::vector<DesignPiece> outside;
   bool inside = false;  ///< the middle
   bool finished = false;
 };
 
 class Existence {
  public:
-  explicit Existence(const DesignQuestion& question)
-      : examiner_(question), dimensions_(question.varied.size()), range_(range_of(question)) {}
+  Existence(const DesignQuestion& question, bool keep_outside)
+      : examiner_(question), dimensions_(question.varied.size()), range_(range_of(question)), keep_(keep_outside) {}
+  const std::vector<Demand>& names() const { return examiner_.names(); }
   Unrefuted whole() const { return {range_, volume_of(range_, dimensions_)}; }
   bool divisible(const DesignBox& box, double resolution) const {
     return is_divisible(box, dimensions_, range_, resolution);
@@ -65,8 +67,11 @@ class Existence {
       }
     }
     out.finished = true;
+    if (outside && keep_) out.outside = examiner_.pieces_of({{one.box, Membership::outside, &known.losses.back()}});
     if (outside || out.inside) return out;
-    for (const Rest& rest : divided(one.box, dimensions_, range_, known).rests)
+    const Divided parts = divided(one.box, dimensions_, range_, known);
+    if (keep_) out.outside = examiner_.pieces_of(parts.decided);
+    for (const Rest& rest : parts.rests)
       out.rests.push_back({rest.box, rest.undecided, away(rest.box, known.losses, one.box), hints});
     return out;
   }
@@ -89,6 +94,7 @@ class Existence {
   Examiner examiner_;
   std::size_t dimensions_;
   DesignBox range_;
+  bool keep_;
 };
 
 }  // namespace
@@ -99,8 +105,9 @@ DesignExistence any_admissible(const DesignQuestion& question, const DesignSetti
   question.validate();
   const TimeLimit limit(settings.seconds, control.stop);
   const auto stopped = [stop = limit.stop()] { return stop.stop_requested(); };
-  const Existence search(question);
+  const Existence search(question, settings.keep_outside);
   DesignExistence out;
+  out.refuted.demands = search.names();
   Witnesses witnesses;
   // The nearest to a design that keeps all comes next.
   const auto later = [](const Unrefuted& a, const Unrefuted& b) {
@@ -134,6 +141,7 @@ DesignExistence any_admissible(const DesignQuestion& question, const DesignSetti
         return out;
       }
       witnesses.insert(witnesses.end(), found[n].found.begin(), found[n].found.end());
+      out.refuted.pieces.insert(out.refuted.pieces.end(), found[n].outside.begin(), found[n].outside.end());
       left -= now[n].volume;
       for (Unrefuted& rest : found[n].rests) {
         left += rest.volume;
@@ -149,7 +157,10 @@ DesignExistence any_admissible(const DesignQuestion& question, const DesignSetti
   }
   out.interrupted = control.stop.stop_requested();
   out.open += std::ssize(waiting);
-  if (out.open == 0) out.state = DesignExistence::State::none;
+  if (out.open > 0) return out;
+  out.state = DesignExistence::State::none;
+  out.refuted.outside = 1.0;
+  out.refuted.undecided = 0.0;
   return out;
 }
 
