@@ -149,6 +149,10 @@ void bind_admissible(py::module_& m) {
       },
       py::arg("question"), py::arg("pieces"), py::arg("demands"), py::arg("shares"));
   m.def(
+      "machine_certificate",
+      [](const DesignQuestion& question, double slack) { return py::bytes(machine_certificate(question, slack)); },
+      py::arg("question"), py::kw_only(), py::arg("slack"));
+  m.def(
       "room_around",
       [](const DesignQuestion& question, const std::vector<double>& design, const std::vector<double>& proportions,
          double seconds) {

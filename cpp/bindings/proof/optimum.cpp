@@ -49,7 +49,7 @@ void bind_optimum(py::module_& m) {
       .def_readonly("boxes", &checker::Verdict::leaves)
       .def_readonly("recut", &checker::Verdict::recut)
       .def_property_readonly("study", [](const checker::Verdict& v) { return py::tuple(py::cast(v.study)); });
-  m.def("check_certificate", [](const std::string& certificate, const py::object& progress) {
+  m.def("check_certificate", [](std::string_view certificate, const py::object& progress) {
     return interruptible(progress, [&](const Control& control) {
       return checker::check(certificate, [&](std::size_t done, std::size_t total) {
         if (control.stop.stop_requested()) throw Stopped{};

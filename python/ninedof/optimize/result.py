@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
@@ -24,12 +26,14 @@ from ninedof.optimize.reserve import Reserve
 from ninedof.optimize.tables import candidates_table, internal_point_words, summary_lines
 from ninedof.optimize.words import agreement_sentence
 from ninedof.proof.machine import machine_digest
+from ninedof.proof.machine_file import machine_file
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.robot.configuration import Configuration
 from ninedof.sheet.sheet import Sheet, sheet
-from ninedof.support.arguments import choice, instance, items
+from ninedof.support.arguments import choice, instance, items, path_argument
 from ninedof.support.arrays import Floats
+from ninedof.support.files import write_whole
 from ninedof.support.structs import entries_of
 from ninedof.tables.html import notebook
 
@@ -270,6 +274,31 @@ class Result:
 
         """
         return certified(self, options)
+
+    def save_certificate(self, certificate: MachineCertificate, path: str | os.PathLike[str]) -> Path:
+        """Write a file that `check_certificate` and the program ninedof_check replay: this machine, and its limits.
+
+        Parameters
+        ----------
+        certificate : MachineCertificate
+            Of this design, as it is drawn: without tolerances, and O shifted or held in a region.
+        path : path
+
+        Returns
+        -------
+        Path
+            Of the file. It has every limit with the slack of the certificate, and the bound of the condition number.
+
+        Raises
+        ------
+        ValueError
+            If a limit is not proved, for a certificate of another machine, or where the file cannot say what is proved.
+
+        """
+        if not self.is_certified_by(certificate):
+            raise ValueError("certificate: got one of another machine, expected one of this design")
+        data = machine_file(self.study, self.variables or {}, machine_of(self)[2], certificate)
+        return write_whole(path_argument("path", path), data)
 
     def largest_tolerance(self, **options: Any) -> Tolerances:
         """Return the largest tolerances of manufacture with which `certify` proves all limits.

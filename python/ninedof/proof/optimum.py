@@ -149,7 +149,7 @@ class CertificateCheck:
 
 
 def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None = None) -> CertificateCheck:
-    """Check a certificate of an optimum or of a set of designs, without trusting the search that wrote it.
+    """Check a certificate of an optimum, a machine or a set of designs, without trusting the search that wrote it.
 
     By the code of the program ninedof_check, which shares none with the search: numbers, formulas and bounds are its
     own. The certificate of the paper's study takes some eight seconds.
@@ -157,7 +157,7 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
     Parameters
     ----------
     path : path
-        As `OptimumProof.save` and `AdmissibleSet.save_certificate` write it.
+        As `OptimumProof.save`, `Result.save_certificate` and `AdmissibleSet.save_certificate` write it.
     progress : callable, optional
         Called as progress(bytes or boxes of designs read, all of them, None).
 

@@ -43,7 +43,8 @@ class OptimumProof:
     where: str = ""
     """Where the condition number is the worst one: "over the region", "at its poses"; "" for the neutral pose."""
     certificate: bytes = field(default=b"", repr=False, compare=False)
-    """A file that `ninedof check` and the program ninedof_check read; empty if the search did not come to its end."""
+    """A file that `ninedof check` and ninedof_check read; empty if nothing is proved, or if the search did not
+    come to its end, of a class of plates at the neutral pose."""
 
     @property
     def words(self) -> str:

@@ -6,7 +6,9 @@
 #include <random>
 
 #include "ninedof/conditioning/conditioning.hpp"
+#include "ninedof/math/error.hpp"
 #include "ninedof/proof/admissible.hpp"
+#include "ninedof/proof/checker.hpp"
 #include "support/support.hpp"
 
 using namespace ninedof;
@@ -49,6 +51,31 @@ TEST_SUITE("existence") {
     CHECK(none.state == DesignExistence::State::none);
     CHECK(none.open == 0);
     CHECK(none.looked_at > 1);
+  }
+
+  TEST_CASE("What excludes every design is a file that the checker replays") {
+    DesignSettings settings;
+    settings.keep_outside = true;
+    const DesignQuestion question = plates(0.99 * least_of_grid());
+    const DesignExistence none = any_admissible(question, settings);
+    REQUIRE(none.state == DesignExistence::State::none);
+    const checker::Verdict verdict = checker::check(design_certificate(question, none.refuted));
+    CHECK(verdict.proved);
+    CHECK(verdict.words.starts_with("no design of this study has a condition number below "));
+    CHECK(any_admissible(question, {}).refuted.pieces.empty());
+  }
+
+  TEST_CASE("One design is a file too, and one that breaks its limit is refused") {
+    DesignQuestion machine = plates(1.001 * index_of(6.0, 3.0));
+    machine.varied = {};
+    machine.low = machine.high = {};
+    const checker::Verdict verdict = checker::check(machine_certificate(machine, 0.0));
+    CHECK(verdict.proved);
+    CHECK(verdict.words == "the machine keeps every limit at every pose");
+    machine.condition = 0.999 * index_of(6.0, 3.0);
+    CHECK_FALSE(checker::check(machine_certificate(machine, 0.0)).proved);
+    CHECK(checker::check(machine_certificate(machine, 0.01)).proved == false);  // the slack is not of this bound
+    CHECK_THROWS_AS(machine_certificate(plates(3.0), 0.0), InvalidArgument);
   }
 
   TEST_CASE("Without time, and where boxes may not be divided, it is undecided") {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <sstream>
 
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/limits/numbers.hpp"
@@ -196,6 +197,12 @@ Configuration drawn_pose(const DesignQuestion& q, const DrawnDesign& design, con
   return region.configuration(x, listed.front());
 }
 
+sets::DesignsFile designs_of(const std::string& bytes) {
+  std::istringstream in(bytes);
+  checker::Stream file(in);
+  return sets::read_designs(file);
+}
+
 std::string resealed(const std::string& file, const std::string& from, const std::string& to) {
   std::string body = file.substr(file.find("family"));
   const std::size_t at = body.find(from);
@@ -220,7 +227,7 @@ TEST_SUITE("replay") {
           nothing.pieces.resize(1);
           std::copy(q.low.begin(), q.low.end(), nothing.pieces[0].low.begin());
           std::copy(q.high.begin(), q.high.end(), nothing.pieces[0].high.begin());
-          const sets::DesignsFile file = sets::read_designs(design_certificate(q, nothing));
+          const sets::DesignsFile file = designs_of(design_certificate(q, nothing));
           std::vector<std::string> unknown;
           const std::vector<Want> wants = sets::wants_of(file, unknown);
           REQUIRE(unknown.empty());
@@ -330,7 +337,7 @@ TEST_SUITE("replay") {
         const DesignQuestion q = question(kind, Region::Shape::box, false, half);
         DesignSet nothing;
         nothing.pieces.resize(1);
-        const sets::DesignsFile file = sets::read_designs(design_certificate(q, nothing));
+        const sets::DesignsFile file = designs_of(design_certificate(q, nothing));
         sets::Patch patch = sets::all_poses(file).front();
         for (std::size_t k = 0; k < 6; ++k) {
           const double middle = patch.low[k] + unit(random) * (patch.high[k] - patch.low[k]);
@@ -373,7 +380,7 @@ TEST_SUITE("replay") {
     q.problem.tool = {};
     DesignSet nothing;
     nothing.pieces.resize(1);
-    const sets::DesignsFile file = sets::read_designs(design_certificate(q, nothing));
+    const sets::DesignsFile file = designs_of(design_certificate(q, nothing));
     sets::Patch lifted = sets::all_poses(file).front();
     lifted.low = lifted.high = {0.0, 0.0, 0.06, 0.0, 0.0, 0.0};
     const Want upper{Want::About::determinant, 0, 2};

@@ -47,6 +47,16 @@ def test_a_run_is_proved_and_its_certificate_comes_back(run, capsys):
     assert certificate == nd.load_certificate(run / "certify.json")
 
 
+def test_a_machine_is_written_for_the_checker(run, tmp_path, capsys):
+    file = tmp_path / "machine.certificate"
+    assert status(run, "--certificate", file) == 0
+    assert f"certificate {file}" in " ".join(capsys.readouterr().out.split()).replace("- ", "-")
+    assert main_status("check", file) == 0
+    assert "Proved: the machine keeps every limit at every pose" in capsys.readouterr().out
+    assert status(run, "--certificate", file, "--tolerance", "0.01") == 2
+    assert "tolerance: got 0.01, expected 0 for a file that is replayed" in capsys.readouterr().err
+
+
 def test_a_run_may_be_called_as_its_certificate(run, tmp_path, capsys):
     named = tmp_path / "certify-1"
     shutil.copytree(run, named)

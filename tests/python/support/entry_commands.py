@@ -37,7 +37,10 @@ LINES = {
         "{design} --criterion condition_number --legs 0.5,9 --position 0,0,4 --rotation-deg 0,0,0 "
         "--internal-point 0,0,2 --lc 1"
     ],
-    "certify": ["{run} --condition 50 --gap 0.9 --time 1 --tolerance 0.01 --slack 1e-3 --threads 1"],
+    "certify": [
+        "{run} --condition 50 --gap 0.9 --time 1 --tolerance 0.01 --slack 1e-3 --threads 1",
+        "{run} --gap 0.9 --tolerance 0 --certificate {page}",
+    ],
     "check": ["{certificate}"],
     "export": ["{design} --to mjcf --out {xml} --leg-mass 1 --platform-mass 1 --gravity 1 --unit mm"],
     "failure": ["{design} --condition 10 --load 0,0,0,0,0,1 --no-pairs"],

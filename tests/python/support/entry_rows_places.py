@@ -25,6 +25,9 @@ at("check_certificate", words={"path": ("certificate",)})(lambda: {"path": it.pr
 at("AdmissibleSet.save_certificate", lambda **a: it.admissible_set().save_certificate(**a))(
     lambda: {"path": it.fresh()}
 )
+at("Result.save_certificate", lambda **a: it.region_result().save_certificate(**a))(
+    lambda: {"certificate": it.certificate(), "path": it.fresh()}
+)
 at("OptimumProof.save", lambda **a: it.proof().save(**a))(lambda: {"path": it.fresh()})
 at("report", few=3)(lambda: {"run": it.result(), "path": it.fresh(".html")})
 at("export", words={"platform_mass": ("options",)})(

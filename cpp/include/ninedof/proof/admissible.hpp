@@ -27,7 +27,8 @@ struct DesignQuestion {
   double condition = std::numeric_limits<double>::infinity();  ///< greatest condition number besides those of the study
 
   /// Throws InvalidArgument naming what is wrong, or what has no bounds over boxes of designs.
-  void validate() const;
+  /// `machine`: nothing varies.
+  void validate(bool machine = false) const;
 };
 
 /// A number that a limit is about: what a part breaks.
@@ -85,6 +86,9 @@ DesignExistence any_admissible(const DesignQuestion& question, const DesignSetti
 
 /// A file that ninedof_check replays: the question, and the pieces with their reasons (docs/certificate.md).
 std::string design_certificate(const DesignQuestion& question, const DesignSet& set);
+
+/// The file of a machine that keeps its limits, up to a slack as in `limits_over_poses`: a set of one design, `at`, inside.
+std::string machine_certificate(DesignQuestion question, double slack);
 
 /// A box around a design, all of which is inside.
 struct DesignRoom {

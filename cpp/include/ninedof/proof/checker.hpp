@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <istream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ninedof::checker {
@@ -22,7 +24,9 @@ struct Verdict {
 /// it is a std::exception: then the certificate counts as refused.
 using Reading = std::function<void(std::size_t done, std::size_t total)>;
 
-/// `certificate`: the bytes of the file.
-Verdict check(const std::string& certificate, const Reading& reading = {});
+/// `certificate`: the file, read once in pieces. Of a tree nothing is kept, of a set its boxes.
+Verdict check(std::istream& certificate, const Reading& reading = {});
+/// The bytes of the file.
+Verdict check(std::string_view certificate, const Reading& reading = {});
 
 }  // namespace ninedof::checker

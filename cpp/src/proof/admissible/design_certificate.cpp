@@ -148,4 +148,20 @@ std::string design_certificate(const DesignQuestion& question, const DesignSet& 
   return admissible::DesignLines(question, set).written();
 }
 
+std::string machine_certificate(DesignQuestion question, double slack) {
+  question.validate(true);
+  const auto loosen = [slack](double& high) { high *= 1.0 + slack; };
+  for (Limit& limit : question.problem.limits) {
+    limit.low *= 1.0 - slack;
+    loosen(limit.high);
+  }
+  loosen(question.problem.objective.condition_limit);
+  loosen(question.problem.objective.neutral_condition_limit);
+  DesignSet set;
+  set.pieces = {{{}, {}, Membership::inside, -1, {}, {}}};
+  set.inside = 1.0;
+  set.undecided = 0.0;
+  return design_certificate(question, set);
+}
+
 }  // namespace ninedof

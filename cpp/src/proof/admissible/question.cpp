@@ -10,13 +10,13 @@
 
 namespace ninedof {
 
-void DesignQuestion::validate() const {
+void DesignQuestion::validate(bool machine) const {
   problem.validate();
   const auto& variables = design_family(problem.family).variables();
   if (at.size() != variables.size())
     throw InvalidArgument("at", std::to_string(at.size()) + " values", std::to_string(variables.size()));
-  if (varied.empty() || varied.size() > most_varied)
-    throw InvalidArgument("vary", std::to_string(varied.size()) + " variables", "one to six");
+  if (varied.empty() != machine || varied.size() > most_varied)
+    throw InvalidArgument("vary", std::to_string(varied.size()) + " variables", machine ? "none" : "one to six");
   if (low.size() != varied.size() || high.size() != varied.size())
     throw InvalidArgument("low, high", "other sizes", "an end for each variable that varies");
   for (std::size_t k = 0; k < varied.size(); ++k) {

@@ -4,20 +4,18 @@ namespace ninedof::checker {
 
 namespace {
 
-constexpr const char* kind = "ninedof certificate 1";
-
 std::string written(const Bound& b) {
   return b.name + " " + hexadecimal(b.range.a) + " " + hexadecimal(b.range.b) + "\n";
 }
 
-/// What follows the checksum, as docs/certificate.md has it.
+/// The lines that follow the checksum, as docs/certificate.md has them.
 std::string written(const Certificate& c) {
   std::string out = "family " + c.family + "\ntarget " + hexadecimal(c.target) + "\ncharacteristic_length " +
                     hexadecimal(c.length) + "\n";
   for (const Bound& b : c.variables) out += "variable " + written(b);
   for (const Bound& b : c.limits) out += "limit " + written(b);
   for (const std::string& limit : c.left_out) out += "left_out " + limit + "\n";
-  return out + "tree " + digits(c.tree.size()) + "\n" + c.tree;
+  return out + "tree " + digits(c.tree) + "\n";
 }
 
 /// NAME LOW HIGH.
@@ -41,30 +39,26 @@ std::string limit(const std::string& text) {
 
 }  // namespace
 
-Certificate read(const std::string& bytes) {
-  if (!bytes.starts_with(kind)) refuse("this is not a certificate of version 1");
-  const std::size_t lines = bytes.find("\ntree ");
-  if (lines == std::string::npos) refuse("the file has no tree");
-  const std::string body = unsealed(kind, bytes, lines);
+Certificate read(Stream& file) {
   Certificate out;
-  std::size_t at = 0;
-  for (std::string key; key != "tree";) {
-    const std::size_t end = body.find('\n', at), space = body.find(' ', at);
-    if (end == std::string::npos) refuse("the file ends before its tree");
-    if (space > end) refuse(quoted(body.substr(at, end - at)) + " means nothing");
-    key = body.substr(at, space - at);
-    const std::string value = body.substr(space + 1, end - space - 1);
-    at = end + 1;
+  std::string lines, text, key;
+  while (key != "tree") {
+    if (!file.line(text)) refuse("the file ends before its tree");
+    lines += text + "\n";
+    const std::size_t space = text.find(' ');
+    if (space == std::string::npos) refuse(quoted(text) + " means nothing");
+    key = text.substr(0, space);
+    const std::string value = text.substr(space + 1);
     if (key == "family") out.family = value;
     else if (key == "target") out.target = number(value);
     else if (key == "characteristic_length") out.length = number(value);
     else if (key == "variable") out.variables.push_back(bound(value));
     else if (key == "limit") out.limits.push_back(bound(value));
     else if (key == "left_out") out.left_out.push_back(limit(value));
-    else if (key != "tree") refuse(quoted(key) + " means nothing");
+    else if (key == "tree") std::from_chars(value.data(), value.data() + value.size(), out.tree);
+    else refuse(quoted(key) + " means nothing");
   }
-  out.tree = body.substr(at);
-  if (body != written(out))
+  if (lines != written(out))
     refuse("its lines are not written as the search writes them: in order, numbers in one spelling");
   return out;
 }

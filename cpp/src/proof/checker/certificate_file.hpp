@@ -19,11 +19,13 @@ struct Certificate {
   double target = 0.0, length = 0.0;
   std::vector<Bound> variables, limits;
   std::vector<std::string> left_out;  ///< limits of the study that the proof does without
-  std::string tree;
+  std::size_t tree = 0;             ///< bytes that follow the lines
 };
 
 /// Accepts one spelling of each certificate: that in which its lines are written anew from what was read.
-Certificate read(const std::string& bytes);
+Certificate read(Stream& file);
+
+constexpr const char* kind_of_optimum = "ninedof certificate 1";
 
 /// The study for people, one line each: what was read is what is checked and what is printed.
 std::vector<std::string> study_of(const Certificate& c);

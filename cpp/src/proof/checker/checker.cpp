@@ -3,8 +3,8 @@
 #include <bit>
 #include <cfenv>
 #include <cstdint>
-#include <cstdio>
 #include <optional>
+#include <streambuf>
 #include <stdexcept>
 
 #include "proof/checker/blocks.hpp"
@@ -23,8 +23,8 @@ std::pair<Box, Box> halves(const Box& box, std::size_t k, int dimension) {
 
 class Walk {
  public:
-  Walk(const Domain& domain, const std::string& tree, Verdict& verdict, const Reading& reading)
-      : d_(domain), tree_(tree), verdict_(verdict), reading_(reading) {}
+  Walk(const Domain& domain, std::size_t tree, Stream& file, Verdict& verdict, const Reading& reading)
+      : d_(domain), tree_(tree), file_(file), verdict_(verdict), reading_(reading) {}
 
   void run() {
     std::vector<Box> ahead{d_.box};
@@ -40,13 +40,13 @@ class Walk {
       }
       leaf(box, code);
     }
-    if (at_ != tree_.size()) refuse("the tree goes on after its last box");
+    if (at_ != tree_) refuse("the tree goes on after its last box");
   }
 
  private:
   int byte() {
-    if (at_ == tree_.size()) refuse("the tree ends too early");
-    return static_cast<unsigned char>(tree_[at_++]);
+    if (at_++ == tree_) refuse("the tree ends too early");
+    return file_.byte();
   }
   float weight() {
     std::uint32_t bits = 0;
@@ -67,7 +67,7 @@ class Walk {
       refuse("byte " + std::to_string(code) + " of the tree means nothing");
     }
     constexpr long between_reports = 256;
-    if (reading_ && verdict_.leaves % between_reports == 0) reading_(at_, tree_.size());
+    if (reading_ && verdict_.leaves % between_reports == 0) reading_(at_, tree_);
     ++verdict_.leaves;
     if (!closed(box, by, 0)) refuse("a box is not proved to hold no design below the target");
   }
@@ -100,53 +100,57 @@ class Walk {
   }
 
   const Domain& d_;
-  const std::string& tree_;
+  std::size_t tree_;
+  Stream& file_;
   Verdict& verdict_;
   const Reading& reading_;
   std::size_t at_ = 0;
 };
 
-/// Fifteen digits, never more than x > 1: a double has at most 52 binary places, which 52 decimal ones hold exactly.
-std::string rounded_down(double x) {
-  std::array<char, 400> exact{};
-  std::snprintf(exact.data(), exact.size(), "%.52f", x);
-  std::string text(exact.data());
-  const std::size_t point = text.find('.');
-  text.resize(point + 1 + (point < 15 ? 15 - point : 0));
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
 }  // namespace
 
-Verdict check(const std::string& certificate, const Reading& reading) {
+Verdict check(std::istream& certificate, const Reading& reading) {
   Verdict out;
+  std::optional<Stream> file;
   try {
     volatile double least = std::numeric_limits<double>::min(), half = 0.5;
     if (std::fegetround() != FE_TONEAREST || !(least * half > 0.0))
       refuse("numbers are not rounded as they must be here: to nearest, with gradual underflow");
-    if (certificate.starts_with(sets::kind_of_designs)) {
-      sets::replay(sets::read_designs(certificate), reading, out);
+    const std::string kind = file.emplace(certificate).kind();
+    if (kind == sets::kind_of_designs) {
+      sets::replay(sets::read_designs(*file), reading, out);
       return out;
     }
-    const Certificate c = read(certificate);
+    if (kind != kind_of_optimum) refuse(quoted(kind) + " is no kind of certificate");
+    const Certificate c = read(*file);
     const Domain d = domain_of(c);
     if (empty(d.box)) {
-      if (c.tree != "\x10") refuse("the domain holds no design, and the tree is more than one box");
+      if (c.tree != 1 || file->byte() != 16) refuse("the domain holds no design, and the tree is more than one box");
       out.leaves = 1;
     } else {
       for (const Range& r : d.box)
         if (!r.sound() || !(r.a > 0.0) || !(r.b < inf)) refuse("the domain has no bounds");
-      Walk(d, c.tree, out, reading).run();
+      Walk(d, c.tree, *file, out, reading).run();
     }
+    file->finish();
     out.study = study_of(c);
     out.words = "no design of this study has a condition number below " + rounded_down(c.target);
     out.proved = true;
   } catch (const std::exception& error) {
-    out.words = error.what();
+    out.words = file && !file->intact() ? damaged : error.what();  // a byte that was changed may mean anything
   }
   return out;
+}
+
+Verdict check(std::string_view certificate, const Reading& reading) {
+  struct Bytes : std::streambuf {
+    explicit Bytes(std::string_view all) {
+      char* const first = const_cast<char*>(all.data());  // NOLINT: nobody writes to a buffer that is read
+      setg(first, first, first + all.size());
+    }
+  } bytes(certificate);
+  std::istream file(&bytes);
+  return check(file, reading);
 }
 
 }  // namespace ninedof::checker

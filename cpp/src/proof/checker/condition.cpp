@@ -38,16 +38,27 @@ Square<Linear, 3> parallel_sum(const Square<Linear, 3>& h, const Square<Linear, 
   return out;
 }
 
+using Row = std::array<Linear, six>;
+
+/// A row for the columns of a basis.
+Row in_basis(const Row& row, const Square<double, six>& basis) {
+  Row out;
+  for (std::size_t i = 0; i < six; ++i)
+    for (std::size_t j = 0; j < six; ++j)
+      if (basis[j][i] != 0.0) out[i] = out[i] + basis[j][i] * row[j];
+  return out;
+}
+
 /// The squares of the rates of all nine legs for the twist t = (l_c w, v) of the platform, O free: t^T S t. The singular
-/// values of the map from rates to twists are the inverse roots of the eigenvalues of S.
-Square<Linear, six> stiffness(const Mount& m, const Stand& at, double length) {
+/// values of the map from rates to twists are the inverse roots of the eigenvalues of S. Here B^T S B of a basis B.
+Square<Linear, six> stiffness(const Mount& m, const Stand& at, double length, const Square<double, six>& basis) {
   const Linear over = inverse(length);
   Square<Linear, six> out;
   Square<Linear, 3> upper, lower;
   for (int leg = 0; leg < 3; ++leg) {
     const LegLine l = leg_line(m, at, leg);
     const Arrow e = unit(l.along()), moment = over * cross(l.to - at.p, e);
-    const std::array row{moment.x, moment.y, moment.z, e.x, e.y, e.z};
+    const Row row = in_basis({moment.x, moment.y, moment.z, e.x, e.y, e.z}, basis);
     for (std::size_t i = 0; i < six; ++i)
       for (std::size_t j = 0; j <= i; ++j) out[i][j] = out[i][j] + row[i] * row[j];
     add_outer(unit(leg_line(m, at, 3 + leg).along()), upper);
@@ -55,8 +66,9 @@ Square<Linear, six> stiffness(const Mount& m, const Stand& at, double length) {
   }
   // The platform's point at O moves by w x y + v.
   const Arrow y = over * (at.s - at.p);
-  const std::array<std::array<Linear, six>, 3> k{
-      {{0.0, y.z, -y.y, 1.0, 0.0, 0.0}, {-y.z, 0.0, y.x, 0.0, 1.0, 0.0}, {y.y, -y.x, 0.0, 0.0, 0.0, 1.0}}};
+  const std::array<Row, 3> k{in_basis({0.0, y.z, -y.y, 1.0, 0.0, 0.0}, basis),
+                             in_basis({-y.z, 0.0, y.x, 0.0, 1.0, 0.0}, basis),
+                             in_basis({y.y, -y.x, 0.0, 0.0, 0.0, 1.0}, basis)};
   const Square<Linear, 3> w = parallel_sum(upper, lower);
   for (std::size_t j = 0; j < six; ++j) {
     std::array<Linear, 3> column;
@@ -87,14 +99,6 @@ void diagonalize(Square<double, six>& s, Square<double, six>& v) {
         for (std::size_t k = 0; k < six; ++k) turn(s[p][k], s[q][k]);
         for (auto& row : v) turn(row[p], row[q]);
       }
-}
-
-/// x^T S x.
-Linear form_of(const Square<Linear, six>& s, const Vector6& x) {
-  Linear out = 0.0;
-  for (std::size_t i = 0; i < six; ++i)
-    for (std::size_t j = 0; j <= i; ++j) out = out + ((i == j ? 1.0 : 2.0) * x[i] * x[j]) * s[i][j];
-  return out;
 }
 
 /// Cholesky's decomposition runs to its end although more than its rounding was taken from the diagonal.
@@ -144,37 +148,36 @@ bool positive_everywhere(const Square<Linear, six>& a) {
 
 }  // namespace
 
-/// kappa <= K where mu - S and K^2 S - mu are positive definite for some mu, which may change along the box.
+/// kappa <= K where mu - S and K^2 S - mu are positive definite for some mu, which may change along the box. They are seen
+/// in the eigenvectors of the middle, each as long as makes S nearly one: there the errors of soft directions are small.
 int condition_within(const Mount& m, const Stand& at, double length, double most) {
-  const Square<Linear, six> s = stiffness(m, at, length);
-  Square<double, six> middle{}, vectors{};
+  Square<double, six> middle{}, basis{};
+  for (std::size_t i = 0; i < six; ++i) basis[i][i] = 1.0;
+  const Square<Linear, six> as_it_is = stiffness(m, at, length, basis);
   for (std::size_t i = 0; i < six; ++i)
-    for (std::size_t j = 0; j <= i; ++j) middle[i][j] = middle[j][i] = s[i][j].c;
-  diagonalize(middle, vectors);
+    for (std::size_t j = 0; j <= i; ++j) middle[i][j] = middle[j][i] = as_it_is[i][j].c;
+  diagonalize(middle, basis);
   std::size_t first = 0, last = 0;
-  for (std::size_t i = 1; i < six; ++i) {
+  for (std::size_t i = 0; i < six; ++i) {
+    if (!(middle[i][i] > 0.0)) return 0;
     if (middle[i][i] < middle[first][first]) first = i;
     if (middle[i][i] > middle[last][last]) last = i;
+    for (auto& row : basis) row[i] /= std::sqrt(middle[i][i]);
   }
-  Vector6 small{}, large{};
-  for (std::size_t i = 0; i < six; ++i) {
-    small[i] = vectors[i][first];
-    large[i] = vectors[i][last];
-  }
-  const auto squares = [](const Vector6& x) {
-    Linear sum = 0.0;
-    for (const double one : x) sum = sum + Linear(one) * one;
-    return sum;
-  };
-  const Linear k2 = Linear(most) * most, least = form_of(s, small), greatest = form_of(s, large);
-  if (upper_end(k2 * least * squares(large) - greatest * squares(small)) < 0.0) return -1;
-  Linear mu = 0.5 * (greatest + k2 * least);
+  const Square<Linear, six> s = stiffness(m, at, length, basis);
+  Square<Linear, six> one;  // B^T B
+  for (std::size_t i = 0; i < six; ++i)
+    for (std::size_t j = 0; j <= i; ++j)
+      for (const auto& row : basis) one[i][j] = one[i][j] + Linear(row[i]) * row[j];
+  const Linear k2 = Linear(most) * most, &least = s[first][first], &greatest = s[last][last];
+  if (upper_end(k2 * least * one[last][last] - greatest * one[first][first]) < 0.0) return -1;
+  Linear mu = 0.5 * (middle[last][last] * greatest + k2 * (middle[first][first] * least));
   mu.r = 0.0;
   Square<Linear, six> below, above;
   for (std::size_t i = 0; i < six; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
-      below[i][j] = (i == j ? mu : Linear(0.0)) - s[i][j];
-      above[i][j] = k2 * s[i][j] - (i == j ? mu : Linear(0.0));
+      below[i][j] = mu * one[i][j] - s[i][j];
+      above[i][j] = k2 * s[i][j] - mu * one[i][j];
     }
   return positive_everywhere(below) && positive_everywhere(above) ? 1 : 0;
 }

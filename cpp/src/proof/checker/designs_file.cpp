@@ -135,7 +135,7 @@ void add(const std::string& key, LineWords& line, DesignsFile& out) {
     const Range& x = out.variables.back().range;
     if (!std::isfinite(x.a) || !std::isfinite(x.b)) refuse("a variable has no bounds");
     if (x.a < x.b) out.varied.push_back(out.variables.size() - 1);
-    if (out.varied.size() > most_varied_symbols) refuse("more than four variables vary");
+    if (out.varied.size() > most_varied_symbols) refuse("more than six variables vary");
   } else if (key == "tool") out.tool = line.reals<6>();
   else if (key == "characteristic_length") out.length = line.real();
   else if (key == "region") {
@@ -161,7 +161,6 @@ void validate(const DesignsFile& file) {
   if (file.variables.size() != names.size()) refuse("the variables are not those of the family");
   for (std::size_t k = 0; k < names.size(); ++k)
     if (file.variables[k].name != names[k]) refuse("variable " + names[k] + " is missing");
-  if (file.varied.empty()) refuse("no variable varies");
   if (!(file.length > 0.0)) refuse("the characteristic length is not positive");
   const RegionLine& region = file.region;
   bool known = region.corners.empty() == (region.shape != "path") && region.corners.size() != 1;
@@ -186,15 +185,10 @@ std::string plain(const Triple& x) {
 
 }  // namespace
 
-DesignsFile read_designs(const std::string& bytes) {
-  const std::string body = unsealed(kind_of_designs, bytes, bytes.size());
+DesignsFile read_designs(Stream& file) {
   DesignsFile out;
   std::size_t place = 0, last = kinds.size();  // the kind that comes next, and the one that was last
-  for (std::size_t at = 0; at < body.size();) {
-    const std::size_t end = body.find('\n', at);
-    if (end == std::string::npos) refuse("the last line has no end");
-    const std::string text = body.substr(at, end - at);
-    at = end + 1;
+  for (std::string text; file.line(text);) {
     LineWords line(text);
     const std::string key = line.word();
     const std::size_t before = place;
@@ -207,6 +201,7 @@ DesignsFile read_designs(const std::string& bytes) {
     add(key, line, out);
     if (!line.done()) refuse(quoted(text) + " goes on after its end");
   }
+  file.finish();
   validate(out);
   return out;
 }

@@ -65,7 +65,7 @@ struct DesignsFile {
 constexpr const char* kind_of_designs = "ninedof certificate of designs 1";
 
 /// Accepts one spelling of each certificate, as `read` does.
-DesignsFile read_designs(const std::string& bytes);
+DesignsFile read_designs(Stream& file);
 
 /// The question for people.
 std::vector<std::string> question_of(const DesignsFile& file);

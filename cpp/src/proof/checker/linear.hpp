@@ -8,8 +8,8 @@
 
 namespace ninedof::checker {
 
-/// Six symbols of a pose, then four of a design.
-constexpr std::size_t pose_symbols = 6, most_varied_symbols = 4, symbols = pose_symbols + most_varied_symbols;
+/// Six symbols of a pose, then six of a design.
+constexpr std::size_t pose_symbols = 6, most_varied_symbols = 6, symbols = pose_symbols + most_varied_symbols;
 
 struct Linear {
   double c = 0.0, r = 0.0;

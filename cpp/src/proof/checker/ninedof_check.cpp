@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 
 #include "ninedof/proof/checker.hpp"
 
@@ -13,12 +12,12 @@ int main(int count, char** words) {
     return 2;
   }
   std::ifstream file(words[1], std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  file.peek();
   if (!file) {
     std::fprintf(stderr, "ninedof_check: %s cannot be read\n", words[1]);
     return 2;
   }
-  const ninedof::checker::Verdict found = ninedof::checker::check(bytes);
+  const ninedof::checker::Verdict found = ninedof::checker::check(file);
   for (const std::string& line : found.study) std::printf("%s\n", line.c_str());
   std::printf("%s: %s (%ld boxes, %ld cut further)\n",
               found.proved       ? "Proved"

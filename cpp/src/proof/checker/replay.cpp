@@ -7,8 +7,9 @@
 namespace ninedof::checker::sets {
 namespace {
 
-constexpr int most_depth = 1000, most_halvings = 10;
-constexpr long spots_of_node = 2000, spots_of_leaf = 300'000;
+constexpr int most_depth = 1000, most_halvings = 10, deepest_outside = 48;
+constexpr long cuts_of_outside = 4000;
+constexpr long spots_of_node = 2000, spots_of_leaf = 300'000, spots_of_machine = 20'000'000;
 /// Poses are divided until they move a leg by less than this part of what the designs do.
 constexpr double part_of_designs = 0.5;
 
@@ -137,7 +138,7 @@ class DesignsReplay {
     if (reading_ && out_.leaves % 16 == 0) reading_(static_cast<std::size_t>(out_.leaves), file_.boxes.size());
     ++out_.leaves;
     const std::string name = "box " + digits(number + 1);
-    left_ = spots_of_leaf;
+    left_ = dimensions() == 0 ? spots_of_machine : spots_of_leaf;
     const long before = out_.recut;
     double volume = 1.0;
     for (std::size_t k = 0; k < dimensions(); ++k)
@@ -151,7 +152,8 @@ class DesignsReplay {
     if (box.state == 'o') {
       ++outside_;
       shares_[1] += volume;
-      if (!outside(box.ends, box, most_halvings, name)) ++outside_open_;
+      left_ = cuts_of_outside;
+      if (!outside(box.ends, box, deepest_outside, name)) ++outside_open_;
     }
     if (out_.recut > before) out_.recut = before + 1;
   }
@@ -170,6 +172,7 @@ class DesignsReplay {
         --left_;
         const Weighed found = weigher.weigh(*one.want, spot);
         if (found.low > 0.0) continue;
+        if (dimensions() == 0 && count % 64 == 63) show_broken(cube, {{one.want, {spot}, {}}}, "the machine");
         double designs = 0.0;
         std::size_t k = 0;
         for (std::size_t n = 0; n < found.moves.size(); ++n)
@@ -198,7 +201,7 @@ class DesignsReplay {
   bool inside(const Cube& cube, std::vector<Pending> pending, int halvings, const std::string& name) {
     narrow(cube, pending, left_);
     if (pending.empty()) return true;
-    if (halvings == 0 || left_ <= 0) {
+    if (halvings == 0 || left_ <= 0 || dimensions() == 0) {
       show_broken(cube, pending, name);
       return false;
     }
@@ -233,24 +236,28 @@ class DesignsReplay {
 
   bool outside(const Cube& cube, const BoxLine& box, int halvings, const std::string& name) {
     if (box.limit < 0 || box.limit > 1 + static_cast<int>(file_.limits.size())) refuse(name + " names no limit");
-    const Weigher all(file_, cube), middle(file_, middle_of_cube(cube));
-    bool kept = std::ranges::find(unknown_, limit_name(box.limit)) == unknown_.end();
+    const Weigher all(file_, cube);
+    std::vector<std::pair<const Want*, Spot>> broken;
+    std::array<double, most_varied_symbols> moves{};
     for (const Want& want : wants_) {
       if (want.limit != box.limit) continue;
       const std::vector<Patch> poses = poses_of(want);
       Spot spot;
       if (poses.size() > 1 || poses[0].piece != -1)
         spot = {drawn_in(file_, poses, box.at), drawn_in(file_, poses, box.other)};
-      if (all.weigh(want, spot).high < 0.0) return true;
-      kept = kept && middle.weigh(want, spot).low > 0.0;
+      const Weighed found = all.weigh(want, spot);
+      if (found.high < 0.0) return true;
+      for (std::size_t k = 0; k < moves.size(); ++k) moves[k] = std::max(moves[k], found.moves[pose_symbols + k]);
+      broken.emplace_back(&want, spot);
     }
-    if (kept) refuse(name + " is called outside, and its design in the middle keeps the limit at that pose");
-    if (halvings == 0) return false;
-    std::size_t k = 0;
-    const auto width = [&](std::size_t n) { return (cube[n].b - cube[n].a) / (whole_[n].b - whole_[n].a); };
-    for (std::size_t n = 1; n < dimensions(); ++n)
-      if (width(n) > width(k)) k = n;
-    const auto [low, high] = halves_of(cube, k);
+    const Weigher middle(file_, middle_of_cube(cube));
+    const bool known = std::ranges::find(unknown_, limit_name(box.limit)) == unknown_.end();
+    if (known && std::ranges::all_of(broken, [&](const auto& one) {
+          return middle.weigh(*one.first, one.second).low > 0.0;
+        }))
+      refuse(name + " is called outside, and its design in the middle keeps the limit at that pose");
+    if (halvings == 0 || dimensions() == 0 || --left_ < 0) return false;
+    const auto [low, high] = halves_of(cube, static_cast<std::size_t>(std::ranges::max_element(moves) - moves.begin()));
     return outside(low, box, halvings - 1, name) && outside(high, box, halvings - 1, name);
   }
 
@@ -258,17 +265,33 @@ class DesignsReplay {
     for (std::size_t k = 0; k < shares_.size(); ++k)
       if (!(std::abs(shares_[k] - file_.shares[k]) <= 1e-9)) refuse("the shares are not those of the boxes");
     out_.study = question_of(file_);
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "%.3f%% of these designs keep every limit at every pose, %.3f%% break one; %.3f%% are not decided",
-                  100.0 * shares_[0], 100.0 * shares_[1], 100.0 * shares_[2]);
-    out_.words = text;
+    out_.words = statement();
     out_.incomplete = inside_open_ > 0 || outside_open_ > 0 || !unknown_.empty();
     out_.proved = !out_.incomplete;
     if (!out_.incomplete) return;
     out_.words = "not confirmed are " + digits(inside_open_) + " of " + digits(inside_) + " boxes inside and " +
                  digits(outside_open_) + " of " + digits(outside_) + " outside";
     for (const std::string& name : unknown_) out_.words += "; not checked: " + name;
+  }
+
+  std::string statement() const {
+    const bool machine = dimensions() == 0, all_outside = outside_ == std::ssize(file_.boxes);
+    const char* region = file_.region.shape == "none" ? "" : " of the region";
+    if (machine && inside_ == 1) return std::string("the machine keeps every limit at every pose") + region;
+    if (machine && all_outside) return std::string("the machine breaks a limit at a pose") + region;
+    double least = inf;
+    for (const LimitLine& one : file_.limits)
+      if (one.name == "condition_number" && !one.at_neutral) least = std::min(least, one.range.b);
+    if (all_outside && least < inf)
+      return "no design of this study has a condition number below " + rounded_down(least) +
+             (*region != 0            ? " over its region"
+              : !file_.poses.empty() ? " at its poses"
+                                     : " at the neutral pose");
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "%.3f%% of these designs keep every limit at every pose, %.3f%% break one; %.3f%% are not decided",
+                  100.0 * shares_[0], 100.0 * shares_[1], 100.0 * shares_[2]);
+    return text;
   }
 
   const DesignsFile& file_;

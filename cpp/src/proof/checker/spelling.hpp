@@ -2,7 +2,10 @@
 /// How certificates are written: numbers in one spelling, and a checksum.
 
 #include <charconv>
+#include <cstdint>
+#include <istream>
 #include <string>
+#include <vector>
 
 #include "proof/checker/ranges.hpp"
 
@@ -17,13 +20,49 @@ std::string digits(Number x, Format... format) {
   return {text, std::to_chars(text, text + sizeof text, x, format...).ptr};
 }
 std::string hexadecimal(double x);
+/// Fifteen digits, never more than x > 1.
+std::string rounded_down(double x);
 std::string quoted(const std::string& text);
 /// Throws where a word is no hexadecimal number.
 double number(const std::string& word);
 
 /// The two lines before the rest of a file: what it is, and the CRC-32 of the rest (ISO 3309, as zlib has it).
 std::string sealed(const std::string& kind, const std::string& body);
-/// What follows these two lines, if they are right and the lines before `last` are printable text.
-std::string unsealed(const std::string& kind, const std::string& bytes, std::size_t last);
+
+/// The CRC-32 of bytes that come one after another.
+class Checksum {
+ public:
+  void add(char byte);
+  std::string spelled() const;
+
+ private:
+  std::uint32_t crc_ = 0xFFFFFFFFU;
+};
+
+constexpr const char* damaged = "the checksum does not agree: the file is damaged or was changed";
+
+/// A file that is read once, in pieces: lines of text, then perhaps bytes. What it says counts once `finish` returned.
+class Stream {
+ public:
+  /// Reads the two lines of `sealed`.
+  explicit Stream(std::istream& in);
+  const std::string& kind() const { return kind_; }
+  /// The next line, printable text without its end; false where the file ends.
+  bool line(std::string& out);
+  unsigned char byte();
+  /// Refuses a file that goes on, and one that is not that of its checksum.
+  void finish();
+  /// Whether the checksum is that of the file, all of which is read.
+  bool intact();
+
+ private:
+  bool next(char& out);
+
+  std::istream& in_;
+  std::vector<char> block_;
+  std::size_t at_ = 0, size_ = 0;
+  Checksum sum_;
+  std::string kind_, checksum_;
+};
 
 }  // namespace ninedof::checker

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import ninedof as nd
@@ -11,6 +12,7 @@ from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.options import THREADS, Options, argument, option, struct
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.proof.machine import tolerances_of
+from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import outward
 from ninedof.records.certificate import certificate_file, save_certificate
 from ninedof.robot.leg_names import LEGS
@@ -31,6 +33,8 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof certify runs/20260101-120000 --tolerance 0.05       of every machine built so exactly
 
+  ninedof certify runs/20260101-120000 --certificate machine.certificate     for `ninedof check`
+
   ninedof certify runs/20260101-120000                again: goes on where time was over"""
 
 
@@ -45,6 +49,7 @@ class CertifyOptions(Options):
     tolerance: str | None = option("Of joints and legs as built, a length, or max: the largest that is proved.")
     slack: float = option("By which limits may be passed, relative.", 1e-6)
     threads: int | None = option(THREADS)
+    certificate: Path | None = option("Also write a file that `ninedof check` replays.")
 
 
 def certify(options: CertifyOptions) -> Answer:
@@ -74,6 +79,8 @@ def certify(options: CertifyOptions) -> Answer:
             built = result.largest_tolerance(**how, progress=bar)
     else:
         built = tolerances_of(tolerance, result.study)
+    if options.certificate is not None:
+        require_replayable(result.study, built)
     if earlier is not None and earlier.tolerances != built:  # a proof of other machines is kept, and not gone on with
         other = file.with_name(f"{file.stem}-earlier{file.suffix}")
         screen.print(f"the certificate for other tolerances is kept as {save_certificate(earlier, other)}")
@@ -104,10 +111,15 @@ def certify(options: CertifyOptions) -> Answer:
     answer = Answer([certificate_table(certificate), *sentences], data)
     write_job(screen, answer, lambda _: save_certificate(certificate, file))
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
+    data |= {"file": str(file)}
+    if options.certificate is not None:
+        result.save_certificate(certificate, options.certificate)
+        screen.print(f"certificate {options.certificate}, for `ninedof check`")
+        data |= {"certificate": str(options.certificate)}
     status = DONE if certificate.proved and not certificate.left_count else NO_RESULT
     if certificate.left_count and not certificate.interrupted:
         ended_by_time()
-    return Answer([], data | {"file": str(file)}, INTERRUPTED if certificate.interrupted else status)
+    return Answer([], data, INTERRUPTED if certificate.interrupted else status)
 
 
 def _length(given: str) -> float:

@@ -31,7 +31,7 @@ class CheckOptions(Options):
 
 
 def check(options: CheckOptions) -> Answer:
-    """Check a certificate: that no design has a condition number below its bound, or that designs keep the limits."""
+    """Check a certificate: of a bound of all designs, a machine that keeps its limits, or a set of designs."""
     path = options.certificate / FILE if options.certificate.is_dir() else options.certificate
     if not path.exists() and path != options.certificate:
         raise ValueError(f"{options.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
