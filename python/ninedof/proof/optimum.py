@@ -16,8 +16,8 @@ from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.short import short_repr
 from ninedof.support.structs import from_core
 
-GAPS = {"hexagonal": 1e-12, "symmetric": 1e-6}
-"""Relative gaps to prove: of hexagons five numbers matter, of other symmetric designs seven."""
+GAPS = {"hexagonal": 1e-12, "symmetric": 1e-6, "symmetric_nonplanar": 2e-3}
+"""Relative gaps to prove: of hexagons five numbers matter, of planar symmetric designs seven, of others eleven."""
 LONGEST = 1e9  # seconds
 MOST_BOXES = 100_000_000  # a gigabyte of tree, some five minutes
 

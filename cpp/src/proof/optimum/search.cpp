@@ -9,6 +9,7 @@
 #include "ninedof/math/parallel.hpp"
 #include "ninedof/proof/bounds.hpp"
 #include "ninedof/proof/optimum.hpp"
+#include "proof/nonplanar/line_search.hpp"
 #include "proof/optimum/axis_domain.hpp"
 #include "proof/optimum/box_bound.hpp"
 #include "proof/optimum/certificate.hpp"
@@ -64,6 +65,9 @@ class Heap {
   std::vector<std::vector<Open>> steps_;
   std::size_t count_ = 0;
 };
+
+/// Of the family "symmetric"; "symmetric_nonplanar" has four heights after them.
+constexpr std::ptrdiff_t planar_variables = 9;
 
 BoxBound excluded_by_domain() {
   BoxBound out;
@@ -151,6 +155,16 @@ OptimumProof prove_optimum(const Problem& study, const OptimumSettings& settings
   if (!(settings.target > 1.0) || !std::isfinite(settings.target))
     throw InvalidArgument("target", format_number(settings.target), "a finite number above 1");
   study.validate();
+  if (study.family == "symmetric_nonplanar") {
+    const auto flat = [](const Bounds& height) { return height.low == 0.0 && height.high == 0.0; };
+    if (!std::all_of(study.variables.begin() + planar_variables, study.variables.end(), flat))
+      return prove_nonplanar(study, settings, control);
+    Problem planar = study;
+    planar.family = "symmetric";
+    planar.variables.resize(planar_variables);
+    std::erase_if(planar.limits, [](const Limit& limit) { return limit.name == "joint_height"; });
+    return prove_optimum(planar, settings, control);
+  }
   OptimumProof out;
   const AxisDomain domain = axis_domain(study, settings.target, out.left_out);
   if (domain.empty) {  // nothing to be searched

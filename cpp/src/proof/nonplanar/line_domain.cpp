@@ -1,0 +1,115 @@
+#include "proof/nonplanar/line_domain.hpp"
+
+#include <numbers>
+
+#include "ninedof/math/error.hpp"
+
+namespace ninedof::proof {
+namespace {
+
+constexpr Interval unlimited{-infinity, infinity};
+
+Interval cut(const Interval& a, const Interval& b) {
+  return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+}
+
+void require_line_theory(const Problem& study) {
+  const auto require = [](bool condition, const char* argument, const char* got, const char* expected) {
+    if (!condition) throw InvalidArgument(argument, got, expected);
+  };
+  const Objective& o = study.objective;
+  require(o.index == Index::condition_number, "objective", "another index", "the condition number for a proof");
+  require(o.poses.empty(), "objective", "poses", "the neutral pose alone for a proof");
+  require(study.tool.position.isZero(0.0) && !study.tool.turned(), "tool", "one", "none for a proof");
+  require(study.characteristic_length.choice == StudyLength::Choice::number, "characteristic_length", "no number",
+          "a number for a proof");
+}
+
+/// One limit of a study; false where it is left out.
+bool read_limit(const Limit& limit, double length, LineLimits& out) {
+  const Interval range{limit.low > 0.0 ? limit.low : -infinity, limit.high};
+  const auto in_lengths = [&](double x) { return std::isfinite(x) ? Interval(x) / length : Interval(x); };
+  if (limit.name == "zs_fraction") {
+    out.share = cut(out.share, range);
+  } else if (limit.name == "radius_ratio") {
+    out.radius_ratio = cut(out.radius_ratio, range);
+  } else if (limit.name == "leg_ratio") {
+    out.leg_ratio = std::min(out.leg_ratio, limit.high);
+    return !(limit.low > 1.0);
+  } else if (limit.name == "height") {
+    out.zp = cut(out.zp, {in_lengths(range.lo).lo, in_lengths(range.hi).hi});
+  } else if (limit.name == "footprint") {
+    for (const std::size_t base : {0, 1}) out.radius[base].hi = std::min(out.radius[base].hi, in_lengths(limit.high).hi);
+    return !(limit.low > 0.0);
+  } else if (limit.name == "joint_height") {
+    if (limit.of == Unit::radius) out.joint_height_in_radius = std::min(out.joint_height_in_radius, limit.high);
+    else out.joint_height = std::min(out.joint_height, in_lengths(limit.high).hi);
+  } else if (limit.name.ends_with("_length")) {
+    std::array<Interval, 3>& of = limit.of == Unit::zp ? out.length_in_zp : out.length;
+    const Interval lengths =
+        limit.of == Unit::zp ? range : Interval(in_lengths(range.lo).lo, in_lengths(range.hi).hi);
+    const bool every = limit.name == "leg_length";
+    if (every || limit.name == "external_length") of[0] = cut(of[0], lengths);
+    if (every || limit.name == "upper_length") of[1] = cut(of[1], lengths);
+    if (every || limit.name == "lower_length") of[2] = cut(of[2], lengths);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+LineLimits line_limits(const Problem& study, std::vector<std::string>& left_out) {
+  require_line_theory(study);
+  const double length = study.characteristic_length.value;
+  const std::vector<VariableInfo>& names = design_family(study.family).variables();
+  // In characteristic lengths; of what is a size, no more than needed is asked.
+  const auto range = [&](std::size_t k, bool positive) {
+    const Interval x = Interval::between(study.variables[k].low, study.variables[k].high);
+    if (!std::isfinite(x.lo) || !std::isfinite(x.hi) || (positive && !(x.lo > 0.0)))
+      throw InvalidArgument(names[k].name, format_interval(x.lo, x.hi),
+                            positive ? "positive and finite bounds for a proof" : "finite bounds for a proof");
+    return x / length;
+  };
+  LineLimits out;
+  out.radius = {range(0, false), range(1, true), range(3, false), range(5, true)};
+  out.zp = range(7, true);
+  out.zs = range(8, false);
+  out.height = {range(9, false), range(10, false), range(11, false), range(12, false)};
+  out.length.fill(unlimited);
+  out.length_in_zp.fill(unlimited);
+  constexpr std::size_t angle = 4;  // between the first external joints; those of internal joints act on no limit here
+  if (study.variables[angle].high - study.variables[angle].low < 2.0 * std::numbers::pi)
+    left_out.push_back(names[angle].name);
+  for (const Limit& limit : study.limits)
+    if (!read_limit(limit, length, out)) left_out.push_back(limit.name == "leg_ratio" ? limit.label() + ".min" : limit.label());
+  if (study.objective.neutral_condition_limit < infinity || study.objective.condition_limit < infinity)
+    left_out.emplace_back("condition_number");
+  return out;
+}
+
+LineBox line_box(const LineLimits& limits, double target) {
+  const Interval K(target), root3 = sqrt(Interval(3.0)), most_flat = root3 * K;
+  const double arm = (1.0 / most_flat).lo;  // delta cos epsilon is more
+  LineBox box;
+  box[line::distance] =
+      cut({arm, (1.5 * K).hi}, {0.0, std::min(limits.radius[0].hi, limits.radius[2].hi)});
+  const double moment = (sqrt(Interval(1.5)) * K).hi;
+  box[line::moment] = {-moment, moment};
+  constexpr double slack = 1e-14;  // of the arc cosine
+  const double least_cosine = std::min((Interval(arm) / box[line::distance].hi).lo, 1.0);
+  box[line::elevation] = {0.0, std::min(std::acos(least_cosine) + slack, 0.5 * std::numbers::pi)};
+  box[line::height] = limits.zp;
+  box[line::drop] = cut(limits.zp - limits.zs, limits.zp * (1.0 - limits.share));
+  box[line::drop].lo = std::max(box[line::drop].lo, 0.0);
+  const double least_flat = (1.0 / (K * sqrt(1.5 * (1.0 + square(Interval(box[line::drop].hi)))))).lo;
+  box[line::upper] = box[line::lower] = {least_flat, most_flat.hi};
+  for (const auto& [at, k] : {std::pair(line::base, 0U), {line::platform, 2U}})
+    box[at] = {-limits.radius[k].hi, limits.radius[k].hi};
+  for (const auto& [at, k] : {std::pair(line::lower_up, 1U), {line::upper_up, 3U}})
+    box[at] = limits.radius[k] / Interval(least_flat, most_flat.hi);
+  return box;
+}
+
+}  // namespace ninedof::proof
