@@ -207,7 +207,7 @@ TEST_SUITE("line_test") {
         const SidesOfO sides = random.sides();
         const LineLimits limits = limits_about(joints(x, sides), random);
         const LineBox box = random.box_about(x, size);
-        const double target = kappa(joints(x, sides)) * (1.0 + random.uniform(-0.3, 1.0) * size);
+        const double target = kappa(joints(x, sides)) * (1.0 + random.uniform(-6.0, 1.0) * size);
         if (!(target > 1.0) || !std::isfinite(target)) continue;
         LineBox left = box;
         const bool closed = test_box(left, limits, sides, target).empty;

@@ -84,7 +84,7 @@ OptimumProof prove_nonplanar(const Problem& study, const OptimumSettings& settin
   const LineLimits limits = line_limits(study, out.left_out);
   const LineSearch search(limits, settings, control);
   // Bounds that are there when the time ends; each takes less than the next one.
-  for (const double gap : {0.3, 0.1, 0.03, 0.01, 0.005, 0.002, 0.0}) {
+  for (const double gap : {0.3, 0.1, 0.02, 0.005, 0.0}) {
     const double target = settings.target * (1.0 - gap);
     if (!(target > 1.0)) continue;
     if (!search.proves(target, out, limit.stop())) break;
