@@ -36,9 +36,10 @@ struct OptimumProof {
 /// Best first: the box of which least is known is cut next, so that the bound rises until the search ends. The result
 /// does not depend on the number of threads, unless time ends it.
 ///
-/// Throws InvalidArgument for a study that the theory does not reach: a family other than "hexagonal" and "symmetric",
-/// an objective other than the condition number at the neutral pose, a characteristic length that is not a number,
-/// bounds that are infinite or, of zp and of the radii of symmetric designs, not positive. Throws
+/// Of the family "symmetric_nonplanar" one target after another is proved, depth first and without a certificate.
+///
+/// Throws InvalidArgument for a study that the theory does not reach: the family "general", an objective other than the condition number at the neutral pose, a characteristic length that is not a number,
+/// bounds that are infinite or, of zp and of the radii of internal joints of symmetric designs, not positive. Throws
 /// std::runtime_error as require_sound_arithmetic does.
 OptimumProof prove_optimum(const Problem& study, const OptimumSettings& settings, const Control& control = {});
 
