@@ -34,20 +34,21 @@ def prove_optimum(
     """Prove that no design of a study is better than a known one by more than a given gap.
 
     Branch and bound over all designs, in interval arithmetic: boxes of designs are cut until each is proved to hold
-    none below the target. Of a symmetric class at the neutral pose a design counts through the five numbers
-    (hexagons), seven (other planar designs) or eleven (non-planar ones) on which its singular values and limits depend,
-    so that the paper's problem takes a second or two. Over a region, at listed poses, with a tool, for other families and for limits that the first proof does not
-    know, boxes of one to six free variables break a limit, or have a greater condition number, at a pose that is met:
-    smaller and smaller gaps are proved. Ctrl-C and the time limit return what is proved so far.
+    none below the target. Of a symmetric class at the neutral pose a design counts through the five numbers (hexagons),
+    seven (other planar designs) or eleven (non-planar ones) on which its singular values and limits depend, so that the
+    paper's problem takes a second or two. Over a region, at listed poses, with a tool, for other families and for
+    limits that the first proof does not know, boxes of one to six free variables break a limit, or have a greater
+    condition number, at a pose that is met: smaller and smaller gaps are proved. Ctrl-C and the time limit return what
+    is proved so far.
 
     Parameters
     ----------
     study : Study
-        With a characteristic length that is a number, and the worst condition number as its objective. Of the family
-        "hexagonal", "symmetric" or "symmetric_nonplanar" at the neutral pose any number of variables may be free; of the
-        limits radius_ratio, leg_ratio (max), zs_fraction and, of non-planar designs, lengths of legs, joint_height,
-        height and footprint (max) are part of that proof, others are left out (`OptimumProof.left_out`) where more than
-        six variables are free. Elsewhere at most six are free, between finite ends, and O is shifted or held.
+        With a characteristic length that is a number, and the worst condition number as its objective. Of a symmetric
+        family at the neutral pose any number of variables may be free; of the limits radius_ratio, leg_ratio (max),
+        zs_fraction and, of non-planar designs, lengths of legs, joint_height, height and footprint (max) are part of
+        that proof, others are left out (`OptimumProof.left_out`) where more than six variables are free. Elsewhere at
+        most six are free, between finite ends, and O is shifted or held.
     condition_number : float
         Of the best design known.
     gap : float, optional
