@@ -138,8 +138,7 @@ TEST_SUITE("line_test") {
       };
       const auto axial = roots(m.axial_11, m.axial_12, m.axial_22);
       const auto across = roots(m.across_11, std::hypot(m.across_re, m.across_im), m.across_22);
-      const double found =
-          std::sqrt(std::max(axial.second, across.second) / std::min(axial.first, across.first));
+      const double found = std::sqrt(std::max(axial.second, across.second) / std::min(axial.first, across.first));
       CHECK(found == doctest::Approx(kappa(joints(x, random.sides()))).epsilon(1e-9));
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// Functions of one number over a box, as forms along their chords. Where a box is wide they err by a small part of what
-/// series at the middle leave. Beside them the same names for doubles: a formula is written once.
+/// Functions of one number over a box, as forms along their chords. Where a box is wide they err by a small part of
+/// what series at the middle leave. Beside them the same names for doubles: a formula is written once.
 
 #include <algorithm>
 #include <cmath>

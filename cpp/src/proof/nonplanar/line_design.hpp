@@ -63,7 +63,8 @@ struct LineLimits {
 template <class T>
 class LineDesign {
  public:
-  explicit LineDesign(const LinePoint<T>& at) : x_(at), c_(cosine_of(at[line::elevation])), s_(sine_of(at[line::elevation])) {}
+  explicit LineDesign(const LinePoint<T>& at)
+      : x_(at), c_(cosine_of(at[line::elevation])), s_(sine_of(at[line::elevation])) {}
 
   LineBlocks<T> blocks() const {
     const T &u = x_[line::upper], &l = x_[line::lower], &eta = x_[line::moment], &y = x_[line::drop];

@@ -39,15 +39,15 @@ bool read_limit(const Limit& limit, double length, LineLimits& out) {
   } else if (limit.name == "height") {
     out.zp = cut(out.zp, {in_lengths(range.lo).lo, in_lengths(range.hi).hi});
   } else if (limit.name == "footprint") {
-    for (const std::size_t base : {0, 1}) out.radius[base].hi = std::min(out.radius[base].hi, in_lengths(limit.high).hi);
+    for (const std::size_t base : {0, 1})
+      out.radius[base].hi = std::min(out.radius[base].hi, in_lengths(limit.high).hi);
     return !(limit.low > 0.0);
   } else if (limit.name == "joint_height") {
     if (limit.of == Unit::radius) out.joint_height_in_radius = std::min(out.joint_height_in_radius, limit.high);
     else out.joint_height = std::min(out.joint_height, in_lengths(limit.high).hi);
   } else if (limit.name.ends_with("_length")) {
     std::array<Interval, 3>& of = limit.of == Unit::zp ? out.length_in_zp : out.length;
-    const Interval lengths =
-        limit.of == Unit::zp ? range : Interval(in_lengths(range.lo).lo, in_lengths(range.hi).hi);
+    const Interval lengths = limit.of == Unit::zp ? range : Interval(in_lengths(range.lo).lo, in_lengths(range.hi).hi);
     const bool every = limit.name == "leg_length";
     if (every || limit.name == "external_length") of[0] = cut(of[0], lengths);
     if (every || limit.name == "upper_length") of[1] = cut(of[1], lengths);
@@ -83,7 +83,8 @@ LineLimits line_limits(const Problem& study, std::vector<std::string>& left_out)
   if (study.variables[angle].high - study.variables[angle].low < 2.0 * std::numbers::pi)
     left_out.push_back(names[angle].name);
   for (const Limit& limit : study.limits)
-    if (!read_limit(limit, length, out)) left_out.push_back(limit.name == "leg_ratio" ? limit.label() + ".min" : limit.label());
+    if (!read_limit(limit, length, out))
+      left_out.push_back(limit.name == "leg_ratio" ? limit.label() + ".min" : limit.label());
   if (study.objective.neutral_condition_limit < infinity || study.objective.condition_limit < infinity)
     left_out.emplace_back("condition_number");
   return out;
@@ -93,8 +94,7 @@ LineBox line_box(const LineLimits& limits, double target) {
   const Interval K(target), root3 = sqrt(Interval(3.0)), most_flat = root3 * K;
   const double arm = (1.0 / most_flat).lo;  // delta cos epsilon is more
   LineBox box;
-  box[line::distance] =
-      cut({arm, (1.5 * K).hi}, {0.0, std::min(limits.radius[0].hi, limits.radius[2].hi)});
+  box[line::distance] = cut({arm, (1.5 * K).hi}, {0.0, std::min(limits.radius[0].hi, limits.radius[2].hi)});
   const double moment = (sqrt(Interval(1.5)) * K).hi;
   box[line::moment] = {-moment, moment};
   constexpr double slack = 1e-14;  // of the arc cosine

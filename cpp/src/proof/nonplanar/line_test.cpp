@@ -21,8 +21,7 @@ std::array<LineDirection, 4> directions(double m11, double re, double im, double
   std::array<LineDirection, 4> out{};
   const std::array<std::pair<double, double>, 4> parts{
       {{c, s}, {-s, c}, {root * (c - s), root * (s + c)}, {root * (c + s), root * (s - c)}}};
-  for (std::size_t i = 0; i < 4; ++i)
-    out[i] = {parts[i].first, parts[i].second * phase_re, parts[i].second * phase_im};
+  for (std::size_t i = 0; i < 4; ++i) out[i] = {parts[i].first, parts[i].second * phase_re, parts[i].second * phase_im};
   return out;
 }
 
@@ -42,8 +41,8 @@ std::array<DesignForm, vectors> quotients(const LineBlocks<DesignForm>& m) {
     }
   };
   put(0, directions(m.axial_11.c, m.axial_12.c, 0.0, m.axial_22.c), m.axial_11, m.axial_12, nullptr, m.axial_22);
-  put(4, directions(m.across_11.c, m.across_re.c, m.across_im.c, m.across_22.c), m.across_11, m.across_re,
-      &m.across_im, m.across_22);
+  put(4, directions(m.across_11.c, m.across_re.c, m.across_im.c, m.across_22.c), m.across_11, m.across_re, &m.across_im,
+      m.across_22);
   return out;
 }
 
@@ -191,9 +190,9 @@ class LineLook {
     std::array<double, line::coordinates> whole;
     whole.fill(1.0);
     constexpr double enough = 1e-9;
-    const auto x = MixtureSimplex<vectors, most_columns_of_line, line::coordinates>(columns, count, whole,
-                                                                                   line::coordinates)
-                       .solve(enough);
+    const auto x =
+        MixtureSimplex<vectors, most_columns_of_line, line::coordinates>(columns, count, whole, line::coordinates)
+            .solve(enough);
     // What counts: the mixture with its errors. The weights of both kinds add to 1 but for rounding, for which
     // `square_` has room.
     DesignForm sum;
@@ -206,7 +205,8 @@ class LineLook {
     }
     if (!(above.hi <= (below * (1.0 + 0x1p-35)).lo)) return false;
     for (std::size_t j = 0; j < rules_.size(); ++j)
-      if (const double weight = x[2 * vectors + j]; weight > 0.0) sum = sum + (weight * scale_of(rules_[j])) * rules_[j];
+      if (const double weight = x[2 * vectors + j]; weight > 0.0)
+        sum = sum + (weight * scale_of(rules_[j])) * rules_[j];
     return !part_.keep(sum);
   }
 

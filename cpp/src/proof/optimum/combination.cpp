@@ -17,8 +17,8 @@ constexpr std::size_t most_columns = 10;
 using RowColumn = MixtureColumn<coordinates>;
 
 /// Its gain at the middle, less what the widths of its slopes can take away.
-RowColumn column(const RowShare& part, const Values& at_middle, const std::array<Slopes, rows>& slopes, const Radii& radius,
-                 std::size_t dimension) {
+RowColumn column(const RowShare& part, const Values& at_middle, const std::array<Slopes, rows>& slopes,
+                 const Radii& radius, std::size_t dimension) {
   RowColumn out;
   const auto add = [&](std::size_t row, double sign) {
     if (row == rows) return;
@@ -64,8 +64,8 @@ Interval combined(const Combination& by, const Values& at_middle, const std::arr
 
 Combination best_combination(const Values& at_middle, const std::array<Slopes, rows>& slopes, const Radii& radius,
                              std::size_t dimension, double log_leg_ratio) {
-  std::array<RowShare, most_columns> parts{{{axial_max, rows}, {transverse_max, rows}, {rows, axial_min},
-                                        {rows, transverse_min}}};
+  std::array<RowShare, most_columns> parts{
+      {{axial_max, rows}, {transverse_max, rows}, {rows, axial_min}, {rows, transverse_min}}};
   std::array<RowColumn, most_columns> columns{};
   std::size_t count = 0;
   for (; count < 4; ++count) columns[count] = column(parts[count], at_middle, slopes, radius, dimension);
