@@ -72,8 +72,9 @@ def optimize(
         are moved inside the bounds.
     certify : bool
         Whether to prove afterwards how much better a design of the study can be at most, see `prove_optimum`:
-        `Result.lower_bound` and `Result.proof`. Of hexagons to 1e-12 in a second or two, of other symmetric designs to
-        3 per cent in minutes, over a region with up to four free variables to 0.1 per cent in a minute or so.
+        `Result.lower_bound` and `Result.proof`. Of hexagons to 1e-12 in a second or two, of other planar designs to
+        3 per cent and of non-planar ones to 0.2 per cent in minutes, over a region with up to four free variables to
+        0.1 per cent in a minute or so.
     time_limit : float
         Seconds after which the search ends with the best design so far and status "stopped"; infinite by default. Of a
         region study that design is then searched over the region once more, which takes a second or two longer: what

@@ -5,17 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/elementary.hpp"
 #include "math/form.hpp"
 
 namespace ninedof::proof {
 
-/// f(x) for f convex (concave) on the range of x, whose slope is m at tangent(m). Values of f and of its tangent are
-/// taken to be right within some units in the last place: the slack is forty of them.
+/// f(x) for f convex (concave) on the range of x, whose slope is m at tangent(m). An error of that place counts by its
+/// square; f itself is right within some units in the last place, of which the slack has sixty.
 template <bool convex, class Function, class Tangent>
 DesignForm along_chord(const DesignForm& x, const Function& f, const Tangent& tangent) {
   const double lo = lower(x), hi = upper(x), f_lo = f(lo), f_hi = f(hi);
   const double m = hi > lo ? (f_hi - f_lo) / (hi - lo) : 0.0;
-  const double touching = hi > lo ? tangent(m) : lo, t = touching >= lo ? std::min(touching, hi) : lo;
+  const double t = hi > lo ? std::clamp(tangent(m), lo, hi) : lo;
+  if (!std::isfinite(t)) return DesignForm::unknown();
   const double at_ends[] = {f_lo - m * lo, f_hi - m * hi}, between = f(t) - m * t;
   const double slack = 0x1p-47 * (std::abs(f_lo) + std::abs(f_hi) + std::abs(m) * (std::abs(lo) + std::abs(hi)));
   const double ends = convex ? std::max(at_ends[0], at_ends[1]) : std::min(at_ends[0], at_ends[1]);
@@ -38,23 +40,29 @@ inline double reciprocal(double x) {
 }
 inline DesignForm reciprocal_square(const DesignForm& x) {
   if (!(lower(x) > 0.0)) return DesignForm::unknown();
-  return along_chord<true>(x, [](double v) { return 1.0 / (v * v); }, [](double m) { return std::cbrt(-2.0 / m); });
+  return along_chord<true>(
+      x, [](double v) { return 1.0 / (v * v); },
+      [](double m) { return elementary::exp(elementary::log(-2.0 / m) / 3.0); });
 }
 inline double reciprocal_square(double x) {
   return 1.0 / (x * x);
 }
 /// Of angles from 0 to 90 degrees.
-inline DesignForm cosine_of(const DesignForm& x) {
-  return along_chord<false>(x, [](double v) { return std::cos(v); }, [](double m) { return std::asin(-m); });
-}
 inline double cosine_of(double x) {
-  return std::cos(x);
-}
-inline DesignForm sine_of(const DesignForm& x) {
-  return along_chord<false>(x, [](double v) { return std::sin(v); }, [](double m) { return std::acos(m); });
+  return elementary::sine_cosine(x).cosine;
 }
 inline double sine_of(double x) {
-  return std::sin(x);
+  return elementary::sine_cosine(x).sine;
+}
+inline DesignForm cosine_of(const DesignForm& x) {
+  return along_chord<false>(
+      x, [](double v) { return cosine_of(v); },
+      [](double m) { return elementary::atan(-m / std::sqrt((1.0 - m) * (1.0 + m))); });
+}
+inline DesignForm sine_of(const DesignForm& x) {
+  return along_chord<false>(
+      x, [](double v) { return sine_of(v); },
+      [](double m) { return elementary::atan(std::sqrt((1.0 - m) * (1.0 + m)) / m); });
 }
 
 /// The larger one: x + max(0, y - x), and max(0, d) - a d lies from 0 to its value at an end for every a from 0 to 1.

@@ -97,9 +97,8 @@ LineBox line_box(const LineLimits& limits, double target) {
   box[line::distance] = cut({arm, (1.5 * K).hi}, {0.0, std::min(limits.radius[0].hi, limits.radius[2].hi)});
   const double moment = (sqrt(Interval(1.5)) * K).hi;
   box[line::moment] = {-moment, moment};
-  constexpr double slack = 1e-14;  // of the arc cosine
   const double least_cosine = std::min((Interval(arm) / box[line::distance].hi).lo, 1.0);
-  box[line::elevation] = {0.0, std::min(std::acos(least_cosine) + slack, 0.5 * std::numbers::pi)};
+  box[line::elevation] = {0.0, std::min(acos(Interval(least_cosine)).hi, 0.5 * std::numbers::pi)};
   box[line::height] = limits.zp;
   box[line::drop] = cut(limits.zp - limits.zs, limits.zp * (1.0 - limits.share));
   box[line::drop].lo = std::max(box[line::drop].lo, 0.0);

@@ -13,10 +13,15 @@ struct LineDirection {
   double a, b, c;
 };
 
+double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+
 /// The eigenvectors of [[m11, conj(z)], [z, m22]] in doubles, and their sums and differences.
 std::array<LineDirection, 4> directions(double m11, double re, double im, double m22) {
-  const double modulus = std::hypot(re, im), turn = 0.5 * std::atan2(2.0 * modulus, m11 - m22);
-  const double c = std::cos(turn), s = std::sin(turn), root = std::sqrt(0.5);
+  const double modulus = length(re, im), half = 0.5 * (m11 - m22), away = length(half, modulus);
+  const double part = away > 0.0 ? half / away : 1.0, root = std::sqrt(0.5);
+  const double c = std::sqrt(0.5 * (1.0 + part)), s = std::sqrt(0.5 * (1.0 - part));  // of half the angle
   const double phase_re = modulus > 0.0 ? re / modulus : 1.0, phase_im = modulus > 0.0 ? im / modulus : 0.0;
   std::array<LineDirection, 4> out{};
   const std::array<std::pair<double, double>, 4> parts{
@@ -102,11 +107,11 @@ double condition_number_at_middle(const LineBox& box, const LineLimits& limits, 
     if (!(rule <= 0.0)) return infinity;
   const LineBlocks<double> m = design.blocks();
   const auto roots = [](double m11, double off, double m22) {
-    const double half = 0.5 * (m11 + m22), away = std::hypot(0.5 * (m11 - m22), off);
+    const double half = 0.5 * (m11 + m22), away = length(0.5 * (m11 - m22), off);
     return std::pair(half - away, half + away);
   };
   const auto axial = roots(m.axial_11, m.axial_12, m.axial_22);
-  const auto across = roots(m.across_11, std::hypot(m.across_re, m.across_im), m.across_22);
+  const auto across = roots(m.across_11, length(m.across_re, m.across_im), m.across_22);
   return std::sqrt(std::max(axial.second, across.second) / std::min(axial.first, across.first)) * (1.0 + 1e-12);
 }
 
