@@ -36,7 +36,7 @@ def existence(
     progress: Progress | None = None,
 ) -> Existence:
     """Say whether any design of the range keeps every limit at every pose."""
-    state, x, *rest = _core.any_admissible(
+    state, x, designs, left, interrupted, written = _core.any_admissible(
         of.for_core(),
         threads=threads,
         seconds=min(seconds, LONGEST),
@@ -44,4 +44,5 @@ def existence(
         certificate=certificate,
         progress=progress,
     )
-    return Existence(state, dict(zip(of.vary, x, strict=True)) if state == EXISTS else None, *rest)
+    design = dict(zip(of.vary, x, strict=True)) if state == EXISTS else None
+    return Existence(state, design, designs, left, interrupted, written)
