@@ -252,9 +252,8 @@ class DesignsReplay {
     }
     const Weigher middle(file_, middle_of_cube(cube));
     const bool known = std::ranges::find(unknown_, limit_name(box.limit)) == unknown_.end();
-    if (known && std::ranges::all_of(broken, [&](const auto& one) {
-          return middle.weigh(*one.first, one.second).low > 0.0;
-        }))
+    if (known &&
+        std::ranges::all_of(broken, [&](const auto& one) { return middle.weigh(*one.first, one.second).low > 0.0; }))
       refuse(name + " is called outside, and its design in the middle keeps the limit at that pose");
     if (halvings == 0 || dimensions() == 0 || --left_ < 0) return false;
     const auto [low, high] = halves_of(cube, static_cast<std::size_t>(std::ranges::max_element(moves) - moves.begin()));
@@ -284,7 +283,7 @@ class DesignsReplay {
       if (one.name == "condition_number" && !one.at_neutral) least = std::min(least, one.range.b);
     if (all_outside && least < inf)
       return "no design of this study has a condition number below " + rounded_down(least) +
-             (*region != 0            ? " over its region"
+             (*region != 0           ? " over its region"
               : !file_.poses.empty() ? " at its poses"
                                      : " at the neutral pose");
     char text[160];
