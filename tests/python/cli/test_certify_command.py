@@ -50,7 +50,7 @@ def test_a_run_is_proved_and_its_certificate_comes_back(run, capsys):
 def test_a_machine_is_written_for_the_checker(run, tmp_path, capsys):
     file = tmp_path / "machine.certificate"
     assert status(run, "--certificate", file) == 0
-    assert f"certificate {file}" in " ".join(capsys.readouterr().out.split()).replace("- ", "-")
+    assert f"certificate{file},for" in "".join(capsys.readouterr().out.split())  # the path may be wrapped
     assert main_status("check", file) == 0
     assert "Proved: the machine keeps every limit at every pose" in capsys.readouterr().out
     assert status(run, "--certificate", file, "--tolerance", "0.01") == 2

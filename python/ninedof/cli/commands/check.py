@@ -37,7 +37,7 @@ def check(options: CheckOptions) -> Answer:
         raise ValueError(f"{options.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
     with options.screen.bar("points", "reading the certificate") as bar:
         result = check_certificate(path, progress=bar)
-    parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in result.study)]
+    parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in result.study)] if result.study else []
     verdict = "Proved" if result.proved else "Incomplete" if result.incomplete else "Refused"
     parts.append(bold(verdict, f": {result.words}"))
     if result.study:
