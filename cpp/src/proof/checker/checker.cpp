@@ -4,8 +4,8 @@
 #include <cfenv>
 #include <cstdint>
 #include <optional>
-#include <streambuf>
 #include <stdexcept>
+#include <streambuf>
 
 #include "proof/checker/blocks.hpp"
 #include "proof/checker/replay.hpp"

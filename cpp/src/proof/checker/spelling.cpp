@@ -123,7 +123,8 @@ void Stream::finish() {
 }
 
 bool Stream::intact() {
-  for (char c = 0; next(c);) {}
+  for (char c = 0; next(c);) {
+  }
   return sum_.spelled() == checksum_;
 }
 
