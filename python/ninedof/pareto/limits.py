@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -12,15 +12,15 @@ from ninedof.design.indices import objectives
 from ninedof.design.limits import AT, ROWS, Limit, label, names_with_max, split_label
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
+from ninedof.optimize.result import Result
+from ninedof.sheet.limit_rows import limit_rows
+from ninedof.sheet.sheet import sheet
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import did_you_mean, shown
 
 CONDITION_LIMIT = "condition_limit"
 TOLERANCE = "tolerance"
 """The larger one of the study's two; both are scaled. It is tighter for the search where it is larger."""
-MOST_STEPS = 100  # two are enough where the value is not far from the limit that is tried
-SMALL = 1e-8  # margin from which one more step is exact
-EPS, LEAST = 2.0**-52, 1e-300  # rounding of a margin; a value below the least is zero
 
 
 def without_degrees(against: Any) -> tuple[Any, bool]:
@@ -113,21 +113,12 @@ def own_value(study: Study, against: str) -> float | None:
     return _limit(study, against).sides.get("max")
 
 
-def value_at(study: Study, against: str, variables: Mapping[str, float]) -> float:
-    """Return the least limit that allows a design: the limit at which the design's margin is zero.
-
-    A margin is 1 - value / limit, known to rounding of 1: a second step gives a small value all its digits.
-    """
-    own, limit = _limit(study, against), own_value(study, against) or 1.0
-    for _ in range(MOST_STEPS):
-        alone = replace(study, constraints={own.name: replace(own, low=0.0, high=limit)})
-        margin = alone.evaluate(variables).margins[against]
-        limit *= max(1.0 - margin, EPS)
-        if abs(margin) <= SMALL:
-            break
-        if limit < LEAST:
-            return 0.0
-    return limit
+def value_of(study: Study, against: str, result: Result) -> float:
+    """Return the least limit that allows the best design of a result: its value over the region, with its options."""
+    study = with_limit(study, against, own_value(study, against) or 1.0)
+    in_region = study.objective.region is not None
+    rows = sheet(replace(result, study=study)).limits if in_region else limit_rows(study, result.variables or {})
+    return next(row.value for row in rows if row.name == against and row.side == "max")
 
 
 def floor_of(study: Study, against: str) -> float:

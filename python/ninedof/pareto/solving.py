@@ -34,6 +34,7 @@ class FrontSolver:
         self.study, self.against = study, against
         self.results: dict[float, Result] = {}
         self.open_ended: Result | None = None
+        self._thorough: set[float | None] = set()
         self._threads, self._progress, self._pieces = threads, progress, Pieces(store)
         self._solved, self.planned = 0, 0
 
@@ -46,12 +47,16 @@ class FrontSolver:
         warm : results
             Their designs are additional starts.
         few : bool
-            Whether the starts are others and fewer: the limit was solved before, or is only looked at.
+            Whether the starts are others and fewer: the limit was solved before, or is only looked at. Over a region,
+            where a start is dear, one is enough besides the warm ones where all were tried before.
 
         """
         study = with_limit(self.study, self.against, limit)
         if few:
-            study = study.with_solver(max(1, study.starts // 4), study.seed + 1)
+            known = limit in self._thorough and study.objective.region is not None
+            study = study.with_solver(1 if known else max(1, study.starts // 4), study.seed + 1)
+        else:
+            self._thorough.add(limit)
         before = self._pieces.new_pieces
         result = self.optimum(study, [one for one in warm if one is not None and one.candidates])
         self._solved += 1
@@ -83,7 +88,7 @@ class FrontSolver:
         there, back = [(k, False) for k in reversed(range(len(limits)))], [(k, True) for k in range(len(limits))]
         for k, few in there + back:
             beside = [self.results.get(limits[j]) for j in (k - 1, k + 1, k) if 0 <= j < len(limits)]
-            self.solve(limits[k], beside, few)
+            self.solve(limits[k], beside, few or limits[k] in self._thorough)
 
     def between(self, low: float, high: float) -> float:
         """Solve for the geometric mean of two limits, starting from both designs; return it."""

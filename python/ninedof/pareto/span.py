@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import objective_of
-from ninedof.pareto.limits import floor_of, own_value, value_at
+from ninedof.pareto.limits import floor_of, own_value, value_of
 from ninedof.pareto.solving import FrontSolver
 from ninedof.proof.tolerance import FIRST, MOST, STEP
 
@@ -74,8 +74,7 @@ def between_indices(solver: FrontSolver) -> tuple[float, float] | None:
 
 def _loosest(solver: FrontSolver, without: Result) -> float:
     if not math.isnan(objective_of(without)) and without.best is not None:
-        study = replace(solver.study, objective=without.solved.objective)
-        return max(value_at(study, solver.against, without.best.variables), floor_of(solver.study, solver.against))
+        return max(value_of(solver.study, solver.against, without), floor_of(solver.study, solver.against))
     own = own_value(solver.study, solver.against)
     if own is None:
         raise ValueError(

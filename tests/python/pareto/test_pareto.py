@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import pytest
 from interrupts import interrupter
+from region_oracle import worst_at_random
 from sizes import size
 
 import ninedof as nd
@@ -13,7 +14,7 @@ from ninedof.optimize.check import check
 from ninedof.pareto import pareto
 from ninedof.pareto import solving as sweeping
 from ninedof.pareto.front import front_table
-from ninedof.pareto.limits import resolve, value_at, with_limit
+from ninedof.pareto.limits import own_value, resolve, value_of, with_limit, without_degrees
 
 PAPER = nd.Study.paper()
 
@@ -111,7 +112,7 @@ def test_a_limit_at_price_0_is_not_reached():
     found = pareto(PAPER, "radius_ratio", points=2)
     last = found.table()[-1]
     assert last["price"] == 0.0
-    assert found.limits[-1] == pytest.approx(value_at(PAPER, "radius_ratio", last["variables"]), rel=1e-6)
+    assert found.limits[-1] == pytest.approx(value_of(PAPER, "radius_ratio", found.results[-1]), rel=1e-6)
     assert "radius_ratio" not in last["active"]
     assert "radius_ratio" in found.table()[0]["active"]
     shown = [row[-1] for row in front_table(found).rows]
@@ -154,8 +155,7 @@ def test_a_limit_at_the_neutral_pose_is_swept_beside_that_at_the_poses():
     assert is_monotone(found)
     assert found.table()[0]["active"].count("leg_ratio at neutral") == 1
     assert all(price > 0.0 for price in found.prices)
-    value = value_at(study, "leg_ratio at neutral", found.results[0].variables)
-    best = found.results[0].best
+    value, best = value_of(study, "leg_ratio at neutral", found.results[0]), found.results[0].best
     legs = nd.leg_lengths(best.geometry, best.configuration)
     assert value == pytest.approx(legs.max() / legs.min(), rel=1e-9) == pytest.approx(1.9, rel=1e-6)
 
@@ -380,3 +380,39 @@ def test_same_front_for_any_number_of_threads():
 
 
 # --- Bad input --------------------------------------------------------------------------------------------------------
+
+
+# --- Over a region ----------------------------------------------------------------------------------------------------
+
+CUBE = nd.Study(
+    variables={"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": (3.0, 6.0), "zs": (1.0, 5.0)},
+    objective={"region": {"box": [0.4, 0.4, 0.3], "tilt_deg": 6}},
+    starts=size(4, 32),
+)
+
+
+@pytest.mark.parametrize(
+    ("against", "options"),
+    [
+        ("stroke_ratio", {}),
+        ("stroke", {"of": "zp"}),
+        ("base_cone_deg", {"axis": [0, 0, 1]}),
+        ("leg_ratio", {}),
+    ],
+)
+def test_the_loosest_limit_is_the_value_over_the_region(against, options):
+    """The best design without the limit is allowed by it; a few poses that rule the design do not say by which."""
+    name = without_degrees(against)[0]
+    study = replace(CUBE, constraints={name: {"max": 1.0, **options}})
+    found = pareto(study, against, points=2)
+    free = nd.optimize(with_limit(study, name, None))
+    assert found.objectives[-1] == pytest.approx(free.objective, rel=1e-6)
+    assert found.results[-1].status == "optimal"
+    value = value_of(study, name, free)
+    assert own_value(found.results[-1].study, name) == pytest.approx(value, rel=1e-6)
+    within, beyond = (
+        with_limit(study, name, value * factor) for factor in (1.0 + 1e-6, 0.98)
+    )  # random poses come near the worst
+    x = free.variables
+    worst = [worst_at_random(one, x, size(2_000, 10_000), 1)[1] for one in (within, beyond)]
+    assert worst[0] > 0.0 > worst[1]

@@ -154,8 +154,9 @@ Eigen::VectorXd Subproblem::solve(const Eigen::VectorXd& from, int piece, double
   evaluate_design(p_, from, design_, &none);
   select_rows();
   Eigen::VectorXd y = from;
-  for (int k = 0; k < selections; ++k) {
-    y = run(y, tolerance, max_evaluations);
+  const long end = evaluations_ + max_evaluations;
+  for (int k = 0; k < selections && evaluations_ < end; ++k) {
+    y = run(y, tolerance, static_cast<int>(end - evaluations_));
     if (stop_.stop_requested()) break;
     evaluate_design(p_, y, design_, &none);
     if (!add_violated()) break;

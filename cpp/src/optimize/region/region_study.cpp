@@ -42,10 +42,10 @@ class RegionStudy {
     for (int search = 0; search < most_searches; ++search) {
       if (!search_all(first_)) return ended();
       if (is_mean()) first_.nodes = mean_nodes(region_, first_nodes, settings_.seed);
-      follow_all();
+      Imposed next = follow_all();
       const bool last = search + 1 == most_searches;
       if (last || best_.settled || control_.stop.stop_requested() || best_.best.feasible()) break;
-      first_.at = best_.imposed.at;  // these exclude what was found: is there another design?
+      first_ = std::move(next);  // these exclude what was found: is there another design?
       best_ = {};
     }
     if (is_mean()) refine_mean();
@@ -66,8 +66,9 @@ class RegionStudy {
   }
 
   /// Follows every optimum of the poses alone that may still become the best. The poses that hold the best design so
-  /// far are imposed on the next: a start that leads to the same design is known by its first round.
-  void follow_all() {
+  /// far are imposed on the next: a start that leads to the same design is known by its first round. So are those that
+  /// excluded others, as long as there is no design. Returns what would be imposed on one more.
+  Imposed follow_all() {
     best_ = {};
     Imposed from = first_;
     for (const Candidate& start : out_.result.candidates) {
@@ -79,13 +80,15 @@ class RegionStudy {
                           : found.best.feasible() != best_.best.feasible()
                               ? found.best.feasible()
                               : found.best.objective < best_.best.objective;
+      if (!best_.settled && !found.best.feasible()) from.at = found.imposed.at;
       if (best_.rounds > 0 && !better) continue;
       best_ = std::move(found);
+      if (!best_.settled) continue;
       from = first_;
-      if (best_.settled)
-        std::ranges::copy(nearly_deciding(problem_, region_, best_.imposed.at, best_.best.variables, ruling),
-                          std::back_inserter(from.at));
+      std::ranges::copy(nearly_deciding(problem_, region_, best_.imposed.at, best_.best.variables, ruling),
+                        std::back_inserter(from.at));
     }
+    return from;
   }
 
   bool is_mean() const { return problem_.objective.aggregate != Aggregate::worst; }
