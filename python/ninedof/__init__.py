@@ -61,8 +61,9 @@ from ninedof.paper.sweeps import sweep_figure
 from ninedof.pareto import Front, pareto
 from ninedof.position.certificate import ModesCertificate
 from ninedof.position.position import AssemblyModes, PositionStatus, Tracked, TrackStatus, forward_position, track
-from ninedof.proof.admissible import AdmissibleSet, admissible
+from ninedof.proof.admissible import admissible
 from ninedof.proof.admissible_rows import AdmissibleRow, AdmissibleRows, admissible_actuators
+from ninedof.proof.admissible_set import AdmissibleSet
 from ninedof.proof.bounds import (
     Bounds,
     DeterminantBounds,

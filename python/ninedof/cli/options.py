@@ -30,6 +30,7 @@ LOAD = 'A load "mx my mz fx fy fz" on the platform: moment about p and force; of
 LEG_ERROR = "Tolerance of the leg lengths; of the study."
 JOINT_ERROR = "Tolerance of the joint centres, a radius; of the study."
 LEG_STIFFNESS = "Stiffness of each leg, force/length."
+SCHEDULER = "Address of a Dask scheduler, as tcp://host:8786; its workers compute"
 LEG_LIMITS = "Limits of all nine legs; those of the run's study by default."
 
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from asyncio import CancelledError
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,14 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ninedof.cli.answer import Answer, finish_job
-from ninedof.cli.options import JobOptions, option, struct
+from ninedof.cli.options import SCHEDULER, JobOptions, option, struct
+from ninedof.cli.scheduler import executor_at
 from ninedof.design.indices import size_of
 from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
-from ninedof.support.arguments import LONGEST
 from ninedof.support.arrays import blocks
 from ninedof.sweep import SweepResult
-from ninedof.sweep.cluster import dask_executor, is_of_cluster
 from ninedof.tables import Table
 
 if TYPE_CHECKING:
@@ -32,24 +29,17 @@ MOST_PRINTED = 10_000  # numbers in JSON; larger results are in the file only
 class Job(JobOptions):
     """The options that a sweep and an atlas share."""
 
-    scheduler: str | None = option("Address of a Dask scheduler, as tcp://host:8786; its workers compute the chunks.")
+    scheduler: str | None = option(f"{SCHEDULER} the chunks.")
 
     def compute(self, call: Callable[..., SweepResult], title: str) -> tuple[SweepResult, Path]:
         """Compute with a progress bar; return the result and the run folder, which keeps finished chunks."""
         with run_folder(self.out) as folder:
             try:
-                cluster = nullcontext() if self.scheduler is None else dask_executor(self.scheduler)
-                with cluster as executor, self.screen.bar("points", title) as bar:
+                with executor_at(self.scheduler) as executor, self.screen.bar("points", title) as bar:
                     return call(executor=executor, out=folder, progress=bar.show), folder
             except KeyboardInterrupt:
                 self.screen.data({"interrupted": True, "run": str(folder)})
                 raise
-            except (Exception, CancelledError) as error:
-                if self.scheduler is None or not is_of_cluster(error):
-                    raise
-                reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-                notes = "".join(f". {note}" for note in getattr(error, "__notes__", ()))
-                raise RuntimeError(f"--scheduler: lost {self.scheduler} ({reason[:LONGEST]}){notes}") from None
 
     def write(
         self,

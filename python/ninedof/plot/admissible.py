@@ -15,7 +15,7 @@ from ninedof.plot.workspace import KINDS
 from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
-    from ninedof.proof.admissible import AdmissibleSet
+    from ninedof.proof.admissible_set import AdmissibleSet
 
 INSIDE, UNDECIDED = "#A9CCE3", "#B8BFC6"
 OTHERS = ("#E69F00", "#56B4E9", "#F0E442", "#CC79A7", "#009E73", "#999933")  # limits that have no colour elsewhere

@@ -9,7 +9,7 @@ from typing import Any
 
 from ninedof.design.actuators import LEG_KINDS, Actuator
 from ninedof.design.study import Study
-from ninedof.proof.admissible import LONGEST, design_range
+from ninedof.proof.design_range import LONGEST, design_range
 from ninedof.proof.existence import existence
 from ninedof.support.arguments import finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ninedof import _core
-from ninedof.proof.admissible import LONGEST, DesignRange
+from ninedof.proof.design_range import LONGEST, DesignRange
 from ninedof.support.progress import Progress
 
 EXISTS, NONE, UNDECIDED = "exists", "none", "undecided"

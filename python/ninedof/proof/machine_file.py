@@ -10,7 +10,7 @@ from ninedof import _core
 from ninedof.design.duty import Tolerances
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
-from ninedof.proof.admissible import DesignRange
+from ninedof.proof.design_range import DesignRange
 from ninedof.proof.machine_record import PROVED, MachineCertificate
 
 

@@ -6,7 +6,7 @@ from time import perf_counter
 from typing import Any
 
 from ninedof.design.study import Study
-from ninedof.proof.admissible import DesignRange, design_range
+from ninedof.proof.design_range import DesignRange, design_range
 from ninedof.proof.existence import EXISTS, NONE, existence
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.progress import Progress, phase

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ninedof.proof.admissible import STATES, AdmissibleSet, DesignRange
+from ninedof.proof.admissible_set import STATES, AdmissibleSet
+from ninedof.proof.design_range import DesignRange
 from ninedof.support.files import from_json_array, json_array, read_npz, write_npz
 from ninedof.support.structs import Fixed
 

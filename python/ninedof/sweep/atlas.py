@@ -11,11 +11,11 @@ import numpy as np
 
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.support.arguments import finite, known_keys, pair, shown, whole
+from ninedof.support.chunks import MOST_CHUNK, chunk_argument, computed
 from ninedof.support.extras import versions
 from ninedof.support.files import Arrays
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
-from ninedof.sweep.chunks import MOST_CHUNK, chunk_argument, computed
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.sample import BOUNDS, Sample, closed_form, squared_radius_ratio
 from ninedof.sweep.tally import Tally, condition_edges, ratio_edges

@@ -15,6 +15,7 @@ import numpy as np
 from ninedof.design.indices import Index, identity
 from ninedof.support.angles import DEG
 from ninedof.support.arrays import Floats, blocks
+from ninedof.support.chunks import computed
 from ninedof.support.extras import versions
 from ninedof.support.files import Arrays, naming, part_name
 from ninedof.support.json import plain
@@ -22,7 +23,6 @@ from ninedof.support.progress import Progress
 from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
 from ninedof.sweep.axis import Grid
-from ninedof.sweep.chunks import computed
 from ninedof.sweep.result import SweepResult
 
 if TYPE_CHECKING:

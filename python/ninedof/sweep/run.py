@@ -17,10 +17,10 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.angles import plain_name
 from ninedof.support.arguments import choice, finite, flag, known_keys, shown
 from ninedof.support.arrays import thread_argument
+from ninedof.support.chunks import chunk_argument
 from ninedof.support.progress import Progress
 from ninedof.support.units import unit_argument
 from ninedof.sweep.axis import Values, axes_of
-from ninedof.sweep.chunks import chunk_argument
 from ninedof.sweep.grid import GridWork
 from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses, best_block
 from ninedof.sweep.result import SweepResult

@@ -395,6 +395,7 @@ row("admissible", few=3, words={"vary": ("vary",)})(
         "time_limit": 5.0,
         "resolution": 0.2,
         "threads": 1,
+        "executor": None,
         "resume": None,
         "progress": None,
     }

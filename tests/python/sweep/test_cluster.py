@@ -1,6 +1,10 @@
-"""Chunks by threads, processes and a Dask cluster: the same bits; an error of the executor leaves finished chunks."""
+"""Chunks by threads, processes and a Dask cluster: the same bits; an error of the executor leaves finished chunks.
+
+Admissible designs by processes and a cluster too, as these are here.
+"""
 
 import gc
+import json
 import pickle
 import socket
 import threading
@@ -12,8 +16,8 @@ from sweep_work import GRID, HOME, G, finished
 
 import ninedof as nd
 from ninedof.design.indices import indices_of
-from ninedof.sweep import chunks
-from ninedof.sweep import cluster as schedulers
+from ninedof.support import chunks
+from ninedof.support import cluster as schedulers
 from ninedof.sweep.axis import axes_of
 from ninedof.sweep.grid import GridWork
 from ninedof.sweep.poses import COORDINATES, Poses
@@ -61,6 +65,26 @@ def test_designs_and_figures_by_processes(processes):
     for name in here:
         assert there[name].tobytes() == here[name].tobytes()
     assert many["histogram"].tobytes() == nd.atlas(30_000)["histogram"].tobytes()
+
+
+PLATES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0}
+
+
+def admissible(executor):
+    study = nd.Study(variables=PLATES, constraints={"leg_ratio": (None, 2.2), "radius_ratio": (None, 2.5)})
+    return nd.admissible(study, ("a2", "b1"), resolution=0.05, executor=executor)
+
+
+def assert_same_designs(found):
+    with ThreadPoolExecutor(1) as pool:
+        expected = admissible(pool)
+    assert found.low.tobytes() == expected.low.tobytes()
+    assert found.state.tobytes() == expected.state.tobytes()
+    assert found.shares == expected.shares
+
+
+def test_admissible_designs_by_processes(processes):
+    assert_same_designs(admissible(processes))
 
 
 def test_what_is_sent_is_small_whatever_the_grid():
@@ -241,6 +265,20 @@ def test_dask_computes_an_atlas(cluster):
         assert found[name].tobytes() == expected[name].tobytes()
 
 
+def test_dask_finds_admissible_designs(cluster, tmp_path, capsys):
+    from ninedof.cli.app import main
+
+    found = admissible(cluster.get_executor())
+    assert_same_designs(found)
+    file, address = tmp_path / "study.toml", cluster.scheduler_info()["address"]
+    found.study.save(file)
+    line = f"admissible {file} --vary a2 --vary b1 --resolution 0.05 --json --scheduler {address}"
+    with pytest.raises(SystemExit) as end:
+        main(line.split())
+    assert end.value.code == 0
+    assert json.loads(capsys.readouterr().out)["shares"] == pytest.approx(found.shares)
+
+
 def test_a_chunk_that_dask_gives_up_ends_the_run_and_the_next_call_goes_on(cluster, expected, tmp_path):
     """A scheduler that allows no failure reports KilledWorker at once."""
     killed = pytest.importorskip("distributed.scheduler").KilledWorker
@@ -325,7 +363,7 @@ _open = []
 
 def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(tmp_path, capsys, monkeypatch):
     """What dask raises when the scheduler is killed while it works; the chunks so far are kept."""
-    from ninedof.cli import sweep_job
+    from ninedof.cli import scheduler
     from ninedof.cli.app import main
 
     class Lost(Executor):
@@ -340,7 +378,7 @@ def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(tmp_path, ca
                 future.set_result(perform(*task))
             return future
 
-    monkeypatch.setattr(sweep_job, "dask_executor", lambda address: Lost())
+    monkeypatch.setattr(scheduler, "dask_executor", lambda address: Lost())
     monkeypatch.chdir(tmp_path)
     line = "sweep --over x_p=-1:1:23 --chunk 5 --no-figures --out".split()
     with pytest.raises(SystemExit) as end:

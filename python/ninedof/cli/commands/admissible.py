@@ -9,9 +9,10 @@ from typing import Any
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.changes import changes_option
-from ninedof.cli.options import THREADS, Options, argument, option, struct
+from ninedof.cli.options import SCHEDULER, THREADS, Options, argument, option, struct
+from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
-from ninedof.proof.admissible import design_range
+from ninedof.proof.design_range import design_range
 from ninedof.records.admissible import admissible_file, load_admissible, save_admissible
 from ninedof.support.command import goes_on
 from ninedof.support.units import amount, with_unit
@@ -30,6 +31,8 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --set zs=-5%
 
+  ninedof admissible study.toml --vary a2 --vary b1 --vary zp --set zs=320 --scheduler tcp://head:8786
+
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --around    how far each may go"""
 
 
@@ -41,12 +44,13 @@ class AdmissibleOptions(Options):
     vary: list[str] = option("A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH.", ...)
     set: list[str] | None = option("Another variable: zs=320, or zs=+10%. Repeatable.")
     condition: float | None = option("A bound of the condition number besides the limits.")
-    time: float = option("Seconds; what is proved by then is kept.", 300.0)
+    time: float = option("Seconds, with --scheduler of each root; what is proved by then is kept.", 300.0)
     resolution: float = option("The least size of a box, as a part of each range.", 0.01)
     around: bool = option("How far each variable may go at once, from the design.", False, "--around")
     certificate: Path | None = option("A file of the boxes with reasons for `ninedof check`.")
     out: Path | None = option("A folder for the answer; that of the run by default.")
     threads: int | None = option(THREADS)
+    scheduler: str | None = option(f"{SCHEDULER} the 64 roots of the box.")
 
 
 def admissible(options: AdmissibleOptions) -> Answer:
@@ -67,10 +71,10 @@ def admissible(options: AdmissibleOptions) -> Answer:
         other = file.replace(file.with_name(f"{file.stem}-earlier{file.suffix}"))
         screen.print(f"the designs of another question are kept as {other}")
     goes_on()
-    with screen.bar("boxes", "designs") as bar:
-        found = nd.admissible(
-            of, vary, at=at, condition_number=options.condition, **_how(options), resume=earlier, progress=bar
-        )
+    how = _how(options) | {"at": at, "condition_number": options.condition, "resume": earlier}
+    bars = screen.bar("boxes" if options.scheduler is None else "points", "designs")
+    with executor_at(options.scheduler) as executor, bars as bar:
+        found = nd.admissible(of, vary, **how, executor=executor, progress=bar)
     data: dict[str, Any] = {name: getattr(found, name) for name in ("shares", "excluded", "designs", "boxes")}
     screen.print(*found.sentences())
     if file is not None:
@@ -90,7 +94,7 @@ def admissible(options: AdmissibleOptions) -> Answer:
 
 def _rows(screen: Screen, study: nd.Study, options: AdmissibleOptions, vary: Ranges, at: Mapping[str, Any]) -> Answer:
     """Return for which rows of its actuators a study has designs; nothing is kept."""
-    for name in ("condition", "around", "certificate", "out"):
+    for name in ("condition", "around", "certificate", "out", "scheduler"):
         if getattr(options, name):
             raise ValueError(f"--{name}: got it for a study with actuators, expected the run of `optimize`")
     with screen.bar("boxes", "actuators") as bar:

@@ -1,0 +1,215 @@
+"""A set of admissible designs: a box, divided into what is proved inside, what is proved outside, and the rest."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ninedof import _core
+from ninedof.design.study import Study
+from ninedof.proof.admissible_roots import for_core
+from ninedof.proof.design_range import DesignRange, HasDesign, design_values
+from ninedof.proof.machine_record import ProofPose
+from ninedof.support.arguments import finite, path_argument, shown, table
+from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.files import write_whole
+
+INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
+STATES = (INSIDE, OUTSIDE, UNDECIDED)
+AROUND_SECONDS = 20.0
+
+
+class Reason(NamedTuple):
+    """Reason why no design of a box is admissible."""
+
+    limit: str
+    """As in `Study.constraints`; "no singularity" and "condition_number" too."""
+    part: str
+    """The leg, pair of legs or determinant; "" where the limit has none."""
+    pose: ProofPose
+    """Where all designs of the box break it; of a spread of lengths where the leg is longest."""
+
+
+@dataclass(frozen=True, eq=False)
+class AdmissibleSet:
+    """A box of designs, divided into pieces. Lengths in the unit of the study, angles in radians."""
+
+    of: DesignRange
+    low: Floats
+    """The lower ends of the pieces, shape (n, d); they are a partition of the box."""
+    high: Floats
+    """The upper ends."""
+    state: NDArray[np.int8]
+    """0 inside, 1 outside, 2 undecided, shape (n,)."""
+    demand: NDArray[np.int32]
+    """Of those outside the index into `demands`, else -1."""
+    demands: tuple[tuple[str, str], ...]
+    """All limits with their parts."""
+    poses: Floats
+    """Where it is broken: the number of a listed pose or -1, then shift, tilt about x and y, and yaw. The same again
+    where the leg is shortest, of a spread of lengths. Shape (n, 14)."""
+    shares: Mapping[str, float]
+    """The shares of the volume: "inside", "outside", "undecided"."""
+    designs: int
+    """Boxes of designs that were looked at."""
+    boxes: int
+    """Boxes of poses, for a box of designs each."""
+    seconds: float
+    interrupted: bool = False
+
+    @property
+    def study(self) -> Study:
+        """The study."""
+        return self.of.study
+
+    @property
+    def vary(self) -> tuple[str, ...]:
+        """The variables that vary."""
+        return self.of.vary
+
+    @property
+    def inside(self) -> Floats:
+        """Boxes of designs that keep every limit at every pose, proved, shape (n, d, 2)."""
+        return self._boxes(0)
+
+    @property
+    def outside(self) -> Floats:
+        """Boxes all designs of which break a limit at a pose, proved: see `reasons`."""
+        return self._boxes(1)
+
+    @property
+    def undecided(self) -> Floats:
+        """The other boxes."""
+        return self._boxes(2)
+
+    @cached_property
+    def reasons(self) -> tuple[Reason, ...]:
+        """Why each box outside is outside."""
+        chosen = self.state == 1
+        return tuple(
+            Reason(self.demands[demand][0], self.demands[demand][1], _pose(row))
+            for demand, row in zip(self.demand[chosen].tolist(), self.poses[chosen].tolist(), strict=True)
+        )
+
+    @cached_property
+    def excluded(self) -> dict[str, float]:
+        """The share of the volume that each limit excludes, the greatest first; a design counts for one limit only."""
+        volume = np.prod(self.high - self.low, axis=1) / math.prod(high - low for low, high in self.of.ranges)
+        out: dict[str, float] = {}
+        for n, (limit, _) in enumerate(self.demands):
+            share = float(volume[(self.state == 1) & (self.demand == n)].sum())
+            if share > 0.0:
+                out[limit] = out.get(limit, 0.0) + share
+        return dict(sorted(out.items(), key=lambda item: -item[1]))
+
+    def state_of(self, designs: ArrayLike) -> list[str]:
+        """Return "inside", "outside" or "undecided" for designs of the box, shape (k, d) in the order of `vary`."""
+        x = as_floats("designs", designs, (len(self.vary),))
+        if x.ndim != 2:
+            raise ValueError(f"designs: got shape {x.shape}, expected (k, {len(self.vary)})")
+        out = []
+        for row in x:
+            there = np.flatnonzero(((self.low <= row) & (row <= self.high)).all(axis=1))
+            if not there.size:
+                raise ValueError(f"designs: got {shown(row.tolist())}, expected designs within the box")
+            out.append(STATES[min(self.state[there])])
+        return out
+
+    def around(
+        self, design: HasDesign | Mapping[str, float] | None = None, proportions: Mapping[str, float] | None = None
+    ) -> dict[str, tuple[float, float]]:
+        """Return how far each variable may go at once: the largest box around a design that is proved inside.
+
+        Parameters
+        ----------
+        design : Result or mapping, optional
+            The design; `at` by default.
+        proportions : mapping, optional
+            The half widths of the box by variable, up to a factor: tolerances of manufacture. By default the box for
+            which the product of the room to all sides is greatest: there is room to each.
+
+        Raises
+        ------
+        ValueError
+            If the design is not inside: the message names the limit that it breaks, if that is proved.
+
+        """
+        values = self.of.at if design is None else design_values(design)
+        for name in set(self.study.variables) - set(self.vary):
+            if name in values and abs(values[name] - self.of.at[name]) > 1e-9 * abs(self.of.at[name]):
+                raise ValueError(f"design.{name}: got {values[name]:g}, expected {self.of.at[name]:g}, as in the set")
+        missing = [name for name in self.vary if name not in values]
+        if missing:
+            raise ValueError(f"design: got no {missing[0]}, expected a value of {', '.join(self.vary)}")
+        x = [finite(name, values[name]) for name in self.vary]
+        half: list[float] = []
+        if proportions is not None:
+            given = table("proportions", proportions)
+            if set(given) != set(self.vary):
+                raise ValueError(f"proportions: got {shown(list(given))}, expected {', '.join(self.vary)}")
+            half = [finite(f"proportions.{name}", given[name]) for name in self.vary]
+        found, low, high, broken = _core.room_around(self.of.for_core(), x, half, seconds=AROUND_SECONDS)
+        if found:
+            return dict(zip(self.vary, zip(low, high, strict=True), strict=True))
+        words = ", ".join(f"{name} = {value:g}" for name, value in zip(self.vary, x, strict=True))
+        if broken >= 0:
+            broke = " ".join(self.demands[broken]).strip().replace("_", " ")
+            raise ValueError(f"design: got {words}, expected one that is inside: it breaks {broke}")
+        raise ValueError(f"design: got {words}, expected one around which a box is proved to be inside")
+
+    def __repr__(self) -> str:
+        """Show the shares."""
+        shares = ", ".join(f"{self.shares[name]:.2%} {name}" for name in STATES)
+        return f"<AdmissibleSet of {', '.join(self.vary)}: {shares}>"
+
+    def __str__(self) -> str:
+        """Return it in sentences."""
+        return "\n".join(self.sentences())
+
+    def sentences(self) -> list[str]:
+        """Return what is proved, in words."""
+        most = self.of.condition_number
+        bound = "" if most is None else f" and a condition number of at most {most:g}"
+        held = f", at {self.of.held}" if self.of.held else ""
+        inside, outside, undecided = (f"{self.shares[name]:.3%}" for name in STATES)
+        out = [
+            f"Proved, of all designs with {self.of.words}{held}: {inside} keep every limit{bound} at every pose, "
+            f"{outside} break one; {undecided} are not decided."
+        ]
+        if self.study.tolerances:
+            out.append("Of machines as they are drawn: the tolerances of the study are not looked at.")
+        if self.of.moved:
+            out.append(f"The design's {' and '.join(self.of.moved)} is outside of the range: the middle is marked.")
+        if self.excluded:
+            by = ", ".join(f"{name.replace('_', ' ')} {share:.2%}" for name, share in self.excluded.items())
+            out.append(f"Excluded by: {by}.")
+        return out
+
+    def for_core(self) -> dict[str, Any]:
+        """Return the pieces as the core takes them, for a run that goes on."""
+        return for_core(vars(self))
+
+    def save_certificate(self, path: str | os.PathLike[str]) -> Path:
+        """Write a file that `check_certificate` and the program ninedof_check replay: the question, boxes, reasons."""
+        shares = [self.shares[name] for name in STATES]
+        data = _core.design_certificate(self.of.for_core(), self.for_core(), self.demands, shares)
+        return write_whole(path_argument("path", path), data)
+
+    def _boxes(self, state: int) -> Floats:
+        chosen = self.state == state
+        return np.stack([self.low[chosen], self.high[chosen]], axis=-1)
+
+
+def _pose(row: list[float]) -> ProofPose:
+    listed, x, y, z, tilt_x, tilt_y, yaw = row[:7]
+    if listed >= 0:
+        return ProofPose(listed=int(listed))
+    return ProofPose((x, y, z), (tilt_x, tilt_y, 0.0), yaw)
