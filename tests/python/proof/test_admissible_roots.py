@@ -22,7 +22,11 @@ STUDY = nd.Study(variables=SIZES, constraints=LIMITS, objective={"region": {"box
 CONDITION = nd.Study(variables=SIZES, constraints={"radius_ratio": (None, 2.5)})
 ASKED = {
     "two variables": (STUDY, ("a2", "b1"), {"at": AT, "resolution": 0.04}),
-    "three variables": (STUDY, ("a2", "b1", "zp"), {"at": {"zs": 3.0}, "resolution": 0.12}),
+    "three variables": (
+        CONDITION,
+        ("a2", "b1", "zp"),
+        {"at": {"zs": 3.0}, "condition_number": 4.0, "resolution": 0.05},
+    ),
     "one variable": (STUDY, ("a2",), {"at": AT | {"b1": 2.5}, "resolution": 0.002}),
     "condition number": (CONDITION, ("a2", "b1"), {"at": AT, "condition_number": 4.0, "resolution": 0.02}),
     "coarser than the roots": (STUDY, ("a2", "b1"), {"at": AT, "resolution": 0.3}),
