@@ -4,13 +4,21 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ninedof.design.study import Study
 from ninedof.proof.admissible_set import STATES, AdmissibleSet
 from ninedof.proof.design_range import DesignRange
-from ninedof.support.files import from_json_array, json_array, read_npz, write_npz
+from ninedof.support.files import Arrays, from_json_array, json_array, read_npz, write_npz
 from ninedof.support.structs import Fixed
 
 ARRAYS = ("low", "high", "state", "demand", "poses")
+ASKED = ("vary", "ranges", "condition_number", "moved")
 NUMBERS = ("designs", "boxes", "seconds", "interrupted")
+
+
+def run_of(design: str) -> Path:
+    """Return the folder of a run that `load` reads: RUN, RUN/record.json or RUN#7."""
+    place = Path(design.partition("#")[0])
+    return place.parent if place.is_file() else place
 
 
 def admissible_file(folder: Path, of: DesignRange) -> Path:
@@ -22,6 +30,7 @@ def save_admissible(found: AdmissibleSet, file: Path) -> Path:
     """Write a set; return its path."""
     others = {"question": found.of.digest, "demands": found.demands, "shares": dict(found.shares)}
     others |= {name: getattr(found, name) for name in NUMBERS}
+    others["asked"] = {name: getattr(found.of, name) for name in ASKED} | {"at": dict(found.of.at)}
     return write_npz(file, {name: getattr(found, name) for name in ARRAYS} | {"others": json_array(others)})
 
 
@@ -29,7 +38,25 @@ def load_admissible(file: Path, of: DesignRange) -> AdmissibleSet | None:
     """Read the set of a question; None if there is none, or that of another question."""
     if not file.exists():
         return None
-    arrays = read_npz(file)
+    return _read(read_npz(file), of)
+
+
+def latest_admissible(folder: Path, study: Study) -> AdmissibleSet | None:
+    """Read the set of a study, of two variables or more, that was written last into a folder; None without one."""
+    for file in sorted(folder.glob("admissible-*.npz"), key=lambda one: one.stat().st_mtime, reverse=True):
+        arrays = read_npz(file)
+        asked = from_json_array(arrays["others"]).get("asked")
+        if asked is None or len(asked["vary"]) < 2:  # none in files of earlier versions
+            continue
+        vary, ranges = tuple(asked["vary"]), tuple((low, high) for low, high in asked["ranges"])
+        moved = tuple(asked["moved"])
+        of = DesignRange(study, vary, ranges, Fixed(asked["at"]), asked["condition_number"], moved)
+        if (found := _read(arrays, of)) is not None:
+            return found
+    return None
+
+
+def _read(arrays: Arrays, of: DesignRange) -> AdmissibleSet | None:
     others = from_json_array(arrays["others"])
     if others["question"] != of.digest:
         return None

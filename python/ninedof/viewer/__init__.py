@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ninedof.motion.trajectory import Trajectory
+    from ninedof.proof.admissible_set import AdmissibleSet
     from ninedof.viewer.app import Viewer
 
 
@@ -18,6 +19,7 @@ def view(
     port: int = 8080,
     path: Trajectory | str | os.PathLike[str] | None = None,
     dark: bool = False,
+    designs: AdmissibleSet | None = None,
 ) -> Viewer:
     """Show a design in a browser, to move it by hand.
 
@@ -39,6 +41,9 @@ def view(
         Poses of the platform to play, as `ninedof.Trajectory.load` reads them.
     dark : bool
         Dark colours.
+    designs : AdmissibleSet, optional
+        A set of two to four variables of the result's study, shown as a picture: a click there shows the design of that
+        place. By default the one written last into the run folder, if `design` is a path.
 
     Returns
     -------
@@ -69,10 +74,12 @@ def view(
         path_argument("path", path)
     optional("viser", "viewer", "the viewer")
     from ninedof.viewer.app import Viewer
+    from ninedof.viewer.designs import designs_of
     from ninedof.viewer.machine import machine_of
     from ninedof.viewer.server import loopback
 
-    viewer = Viewer(machine_of(design), host, port, dark)
+    machine = machine_of(design)
+    viewer = Viewer(machine, host, port, dark, designs_of(machine, design, designs))
     try:
         if not loopback(host):
             words = f"host: {host} is reached from the network, by everyone there: nothing asks for a password"

@@ -16,8 +16,10 @@ import numpy as np
 
 from ninedof.motion.rotations import from_quaternions
 from ninedof.motion.trajectory import Trajectory
+from ninedof.proof.admissible_set import AdmissibleSet
 from ninedof.records.design_file import Design
 from ninedof.viewer.body import Body, BodySearch, body_of, question_of
+from ninedof.viewer.designs import DesignPicture
 from ninedof.viewer.folders import build
 from ninedof.viewer.machine import Machine
 from ninedof.viewer.numbers import numbers_of
@@ -35,8 +37,12 @@ LONGEST_STEP = 0.2  # seconds: a path does not jump after an update that took lo
 class Viewer:
     """A machine in a browser, until `close`. Made by `ninedof.view`."""
 
-    def __init__(self, machine: Machine, host: str, port: int, dark: bool) -> None:
+    def __init__(
+        self, machine: Machine, host: str, port: int, dark: bool, designs: AdmissibleSet | None = None
+    ) -> None:
         self.state = State(machine, dark)
+        self.designs = None if designs is None else DesignPicture(designs)
+        """The picture of a set of admissible designs, if there is one."""
         self.lock = threading.RLock()
         """Held while the state is changed or read."""
         self.held: dict[str, int] = {}
@@ -58,11 +64,13 @@ class Viewer:
     def _build(self, dark: bool) -> None:
         self.set_dark(dark)
         self._server.gui.main_panel.dock_right()
-        self.scene = Scene(self._server, self.state.machine.size)
+        self.scene = Scene(self._server, self.state.machine.size, self.designs)
         self.panel = Panel(self, self._server.gui)
         build(self.panel)
         for name in ("platform", "O"):
             self._listen(name)
+        if self.designs is not None:
+            self.scene.nodes["/designs"].on_click(self._clicked)
 
         async def left(client: Any) -> None:  # in order with the drags, of which the last then has no end
             number = client.client_id
@@ -71,8 +79,11 @@ class Viewer:
         self._server.on_client_disconnect(left)
         middle = 0.5 * self.scene.scale * self.state.variant.home.position * np.array([0.0, 0.0, 1.0])
         camera = self._server.initial_camera
+        if self.designs is not None:
+            middle = middle + np.array([0.0, 0.0, 1.0])
+        away = 1.55 if self.designs is None else 2.0
         camera.look_at = middle
-        camera.position = middle + 1.55 * EXTENT * np.array([0.42, -0.80, 0.36])
+        camera.position = middle + away * EXTENT * np.array([0.42, -0.80, 0.36])
         camera.fov = math.radians(40.0)
 
     # --- for Python ---------------------------------------------------------------------------------------------------
@@ -220,6 +231,13 @@ class Viewer:
                 self.submit("pose", lambda: self.state.set_pose(position=position, rotation=turn))
 
         self.scene.nodes[node].on_update(dragged)
+
+    async def _clicked(self, event: Any) -> None:
+        """Show the design of the picture where it was clicked."""
+        if self.designs is not None:
+            values = self.designs.design_at(event.ray_origin, event.ray_direction)
+            if values is not None:
+                self.submit("designs", lambda: self.state.set_variables(values))
 
     def _release(self, client: int) -> None:
         for node in [node for node, hand in self.held.items() if hand == client]:

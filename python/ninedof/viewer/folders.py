@@ -49,6 +49,9 @@ def build(panel: Panel) -> None:
     for title, folder in {"Platform": _platform, "Internal point O": _internal_point}.items():
         with panel.gui.add_folder(title):
             folder(panel)
+    if (designs := panel.viewer.designs) is not None:
+        with panel.gui.add_folder("Admissible designs"):
+            panel.text("admissible", lambda: words_html(designs.words(panel.state.variables)))
     with panel.gui.add_folder("Limits"):
         panel.text("limits", lambda: limits_html(panel.numbers, panel.unit))
     closed = {"Assembly modes": _modes, "Workspace": _workspace, "Path": _path, "View": _view, "Save": _save}
@@ -116,7 +119,8 @@ def _view(panel: Panel) -> None:
     display = panel.state.display
     hint = "About the platform, its longest axis fixed"
     panel.choice("ellipsoid", list(ELLIPSOIDS), lambda kind: setattr(display, "ellipsoid", kind), hint)
-    for part in ("labels", "handles", "axes", *["region"] * (panel.state.machine.region is not None)):
+    there = {"region": panel.state.machine.region, "designs": panel.viewer.designs}
+    for part in ("labels", "handles", "axes", *(name for name, one in there.items() if one is not None)):
         panel.check(part, True, partial(display.show, part))
     panel.check("dark", display.dark, panel.viewer.set_dark)
 

@@ -17,6 +17,7 @@ from ninedof.statics.statics import Ellipsoid
 from ninedof.support.arrays import Floats
 from ninedof.viewer import shapes
 from ninedof.viewer.body import Body
+from ninedof.viewer.designs import DesignPicture, add_picture
 from ninedof.viewer.html import RED
 from ninedof.viewer.numbers import Numbers
 from ninedof.viewer.state import State
@@ -36,6 +37,7 @@ PARTS = {
     "handles": {"/platform gizmo", "/O gizmo"},
     "axes": {"/base axes", "/platform axes"},
     "region": {"/region"},
+    "designs": {"/designs"},
 }
 """Nodes that can be hidden."""
 PLAIN = {"cast_shadow": False, "receive_shadow": False}  # shadows here are a few large triangles
@@ -50,14 +52,17 @@ def rgb(colour: str) -> tuple[int, int, int]:
 class Scene:
     """Draws a machine into a viser server. Lengths are scaled, so that machines of any unit fill the view."""
 
-    def __init__(self, server: Any, size: float) -> None:
+    def __init__(self, server: Any, size: float, designs: DesignPicture | None = None) -> None:
         self.scale = EXTENT / size
         self._api = server.scene
         self._sent: dict[tuple[str, str], Any] = {}
         self.nodes: dict[str, Any] = {}
         """Of viser, by name."""
+        self._designs = designs
         self._light()
         self._make_nodes()
+        if designs is not None:
+            self.nodes |= add_picture(self._api, designs, shapes.ball())
 
     def draw(self, state: State, numbers: Numbers, held: Set[str]) -> None:
         """Show a state; nodes that are held stay where they are."""
@@ -82,6 +87,8 @@ class Scene:
             self._lines("/path", player.trajectory, [player.trajectory.position], PATH_COLOUR)
         if (region := state.machine.region) is not None:  # one of turns alone has no lines
             self._lines("/region", home.position.tobytes(), region_lines(region, home), style.REGION)
+        for k, at in enumerate([] if self._designs is None else self._designs.marks(state.variables)):
+            self._set(f"/designs/{k}", visible=at is not None, **({} if at is None else {"position": at}))
         self._set("/ground", colors=np.array((64, 71, 80) if dark else (205, 210, 216), dtype=np.uint8))
         for name in ("/base edges", "/platform edges"):
             self._set(name, colors=np.array(rgb(EDGES_DARK if dark else style.INK), dtype=np.uint8))

@@ -76,7 +76,7 @@ class Display:
 
     dark: bool = False
     hidden: set[str] = field(default_factory=set)
-    """Of "labels", "handles", "axes" and "region"."""
+    """Of "labels", "handles", "axes", "region" and "designs"."""
     ellipsoid: str = "none"
     """One of `ELLIPSOIDS`."""
 

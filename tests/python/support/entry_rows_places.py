@@ -62,5 +62,5 @@ def viewed(**arguments):
 
 
 at("view", viewed, few=4, words={"design": ("path",)})(
-    lambda: {"design": it.design(), "host": "127.0.0.1", "port": 0, "path": None, "dark": False}
+    lambda: {"design": it.design(), "host": "127.0.0.1", "port": 0, "path": None, "dark": False, "designs": None}
 )

@@ -13,7 +13,7 @@ from ninedof.cli.options import SCHEDULER, THREADS, Options, argument, option, s
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.proof.design_range import design_range
-from ninedof.records.admissible import admissible_file, load_admissible, save_admissible
+from ninedof.records.admissible import admissible_file, load_admissible, run_of, save_admissible
 from ninedof.support.command import goes_on
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
@@ -128,7 +128,7 @@ def _of(options: AdmissibleOptions) -> tuple[nd.Study | nd.Result, Path | None]:
     result = nd.load(options.of)
     if not isinstance(result, nd.Result):
         raise ValueError(f"{options.of}: got no design of a study, expected a study file, a run or RUN#7 of a front")
-    return result, options.out or Path(options.of.partition("#")[0])
+    return result, options.out or run_of(options.of)
 
 
 def _vary(text: str) -> tuple[str, tuple[float, float] | None]:
