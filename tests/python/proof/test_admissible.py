@@ -4,10 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from design_set_oracle import DesignSetOracle
 from limit_oracle import limits_of, margins, robot_of
 from region_oracle import SPREADS, condition_margins, index_at, random_poses
+from region_poses import drawn
 from robots import NONPLANAR
 from scipy.spatial.transform import Rotation
+from sizes import size
 
 import ninedof as nd
 from ninedof.optimize.region_report import posed
@@ -112,6 +115,9 @@ def everything(study, poses, variables):
     return out, index_at(there, robot)
 
 
+DRAWN_INSIDE = size((8, 200), (1000, 1000))  # designs and poses of each: 10^6 in all
+DRAWN_OUTSIDE = size((4, 1000), (100, 10_000))
+DEAR = 10  # of duty fewer poses: one takes milliseconds
 SLOW = ("condition number", "three variables")
 
 
@@ -174,6 +180,46 @@ def test_no_design_inside_breaks_a_limit(case):
             assert values.size == 0 or values.min() > -ROUNDING, (name, row)
         if case.of.condition_number is not None:
             assert index.max() <= case.of.condition_number * (1.0 + ROUNDING)
+
+
+def least_margins_inside(found, designs, poses, seed):
+    """The least margin at random poses of each of some designs drawn from the boxes inside."""
+    oracle, rng = DesignSetOracle(found.study, found.of.condition_number), np.random.default_rng(seed)
+    for row in drawn_in(found.inside, designs, rng)[0]:
+        variables = variables_of(found, row)
+        at = at_random(found.study, variables, poses, rng)
+        yield oracle.kept(oracle.robot(variables, *at))
+
+
+def least_margins_outside(found, designs, poses, seed):
+    """The least margin of each of some designs from the boxes outside, at random poses and those of the reason."""
+    oracle, rng = DesignSetOracle(found.study, found.of.condition_number), np.random.default_rng(seed)
+    of_boxes = found.poses[found.state == 1].reshape(-1, 2, 7)
+    for row, which in zip(*drawn_in(found.outside, designs, rng), strict=True):
+        variables, at = variables_of(found, row), ()
+        if (region := found.study.objective.region) is not None:
+            reason = of_boxes[which]
+            middle = variables_of(found, found.outside[which].mean(axis=1))["zp"]  # whose pose the reason has
+            shift = reason[:, 1:4] * (variables["zp"] / middle if region.unit == "zp" else 1.0)
+            own = shift, np.pad(reason[:, 4:6], ((0, 0), (0, 1))), reason[:, 6:]
+            drawn_there = at_random(found.study, variables, poses, rng)
+            at = tuple(np.concatenate(both) for both in zip(own, drawn_there, strict=True))
+        yield oracle.kept(oracle.robot(variables, *at))
+
+
+def at_random(study, variables, count, rng):
+    region = study.objective.region
+    return () if region is None else drawn(region, variables["zp"], rng, count)
+
+
+def test_a_million_designs_and_poses_contradict_nothing(case):
+    """Of designs inside none breaks a limit, of those outside none keeps all; in numpy, without the core."""
+    share = DEAR if "force" in case.study.constraints else 1
+    (inside, poses), (outside, more) = DRAWN_INSIDE, DRAWN_OUTSIDE
+    if case.study.objective.region is None:
+        inside, outside = size((100, 100), (50_000, 50_000))  # the two listed poses of each
+    assert min(least_margins_inside(case, inside, poses // share, 11)) > -ROUNDING
+    assert max(least_margins_outside(case, outside, more // share, 12)) < ROUNDING
 
 
 def test_every_design_outside_breaks_the_limit_that_is_named_at_the_pose_that_is_named(case):

@@ -1,7 +1,7 @@
 """Every limit from its definition, in numpy: values and margins of one design at a time.
 
-Shares with the core the joints and configurations of a study, which design_oracle.py holds against numpy, and the
-lengths of legs; test_limit_oracle.py holds it against numbers done by hand.
+Shares with the core the joints and configurations of a study, which design_oracle.py holds against numpy;
+test_limit_oracle.py holds it against numbers done by hand.
 """
 
 import math
@@ -118,7 +118,8 @@ def _where(limit, robot):
 
 
 def _legs(robot):
-    return nd.leg_lengths(robot.geometry, robot.poses).reshape(-1, 9)
+    start, end = robot.ends(robot.poses)
+    return np.linalg.norm(end - start, axis=-1).reshape(-1, 9)
 
 
 def _radii(robot, body):
@@ -285,11 +286,11 @@ def determinants(robot, steps):
     turn = rotation_vector(there.rotation @ here.rotation.T)
     whole = np.concatenate([turn, there.position - here.position, there.internal_point - here.internal_point], axis=-1)
     path = here.moved((np.arange(1, steps + 1)[:, None, None] / max(steps, 1) * whole).reshape(-1, 9))
-    neutral, seen = _triples(robot, here), _triples(robot, path)
+    neutral, seen = triples(robot, here), triples(robot, path)
     return np.concatenate([np.abs(neutral).reshape(-1), (seen * np.sign(neutral)).reshape(-1)])
 
 
-def _triples(robot, c):
+def triples(robot, c):
     start, end = robot.ends(c)
     along = end - start
     to_base, to_platform = (at[..., :3, :] - c.internal_point[..., None, :] for at in (start, end))
