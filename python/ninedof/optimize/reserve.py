@@ -18,7 +18,7 @@ from ninedof.support.short import short_repr
 from ninedof.support.structs import Fixed
 
 ROUNDS = 6  # two are enough where limits change little with the design
-MORE = 1.02  # of what a proof lacks: a limit on its edge would be proved by rounding only
+MORE, EDGE = 1.02, 1e-8  # of what a proof lacks, and of the limit: on its edge it would be proved by rounding only
 STEP = 0.005  # of a limit of the condition number, in each round
 LEAST = 0.5  # of a limit, and of its inverse: tolerances that take more leave no machine
 FOR_PROOF = 60.0  # seconds of each limit, which takes fewer: the same result whatever the machine
@@ -116,7 +116,8 @@ def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
         if limit.name in CONDITION_LIMITS:  # its enclosure is wide
             share = min(limit.limit / met, 1.0) * (1.0 - STEP)
         else:
-            share = 1.0 - (1.0 - limit.limit / worst) * MORE if 0.0 < worst < math.inf else 0.0
+            lack = 1.0 - limit.limit / worst if 0.0 < worst < math.inf else 1.0
+            share = 1.0 - lack * MORE - math.copysign(EDGE, lack)
         out[f"{limit.name} {limit.side}"] = share
     return out
 

@@ -164,6 +164,27 @@ def test_limits_hold_between_the_poses(name):
 
 
 @pytest.mark.slow
+def test_what_a_dear_limit_buys_is_not_left_over():
+    """Near the least stroke that a design can keep 1e-8 of it changes the condition number by 1e-6."""
+    study = nd.Study(
+        "symmetric",
+        variables={
+            "zp": (3.0, 6.0),
+            "zs": (0.5, 5.5),
+            "platform_external_radius": (1.8, 2.2),
+            "base_external_radius": 5.0,
+        },
+        constraints={"stroke_ratio": (None, 1.28)},
+        objective={"region": {"box": [0.5, 0.5, 0.5], "tilt_deg": 10}},
+        characteristic_length=1.5,
+        starts=4,
+    )
+    result = nd.optimize(study)
+    assert result.status == "optimal"
+    assert result.best.prices["stroke_ratio"] > 20.0
+    assert 0.0 <= result.region.gain <= 1e-7
+
+
 def test_check_finds_a_wrong_mean():
     result = solved("mean, one variable")
     average = result.region.mean

@@ -152,3 +152,19 @@ def test_a_listed_pose_and_the_neutral_one_are_proved_too():
     assert result.reserve.proved
     assert "radius_ratio max" in result.reserve.shares
     assert result.certify(slack=0.0, time_limit=0.0).proved
+
+
+@pytest.mark.parametrize("within", [0.0131, 0.0145, 0.0156])
+def test_the_rounds_end_within_the_limit_not_on_it(within):
+    """What a proof lacks falls by a hundred a round, here beside a limit on its edge after the first one."""
+    sides = {"a1": (0.0, 6.0), "a2": (3.0, 6.0), "b1": (1.0, 4.0), "b2": (0.0, 4.0)}
+    study = nd.Study(
+        variables=sides | {"zp": (2.0, 8.0), "zs": (1.0, 6.0)},
+        constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 1.8)},
+        objective={"poses": [{"position": [0.3, 0.0, 0.0]}]},
+        tolerances={"joints": within, "legs": within},
+        starts=2,
+    )
+    result = nd.optimize(study)
+    assert result.status == "optimal"
+    assert result.reserve.proved

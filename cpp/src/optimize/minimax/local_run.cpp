@@ -18,15 +18,23 @@ constexpr double loose = 1e-10, tight = 1e-13;
 /// Relative difference of objectives that is not worth an optimum: what lies below it by less is only next to one.
 constexpr double next_to = 1e-8;
 
-/// Whether `next` is the better point: regular before singular, feasible before infeasible, then the lower objective,
-/// then, of two equal ones, the more nearly stationary.
+/// What the violation that is tolerated may have gained, in the logarithm of the objective: much, where a limit is dear.
+double bought(const Candidate& c) {
+  double price = 0.0;
+  for (const auto& [name, of] : c.prices) price = std::max(price, of);
+  return price * c.constraint_violation;
+}
+constexpr double bought_at_most = 1e-9;
+
+/// Whether `next` is the better point: regular before singular, feasible before infeasible, then the lower objective
+/// with what violation bought counted twice, then, of two equal ones, the more nearly stationary.
 bool improves(const Candidate& next, const Candidate& now) {
   if (next.regular() != now.regular()) return next.regular();
   if (next.feasible() != now.feasible()) return next.feasible();
   if (!next.feasible()) return next.constraint_violation < now.constraint_violation;
-  if (next.stationary() != now.stationary() && std::abs(next.objective - now.objective) <= next_to * now.objective)
-    return next.stationary();
-  if (std::abs(next.objective - now.objective) > 1e-10 * now.objective) return next.objective < now.objective;
+  const double gain = std::log(now.objective / next.objective) + 2.0 * (bought(now) - bought(next));
+  if (next.stationary() != now.stationary() && std::abs(gain) <= next_to) return next.stationary();
+  if (std::abs(gain) > 1e-10) return gain > 0.0;
   return next.optimality_residual < now.optimality_residual;
 }
 
@@ -164,7 +172,7 @@ LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, 
   if (p.coordinates.size() == 0) return run;
   const bool minimax = formulation == Formulation::minimax;
   Subproblem subproblem(p, formulation, stop, observer);
-  const auto settled = [&] { return run.end.feasible() && run.end.stationary(); };
+  const auto settled = [&] { return run.end.feasible() && run.end.stationary() && bought(run.end) <= bought_at_most; };
   const auto take = [&](const Eigen::VectorXd& next) {
     const Candidate found = candidate_at(p, next);
     if (!improves(found, run.end)) return false;

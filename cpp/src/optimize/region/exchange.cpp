@@ -26,7 +26,10 @@ void conclude(Result& result, bool settled, int rounds, const Candidate& best, d
   if (!settled) {
     std::snprintf(text.data(), text.size(), "after %d rounds the design is still worse between the poses than at them",
                   rounds);
-  } else if (!best.stationary() || gain > most_gain) {
+  } else if (best.stationary() && gain > most_gain) {
+    std::snprintf(text.data(), text.size(),
+                  "no limit is passed in the region, but %.1e may be left to gain near this design", gain);
+  } else if (!best.stationary()) {
     std::snprintf(text.data(), text.size(),
                   "no limit is passed in the region, but the test of stationarity leaves %.1e: a slightly better "
                   "design may exist",
@@ -107,23 +110,27 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     out.best = std::move(next);
     out.imposed = imposed;
     out.look = {};
+    out.slack = 0.0;
     if (!out.best.feasible()) break;
     x = out.best.variables;
     if (hopeless(out, known)) break;
-    try {
-      Look found = look(out, quick_samples, control_);
-      if (found.excess <= passed) found = look(out, dense_samples, control_);
+    const auto take = [&](Look found) {
       out.look = std::move(found);
+      excess = std::max(out.look.excess, gain_of(out));  // little of a dear limit is much
+    };
+    try {
+      take(look(out, quick_samples, control_));
+      if (excess <= passed) take(look(out, dense_samples, control_));
     } catch (const Stopped&) {
+      out.look = {};
       break;
     }
-    excess = out.look.excess;
     if (excess <= passed) {
       out.slack = slack(out);
       out.settled = exactly || out.slack <= passed;
       if (out.settled) break;
-      exactly = true;
     }
+    exactly |= out.look.excess <= passed;
     for (const Vec6& at : out.look.worst)
       if (std::ranges::none_of(imposed.at,
                                [&](const Vec6& other) { return distance_in(region_, at, other) <= one_place; }))
