@@ -165,7 +165,8 @@ class PlacedStudy {
       if (found_.candidates.empty()) return false;
       const Candidate& best = found_.candidates.front();
       state_ = poses_.state(best.variables, state_.ruling, std::log(best.objective));
-      look_ = poses_.look(state_, how(dense_samples), passed_placed, control_);
+      look_ = poses_.look(state_, how(quick_samples), passed_placed, control_);
+      if (poses_.nothing_new(state_, look_)) look_ = poses_.look(state_, how(dense_samples), passed_placed, control_);
       if (poses_.nothing_new(state_, look_) || round + 1 == most_exchanges) return true;
       state_.ruling = poses_.replaced(state_, look_);
       follow_ruling();
