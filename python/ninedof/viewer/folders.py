@@ -9,6 +9,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from ninedof.design.limit_numbers import SPREADS
+from ninedof.design.region_poses import places_o
 from ninedof.export.export import export, formats
 from ninedof.motion.follow import follow
 from ninedof.motion.trajectory import Trajectory
@@ -20,7 +22,7 @@ from ninedof.redundancy.rules import RULES, WORDS
 from ninedof.support.extras import MissingExtra
 from ninedof.support.units import amount, with_unit
 from ninedof.viewer.html import legend_html, limits_html, number, numbers_html, words_html
-from ninedof.viewer.machine import Variable
+from ninedof.viewer.machine import Machine, Variable
 from ninedof.viewer.panel import Panel, Slider
 from ninedof.viewer.scene import PATH_COLOUR
 from ninedof.viewer.state import ELLIPSOIDS, State
@@ -54,6 +56,8 @@ def build(panel: Panel) -> None:
             panel.text("admissible", lambda: words_html(designs.words(panel.state.variables)))
     with panel.gui.add_folder("Limits"):
         panel.text("limits", lambda: limits_html(panel.numbers, panel.unit))
+        if words := spread_words(panel.state.machine):
+            panel.text("spreads", lambda: words_html(words))
     closed = {"Assembly modes": _modes, "Workspace": _workspace, "Path": _path, "View": _view, "Save": _save}
     for title, folder in ({design: _design} | closed).items():
         with panel.gui.add_folder(title, expand_by_default=False):
@@ -68,6 +72,19 @@ def lines_shown(state: State) -> dict[str, str]:
     if state.player is not None:
         lines[f"path {state.player.name}" if state.player.name != "path" else "path"] = PATH_COLOUR
     return lines
+
+
+def spread_words(machine: Machine) -> str:
+    """Return over which poses the limits are taken that compare lengths of legs; "" without any."""
+    names = [] if machine.study is None else [name for name in machine.study.constraints if name in SPREADS]
+    if not names:
+        return ""
+    over = "the poses of the study"
+    if machine.region is not None:
+        over = "the region" if places_o(machine.region) else "the region (q and r: the poses of the study)"
+    verb = "compares" if len(names) == 1 else "compare"
+    what = " and ".join(names).replace("_", " ").capitalize()
+    return f"{what} {verb} the lengths of the legs over {over} and at the pose shown."
 
 
 def _coordinate(panel: Panel, k: int, label: str, reach: float, hint: str) -> None:

@@ -95,7 +95,9 @@ def _determinants(numbers: Numbers) -> str:
 
 def _legs(numbers: Numbers, unit: str) -> str:
     rows = (f"<tr>{''.join(_leg(numbers, k) for k in (i, i + 3, i + 6))}</tr>" for i in range(3))
-    return f'<div style="{_FAINT}">{with_unit("leg lengths", unit)}</div>{_TABLE}{"".join(rows)}</table>'
+    limited = ", with the least margin of their limits" if (numbers.leg_margins < math.inf).any() else ""
+    head = f"{with_unit('leg lengths', unit)}{limited}"
+    return f'<div style="{_FAINT}">{head}</div>{_TABLE}{"".join(rows)}</table>'
 
 
 def _leg(numbers: Numbers, k: int) -> str:

@@ -11,10 +11,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.family_variables import variables_of
 from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.region import Region
+from ninedof.design.region_poses import places_o
 from ninedof.design.study import FAMILIES, Study, variable_kinds
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
@@ -29,6 +31,8 @@ from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
 
 LENGTH = "characteristic_length"
+SAMPLES = 1000
+"""Poses of a region at which the legs are looked at before the descents to their shortest and longest."""
 
 
 class Variable(NamedTuple):
@@ -56,7 +60,8 @@ class Variant:
     leg_high: Floats
     study: Study | None = None
     study_lengths: Floats | None = None
-    """Leg lengths at the poses of the study, shape (m, 9): spreads are taken over them and the pose shown."""
+    """Leg lengths that the study has, shape (m, 9): at its poses, and the ends over its region. Spreads are taken over
+    them and the pose shown."""
     margins: Mapping[str, float] | None = None
     """Least margin of every constraint at the study's own poses, by name."""
 
@@ -153,12 +158,22 @@ class Machine:
             if variables != self.variables:
                 g, home = self.problem.geometry(x), poses[0]
             if study is not None:
-                lengths = np.asarray(leg_lengths(g, poses))
+                lengths = self._over_region(g, home, np.asarray(leg_lengths(g, poses)))
                 evaluated = self.problem.evaluate(x)["margins"] if study.constraints else ()
                 margins = {name: float(margin) for name, margin, _ in evaluated}
         if length is None:
             length = self._length(g, home, variables)
         return Variant(g, home, length, *self._leg_limits(home), study, lengths, margins)
+
+    def _over_region(self, g: Geometry, home: Configuration, lengths: Floats) -> Floats:
+        """Return lengths at poses with the ends over the region; of the legs at O where the region says where O is."""
+        region = self.region
+        if region is None:
+            return lengths
+        ends = np.array(_core.leg_lengths_over(g, home, region.for_core(), SAMPLES))
+        if not places_o(region):
+            ends[:, 3:] = lengths[0, 3:]  # nothing beyond the poses
+        return np.concatenate([lengths, ends])
 
     def _length(self, g: Geometry, home: Configuration, variables: Mapping[str, float]) -> float:
         if LENGTH in variables:

@@ -8,6 +8,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.support.margins import is_violated
+from ninedof.viewer.folders import spread_words
 from ninedof.viewer.machine import machine_of
 from ninedof.viewer.numbers import numbers_of
 from ninedof.viewer.state import State
@@ -270,3 +271,25 @@ def test_the_model_needs_no_screen():
         text = (folder / f"{name}.py").read_text(encoding="utf-8")
         assert "viser" not in text
         assert "plot" not in text
+
+
+@pytest.mark.parametrize("rule", ["shifted", "best"])
+def test_spreads_are_those_of_the_region(rule):
+    region = {"box": (0.3, 0.3, 0.2), "tilt_deg": 6.0, "internal_point": rule}
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.3745},
+        constraints={"stroke_ratio": (None, 1.5), "leg_ratio": (None, 4.0)},
+        objective={"region": region},
+    )
+    result = nd.optimize(study)
+    state = State(machine_of(result))
+    legs = nd.sheet(result).legs[: 9 if rule == "shifted" else 3]  # O placed anew: what is known of l alone
+    lengths = state.variant.study_lengths[:, : len(legs)]
+    np.testing.assert_allclose(lengths.min(axis=0), [leg.shortest for leg in legs], rtol=1e-7)
+    np.testing.assert_allclose(lengths.max(axis=0), [leg.longest for leg in legs], rtol=1e-7)
+    shown = next(one for one in numbers(state).limits if one.name.startswith("stroke_ratio"))
+    assert shown.value >= max(leg.stroke_ratio for leg in legs) * (1.0 - 1e-7)
+    over = {"shifted": "the region", "best": "the region (q and r: the poses of the study)"}[rule]
+    assert spread_words(state.machine) == (
+        f"Stroke ratio and leg ratio compare the lengths of the legs over {over} and at the pose shown."
+    )
