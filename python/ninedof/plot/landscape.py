@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.plot import style
 
+THINNEST = 0.005  # of the axis: a narrower white strip at a mark is not seen
 NEUTRAL: dict[str, Any] = {"color": style.MUTED, "lw": 0.9, "ls": (0, (4, 2))}
 
 
@@ -47,7 +48,7 @@ class DesignCurves:
     neutral: tuple[ArrayLike, ArrayLike] | None = None
     """Condition number at the neutral pose along both, where the curves are the worst over several poses."""
     passed: tuple[ArrayLike, ArrayLike] | None = None
-    """Along both, whether a limit of the study is passed there."""
+    """Along both, whether a limit of the study is passed there. The ground ends at the last point where one is."""
 
 
 def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Figure | None = None) -> Figure:
@@ -133,6 +134,10 @@ def _passed(axes: Any, design: DesignCurves, k: int) -> bool:
     passed, (low, high) = np.asarray(design.passed[k], dtype=bool), axes.get_xlim()
     axes.fill_between(x, 0, 1, where=passed, transform=axes.get_xaxis_transform(), color=style.GRID, lw=0, zorder=0)
     axes.set_xlim(low, high)
+    own = (design.point[0], np.degrees(design.point[1]))[k]
+    around = x[passed & (x >= own)].min(initial=np.inf) - x[passed & (x <= own)].max(initial=-np.inf)
+    if 0.0 < around < THINNEST * (high - low):
+        axes.set_title(f"{axes.get_title(loc='left')}: kept at the mark alone")
     return bool(passed[(x >= low) & (x <= high)].any())
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
+from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.design_point import DesignPoint
 from ninedof.design.duty import Tool
 from ninedof.design.pose import Pose
 from ninedof.design.region_outline import region_lines
@@ -19,6 +22,8 @@ from ninedof.paper import published
 from ninedof.paper.comparison import Comparison
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats
+from ninedof.support.margins import is_violated
 from ninedof.support.units import amount
 
 if TYPE_CHECKING:
@@ -32,6 +37,7 @@ Named = tuple[str, Geometry, Configuration, float, float]
 
 TRACED_STARTS = 200  # runs shown in the convergence figure, at one pose
 POINTS = 161  # of a curve over several poses
+HALVINGS = 24  # of a step of it, to the edge of a limit
 FEWEST_TRACED = 10  # however many poses each run evaluates
 
 
@@ -165,29 +171,51 @@ def _over_poses(result: Result) -> list[DesignCurves]:
     zp, own = float(home.position[2]), float(home.internal_point[2])
     turns = [n for n in ("theta_z", "platform_external_angle", "platform_internal_angle") if n in study.variables]
     twist = float(np.arctan2(home.rotation[1, 0], home.rotation[0, 0]))
-    heights, away = np.linspace(0.02, 0.98, POINTS) * zp, np.radians(np.linspace(-60.0, 60.0, POINTS))
-    along = [
-        [study.evaluate(best.variables | {"zs": float(z)}) for z in heights],
-        [study.evaluate(best.variables | {n: best.variables[n] + float(a) for n in turns}) for a in away],
-    ]
+    zs, lifted = _along(np.linspace(0.02, 0.98, POINTS) * zp, own, lambda z: study.evaluate(best.variables | {"zs": z}))
+    turn, turned = _along(
+        np.radians(np.linspace(-60.0, 60.0, POINTS)),
+        0.0,
+        lambda a: study.evaluate(best.variables | {n: best.variables[n] + a for n in turns}),
+    )
     is_condition = study.objective.index == "condition_number"
     index, _, over = study.words.partition(" over ")
     if result.region is not None:
         over = f"the {len(result.region.poses)} poses that ruled the region"
-    zs_kappa, twist_kappa = ([point.neutral_condition_number for point in points] for points in along)
-    zs_passed, twist_passed = ([min(p.margins.values(), default=0.0) < -1e-6 for p in points] for points in along)
+    zs_kappa, twist_kappa = ([point.neutral_condition_number for point in points] for points in (lifted, turned))
     curves = DesignCurves(
         name=f"{index} over {over}",
-        zs=heights,
-        along_zs=[point.objective for point in along[0]],
-        theta_z=twist + away,
-        along_theta_z=[point.objective for point in along[1]],
+        zs=zs,
+        along_zs=[point.objective for point in lifted],
+        theta_z=twist + turn,
+        along_theta_z=[point.objective for point in turned],
         point=(own, twist, best.objective),
         index="condition number" if is_condition else index,
         neutral=(zs_kappa, twist_kappa) if is_condition else None,
-        passed=(zs_passed, twist_passed),
+        passed=(list(map(_is_passed, lifted)), list(map(_is_passed, turned))),
     )
     return [curves]
+
+
+def _along(
+    grid: Floats, own: float, point_at: Callable[[float], DesignPoint]
+) -> tuple[Floats, tuple[DesignPoint, ...]]:
+    """Return places and designs there: of a grid, the optimum's own, and both sides of each edge of the limits."""
+    row = sorted(((x, point_at(x)) for x in (*grid.tolist(), own)), key=itemgetter(0))
+    edges = []
+    for low, high in pairwise(row):
+        if _is_passed(low[1]) == _is_passed(high[1]):
+            continue
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low[0] + high[0])
+            there = (middle, point_at(middle))
+            low, high = (there, high) if _is_passed(there[1]) == _is_passed(low[1]) else (low, there)
+        edges += [low, high]
+    places, points = zip(*sorted(row + edges, key=itemgetter(0)), strict=True)
+    return np.array(places), points
+
+
+def _is_passed(point: DesignPoint) -> bool:
+    return any(is_violated(margin) for margin in point.margins.values())
 
 
 def _traces(result: Result, formulation: str) -> list[tuple[float, ...]]:

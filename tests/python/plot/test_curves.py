@@ -1,6 +1,7 @@
 """Figures of curves: the condition number about a design, at poses and along a motion; the convergence of starts."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -50,6 +51,18 @@ def test_curves_over_poses_have_the_neutral_one_beside_and_a_ground_where_a_limi
         assert [spans.min(), spans.max()] == pytest.approx(ends, abs=1e-9)
     (dashed,) = [line for line in figure.axes[0].lines if line.get_color() == style.MUTED]
     assert set(dashed.get_ydata()) == {3.8}
+    assert [axes.get_title(loc="left") for axes in figure.axes] == ["along zs", "along theta_z"]
+
+
+def test_a_design_that_limits_leave_no_room_is_said_to_be_allowed():
+    zs, theta = np.array([2.0, 2.4, 2.400001, 3.0]), np.array([-0.1, 0.0, 0.1])
+    passed = [True, False, True, True], [False, False, True]
+    design = plot.DesignCurves("it", zs, 4.0 + zs, theta, 6.4 + theta, (2.4, 0.0, 6.4), passed=passed)
+    titles = [axes.get_title(loc="left") for axes in plot.condition_curves([design]).axes]
+    assert titles == ["along zs", "along theta_z"]
+    close = np.array([2.399999, *zs[1:]])
+    titles = [axes.get_title(loc="left") for axes in plot.condition_curves([replace(design, zs=close)]).axes]
+    assert titles == ["along zs: kept at the mark alone", "along theta_z"]
 
 
 def test_a_map_of_a_region_says_what_it_is_over_and_has_one_scale():

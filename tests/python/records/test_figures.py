@@ -106,3 +106,22 @@ def test_curves_of_a_design_with_a_tool_pass_through_it():
     at = [np.interp(curves.point[0], curves.zs, curves.along_zs)]
     at.append(np.interp(curves.point[1], curves.theta_z, curves.along_theta_z))
     assert at == pytest.approx([best.condition_number] * 2, rel=1e-3)
+
+
+def test_the_ground_of_limits_ends_at_the_limits():
+    """The optimum is on a limit: beside it, on one side of the marker, no design is shown as allowed."""
+    region = {"box": [0.3, 0.3, 0.2], "tilt_deg": 8}
+    limits = {"stroke_ratio": (None, 1.25), "base_cone": {"max_deg": 40, "axis": [0.0, 0.0, 1.0]}}
+    result = nd.optimize(nd.Study("symmetric", constraints=limits, objective={"region": region}, starts=2))
+    (curves,) = _over_poses(result)
+    solved, best, edges = result.solved, result.variables, 0
+    for own, places, name, passed in zip(curves.point, (curves.zs, curves.theta_z), ("zs", ""), curves.passed):
+        assert not passed[np.abs(places - own).argmin()]
+        step = np.diff(places).max()
+        for k in np.flatnonzero(np.diff(passed)):
+            assert places[k + 1] - places[k] < 1e-6 * step
+            edges += 1
+            if name:
+                least = [min(solved.evaluate(best | {name: z}).margins.values()) for z in places[k : k + 2]]
+                assert sorted(margin < -1e-6 for margin in least) == [False, True]
+    assert edges
