@@ -7,17 +7,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.limit_numbers import SPREADS
 from ninedof.design.limits import kind_of
 from ninedof.design.pose import Pose
 from ninedof.design.region import Region
 from ninedof.design.region_outline import circle, section_outline
-from ninedof.design.region_poses import configurations_at
+from ninedof.design.region_poses import configurations_at, places_o
+from ninedof.design.study import Study
 from ninedof.motion.rotations import from_vectors
 from ninedof.optimize.machine_proofs import placing_of
 from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
 from ninedof.sheet.pose_limits import pose_limits
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
@@ -28,6 +31,7 @@ FINE, COARSE = (33, 16, 72), (7, 3, 12)
 at every pose, which takes a thousand times as long."""
 TILTS = (3, 4)  # the plane of the tilts
 DIRECTIONS, ALONG = 16, 41  # of the greatest tilt; places along a path
+SAMPLES = 10_000  # poses at which the lengths of the legs are looked at before descents
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +53,9 @@ class RegionMap:
     """The worst at each place, infinite where singular."""
     margin: Floats | None
     """The least margin of a limit at a pose, negative where it is passed; None if the study has no such limit."""
+    compared: dict[str, float]
+    """The limits that compare poses, which no place of the map has: the least margin of each over the region, NaN where
+    O is placed anew at every pose."""
     outline: Floats
     """Of the region in this plane, points (k, 2)."""
     home: Floats
@@ -123,6 +130,7 @@ def region_map(result: Result) -> RegionMap | None:
         vertical=home[1] + unit * places[..., 1],
         condition_number=kappa,
         margin=np.min(shares, axis=0).reshape(shape).min(axis=-1) if shares else None,
+        compared=_compared(study, g, neutral, length),
         outline=_outline(region, plane, neutral),
         home=home,
         ruled=home + np.array(ruled).reshape(-1, 2),
@@ -130,6 +138,19 @@ def region_map(result: Result) -> RegionMap | None:
         unit=study.unit,
         poses=len(rows),
     )
+
+
+def _compared(study: Study, g: Geometry, neutral: Configuration, length: float) -> dict[str, float]:
+    """Return the least margin over the region of each limit that compares poses."""
+    region, out = study.objective.region, dict[str, float]()
+    assert region is not None
+    ends = np.array(_core.leg_lengths_over(g, neutral, region.for_core(), SAMPLES))
+    _, middle = configurations_at(region, neutral, np.zeros((1, 6)))
+    for one in pose_limits(study, g, middle, neutral, length, ends):
+        if one.name in SPREADS:
+            margin = float(one.margin[0]) if places_o(region) else math.nan
+            out[one.name] = min(margin, out.get(one.name, math.inf))
+    return out
 
 
 def _plane(region: Region) -> tuple[int, int] | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,10 +12,12 @@ from matplotlib.ticker import MaxNLocator
 
 from ninedof.plot import style
 from ninedof.support.arrays import Floats
+from ninedof.support.margins import TOLERANCE, margin_words
 
 if TYPE_CHECKING:
     from ninedof.optimize.region_map import RegionMap
 
+Ends = tuple[float, float]
 MARGIN = "viridis"
 RULED = {"marker": "o", "ms": 5.0, "mfc": "none", "color": style.ALARM, "mew": 1.3, "ls": ""}
 TALLEST = 3.2  # inches, of the panels
@@ -49,10 +52,11 @@ def region_map(region: RegionMap, figure: Figure | None = None) -> Figure:
     with style.page(figure, wide, tall, layout="constrained") as figure:
         axes: Any = figure.subplots(1, panels, squeeze=False)[0]
         over = f"\nover all {region.over}" if region.over else ""
-        _fill(axes[0], x, y, region.condition_number, style.CONDITION, "condition number")
+        kappa = region.condition_number
+        _fill(axes[0], x, y, kappa, style.finite_range(kappa, (0.0, 1.0)), style.CONDITION, "condition number")
         axes[0].set_title(f"worst condition number{over}")
         if region.margin is not None:
-            _fill(axes[1], x, y, 100.0 * region.margin, MARGIN, "least margin (%)")
+            _fill(axes[1], x, y, *_percent(region.margin), MARGIN, "least margin (%)")
             axes[1].set_title(f"least margin of the limits at a pose{over}")
         for panel in axes:
             panel.grid(visible=False)
@@ -67,15 +71,35 @@ def region_map(region: RegionMap, figure: Figure | None = None) -> Figure:
             style.key(**RULED, label="poses that ruled"),
             style.key(**style.HOME, label="neutral pose"),
         ]
-        figure.legend(handles=keys, loc="outside lower center", ncols=3 if panels == 2 else 1)
+        below: dict[str, Any] = {"title": _left_out(region), "title_fontsize": style.SMALL_SIZE} if panels == 2 else {}
+        figure.legend(handles=keys, loc="outside lower center", ncols=3 if panels == 2 else 1, **below)
     return figure
 
 
-def _fill(axes: Any, x: Floats, y: Floats, values: Floats, colours: str, words: str) -> None:
-    """Fill between contours at round values, and add their bar."""
-    low, high = style.finite_range(values, (0.0, 1.0))
+def _fill(axes: Any, x: Floats, y: Floats, values: Floats, ends: Ends, colours: str, words: str) -> None:
+    """Fill between contours at round values from one end to the other, and add their bar."""
+    low, high = ends
     levels = style.round_levels(low, min(high, style.RANGE * low) if low > 0.0 else high)
     norm, extend = BoundaryNorm(levels, 256, extend="max"), "max" if high > levels[-1] else "neither"
     filled = axes.contourf(x, y, values, cmap=colours, norm=norm, levels=levels, extend=extend)
     axes.contour(x, y, values, levels=levels, colors="white", linewidths=0.4, alpha=0.7)
     style.colour_bar(axes.figure, filled, words, ax=axes, fraction=0.045, pad=0.02, ticks=MaxNLocator(6))
+
+
+def _percent(margin: Floats) -> tuple[Floats, Ends]:
+    """Return margins in per cent and the ends of their colours, at least one apart: less would look like structure."""
+    percent = np.where(np.abs(margin) < TOLERANCE, 0.0, 100.0 * margin)
+    low, high = style.finite_range(percent, (0.0, 1.0))
+    if high - low < 1.0:
+        low = math.floor(low)
+        high = max(high, low + 1.0)
+    return percent, (low, high)
+
+
+def _left_out(region: RegionMap) -> str | None:
+    """Return a line about the limits that compare poses, None without any."""
+    words = [
+        name.replace("_", " ") + ("" if math.isnan(margin) else f" ({margin_words(margin, 'ratio')} over the region)")
+        for name, margin in region.compared.items()
+    ]
+    return f"least margin without limits that compare poses: {', '.join(words)}" if words else None

@@ -14,7 +14,8 @@ CAPTIONS = {
     "mechanism": "The mechanism at its neutral pose.",
     "condition": "Along the height of O and along the twist, other variables as in the design: what the study asks "
     "for, at its poses or those that ruled its region; grey where a limit is passed there.",
-    "region": "The region of the study: the worst condition number at each place, and the least margin of its limits.",
+    "region": "The region of the study: the worst condition number at each place, and the least margin of the limits "
+    "at a pose. Those that compare poses have no margin there; theirs over the region are below.",
     "poses": "Condition number at each pose that was imposed, numbered as in the sheet.",
     "convergence": "Convergence of single starts, with the smooth minimax form and with the plain objective.",
     "front": "The least objective for each value of the limit, and designs from above.",

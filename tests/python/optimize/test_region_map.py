@@ -101,6 +101,23 @@ def test_o_placed_anew_is_no_worse_than_shifted():
     assert (best.condition_number <= shifted.condition_number[::4, ::4].max()).all()
 
 
+@pytest.mark.parametrize("rule", ["shifted", "best"])
+def test_limits_that_compare_poses_are_named_with_their_margin_over_the_region(rule):
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "zp": 5.0, "zs": 3.2},
+        constraints={"stroke_ratio": (None, 1.9), "stroke": (None, 3.0), "base_cone": {"max_deg": 60}},
+        objective={"region": {"box": [0.3, 0.3, 0.1], "tilt_deg": 5, "internal_point": rule}},
+    )
+    result = nd.optimize(study)
+    compared = nd.region_map(result).compared
+    assert set(compared) == {"stroke_ratio", "stroke"}
+    if rule == "best":
+        assert all(np.isnan(margin) for margin in compared.values())
+    else:
+        of_sheet = {row.name: row.margin for row in nd.sheet(result).limits}
+        assert compared == pytest.approx({name: of_sheet[name] for name in compared}, rel=1e-7)
+
+
 def test_there_is_no_map_without_a_plane():
     assert nd.region_map(nd.optimize(nd.Study.paper(), starts=2)) is None
     line = nd.Study(variables={"a1": 0.0, "b2": 0.0}, objective={"region": {"box": [0.3, 0.0, 0.0]}})

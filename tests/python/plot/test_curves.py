@@ -81,6 +81,21 @@ def test_a_map_of_a_region_says_what_it_is_over_and_has_one_scale():
     assert made("region of turns").axes[0].get_xlabel() == "tilt about x (deg)"
 
 
+def test_a_map_of_a_region_draws_no_noise_as_structure():
+    """Margins that are the same to rounding have one colour, the lowest where they are 0."""
+    asked = region()
+    noise = 1e-9 * np.random.default_rng(1).uniform(-1.0, 1.0, asked.margin.shape)
+    for level, low in ((0.0, 0.0), (0.43621, 43.0), (-0.1234, -13.0)):
+        alike = replace(asked, margin=level + noise, compared={"stroke_ratio": 0.0002, "stroke": math.nan})
+        figure = plot.region_map(alike)
+        (filled,) = [one for one in figure.axes[1].collections if one.get_array() is not None and one.filled]
+        assert sum(len(path.vertices) > 0 for path in filled.get_paths()) == 1
+        assert filled.levels[[0, -1]] == pytest.approx([low, low + 1.0])
+        assert figure.legends[0].get_title().get_text() == (
+            "least margin without limits that compare poses: stroke ratio (0.02 % over the region), stroke"
+        )
+
+
 @pytest.mark.parametrize(
     ("along_zs", "point"), [([math.inf, 4.0, 5.0], 4.0), ([math.inf] * 3, math.inf), ([4.0] * 3, 4.0)]
 )
