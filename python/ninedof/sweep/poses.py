@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,14 +13,17 @@ from ninedof.design.indices import Index
 from ninedof.redundancy.redundancy_map import best_internal_map
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import Geometry, triples
+from ninedof.support.angles import plain_name
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays
 
 ROTATION, POSITION, INTERNAL = ("theta_x", "theta_y", "theta_z"), ("x_p", "y_p", "z_p"), ("x_s", "y_s", "z_s")
 COORDINATES = (*ROTATION, *POSITION, *INTERNAL)
 """In the order of `Configuration.moved`."""
-RULES = ("held", "carried", "best")
+RULES = ("held", "carried", "shifted", "best")
 """Position of O while the platform moves."""
+FOLLOWING = ("carried", "shifted")
+"""With these O is swept by displacements only."""
 
 BLOCK = 2048
 """Approximate number of points whose O is searched together, in a tenth of a second: each continues its neighbours."""
@@ -62,7 +66,7 @@ class Poses:
         if not self.relative:  # what is swept begins at zero
             p, s = (np.where([name in values for name in names], 0.0, x) for names, x in ((POSITION, p), (INTERNAL, s)))
             q = np.eye(3) if turned else q
-        s = np.zeros(3) if self.rule == "carried" else s
+        s = np.zeros(3) if self.rule in FOLLOWING else s
         p, s = (_shifted(names, x, values, count) for names, x in ((POSITION, p), (INTERNAL, s)))
         c = Configuration._of(p, np.broadcast_to(q, (count, 3, 3)), s)
         if turned:
@@ -72,7 +76,7 @@ class Poses:
         if self.rule == "held":
             return c
         p, q = c.position, c.rotation
-        return Configuration._of(p, q, self._carried(c) if self.rule == "carried" else self._best(p, q, threads))
+        return Configuration._of(p, q, self._following(c) if self.rule in FOLLOWING else self._best(p, q, threads))
 
     def _best(self, p: Floats, q: Floats, threads: int | None) -> Floats:
         assert not isinstance(self.length, str), "checked by sweep"
@@ -86,12 +90,23 @@ class Poses:
             s[part] = best.configuration.internal_point.reshape(-1, 3)
         return s
 
-    def _carried(self, c: Configuration) -> Floats:
-        """Return the positions of O when it is fixed to the platform, and displaced from there."""
-        x, y, z = self.home.rotation.T @ (self.home.internal_point - self.home.position)
+    def _following(self, c: Configuration) -> Floats:
+        """Return the positions of O when it is fixed to the platform or shifts with it, and displaced from there."""
         p, q = c.position, c.rotation
+        arm = self.home.internal_point - self.home.position
+        if self.rule == "shifted":
+            return np.asarray(c.internal_point + (p + arm))
+        x, y, z = self.home.rotation.T @ arm
         # Not by matrix multiplication: BLAS may round differently in a chunk of another size.
         return np.asarray(c.internal_point + (p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z)))
+
+
+def rule_of_study(design: Any, over: Iterable[str]) -> str:
+    """Return where O is by default: as in the region of a design's study, "held" for others and where O is swept."""
+    study = getattr(design, "study", None)
+    if study is None or study.objective.region is None or set(map(plain_name, over)) & set(INTERNAL):
+        return "held"
+    return str(study.objective.region.internal_point)
 
 
 def _shifted(names: tuple[str, ...], start: Floats, values: dict[str, Floats], count: int) -> Floats:

@@ -6,13 +6,14 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypedDict, Unpack
+from functools import wraps
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.indices import What, indices_of
 from ninedof.design.study import FAMILIES, in_radians_by_kind, variable_kinds
 from ninedof.robot.configuration import Configuration, single
-from ninedof.robot.designs import takes_designs
+from ninedof.robot.designs import P, R_co, TakesDesigns, takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.angles import plain_name
 from ninedof.support.arguments import choice, finite, flag, known_keys, shown
@@ -22,7 +23,7 @@ from ninedof.support.progress import Progress
 from ninedof.support.units import unit_argument
 from ninedof.sweep.axis import Values, axes_of
 from ninedof.sweep.grid import GridWork
-from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses, best_block
+from ninedof.sweep.poses import COORDINATES, FOLLOWING, INTERNAL, ROTATION, RULES, Poses, best_block, rule_of_study
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.variants import Variants
 
@@ -31,6 +32,17 @@ if TYPE_CHECKING:
 
 # A chunk takes under a tenth of a second: signals are checked between chunks.
 POSES, DESIGNS = 65536, 1024
+
+
+def _as_in_the_study(function: TakesDesigns[P, R_co]) -> TakesDesigns[P, R_co]:
+    """Let O be by default as in the region of the study of a result."""
+
+    @wraps(function)
+    def call(design: Any, *args: Any, **kwargs: Any) -> R_co:
+        over = next((one for one in (*args, *kwargs.values()) if isinstance(one, Mapping)), {})
+        return function(design, *args, **{"internal_point": rule_of_study(design, over)} | kwargs)
+
+    return call  # type: ignore[return-value]  # as takes_designs
 
 
 class GridOptions(TypedDict, total=False):
@@ -58,6 +70,7 @@ class DesignOptions(GridOptions, total=False):
     family: str
 
 
+@_as_in_the_study
 @takes_designs
 def sweep(
     geometry: Geometry,
@@ -89,10 +102,11 @@ def sweep(
     relative : bool
         Whether the values are displacements from `home`, the default. If not they are the coordinates themselves, and a
         swept theta takes the place of the rotation at home: Q = exp(theta), components that are not swept being zero.
-    internal_point : {"held", "carried", "best"}
+    internal_point : {"held", "carried", "shifted", "best"}
         Position of O while the platform moves: at home, as in the paper's Fig. 6; as a point of the platform
-        ("carried"), from where swept x_s, y_s, z_s displace it; or the point of least condition number
-        (`best_internal_map`, over blocks of some 2000 points; NaN where no position is admissible). "held" by default.
+        ("carried") or shifted with its origin, from where swept x_s, y_s, z_s displace it; or the point of least
+        condition number (`best_internal_map`, over blocks of some 2000 points; NaN where no position is admissible). As
+        in the region of its study for a Result, unless O is swept; else "held" by default.
     characteristic_length : float or str
         A number, or a kind of `ninedof.characteristic_length`, taken at each configuration; 1 by default, of a
         design its own.
@@ -142,7 +156,7 @@ def sweep(
     rule = choice("internal_point", options.get("internal_point", "held"), RULES)
     length = length_argument(options.get("characteristic_length", 1.0))
     swept = {axis.name for axis in grid.axes}
-    if swept & set(INTERNAL) and (rule == "best" or (rule == "carried" and not relative)):
+    if swept & set(INTERNAL) and (rule == "best" or (rule in FOLLOWING and not relative)):
         where = "displaced from home" if rule == "best" else "displacements"
         raise ValueError(f'over: got {", ".join(sorted(swept))} with internal_point="{rule}", expected O to be {where}')
     if rule == "best" and isinstance(length, str):

@@ -318,7 +318,11 @@ def test_a_sweep_of_a_region_study_says_that_it_is_not_over_the_region(run, tmp_
     region = {"region": {"box": [0.1, 0.1, 0.1], "tilt_deg": 2.0}}
     nd.save(nd.optimize(nd.Study(variables={"a1": 0.0, "b2": 0.0}, objective=region), starts=1), tmp_path / "box")
     nd.save(nd.optimize(nd.Study.paper(), starts=1), tmp_path / "plain")
-    words = {"x_p=0,0.1": "with O held, in one orientation", "a2=5,6": "at the neutral pose alone"}
+    words = {
+        "x_p=0,0.1": "with O shifted, in one orientation",
+        "z_s=0,0.1": "with O held, in one orientation",
+        "a2=5,6": "at the neutral pose alone",
+    }
     for name, said in (("box", True), ("plain", False)):
         for number, (over, where) in enumerate(words.items()):
             options = f"--over {over} --no-figures --out {tmp_path / f'{name}-sweep-{number}'}"

@@ -40,6 +40,8 @@ def poses(home, over, relative=True, rule="held"):
         if rule == "carried":
             shift = point_o - home.internal_point
             point_o = position + turn @ own @ home.rotation.T @ (home.internal_point - home.position) + shift
+        if rule == "shifted":
+            point_o = position + point_o - home.position
         p.append(position)
         q.append(turn @ own)
         s.append(point_o)
@@ -66,7 +68,7 @@ GRIDS = {
 
 
 @pytest.mark.parametrize("grid", GRIDS)
-@pytest.mark.parametrize("rule", ["held", "carried"])
+@pytest.mark.parametrize("rule", ["held", "carried", "shifted"])
 def test_displacements(grid, rule):
     over = GRIDS[grid]
     found = nd.sweep(G, TURNED, over, internal_point=rule, chunk=2)
@@ -91,6 +93,22 @@ def test_a_carried_o_follows_the_rotation_of_the_platform():
     found = nd.sweep(G, TURNED, over, relative=False, internal_point="carried")
     expected = kappa(robot(TURNED, over, relative=False, rule="carried"))
     np.testing.assert_allclose(found["condition_number"], expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("rule", ["shifted", "held", "best"])
+def test_o_follows_the_rule_of_the_region_of_a_result(rule):
+    region = {"box": (0.2, 0.2, 0.1), "internal_point": rule}
+    fixed = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.4435}
+    result = nd.optimize(nd.Study(variables=fixed, objective={"region": region}))
+    over = {"x_p": [-0.2, 0.2], "theta_y": [0.0, 0.1]}
+    found = nd.sweep(result, over)
+    assert found.attributes["internal_point"] == rule
+    own = nd.sweep(result, over, internal_point=rule)["condition_number"]
+    np.testing.assert_array_equal(found["condition_number"], own)
+    assert nd.sweep(result, {"z_s": [0.0, 0.1]}).attributes["internal_point"] == "held"
+    assert nd.sweep(result, over, internal_point="carried").attributes["internal_point"] == "carried"
+    assert nd.sweep(result.geometry, result.configuration, over).attributes["internal_point"] == "held"
+    assert nd.sweep(nd.optimize(nd.Study.paper(), starts=1), over).attributes["internal_point"] == "held"
 
 
 def test_every_index():

@@ -21,7 +21,7 @@ from ninedof.paper.published import published_variables
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
 from ninedof.sweep.axis import Values
-from ninedof.sweep.poses import COORDINATES, ROTATION
+from ninedof.sweep.poses import COORDINATES, ROTATION, rule_of_study
 from ninedof.sweep.run import DesignOptions
 from ninedof.sweep.tables import summary_table
 
@@ -65,7 +65,10 @@ class Sweep(HexagonalOptions, Job):
         f"{', '.join(computed())}; over designs also six_legged."
     )
     absolute: bool = option("Values are the coordinates themselves, not displacements.", False, "--absolute")
-    internal_point: str | None = option("Position of O while the platform moves: held (default), carried or best.")
+    internal_point: str | None = option(
+        "Position of O while the platform moves: held, carried, shifted or best; by default as in the region of the "
+        "run's study, else held, and held where O is swept."
+    )
     points: int | None = option("Points of each curve of a figure.")
     chunk: int | None = option("Points per chunk. The result does not depend on it.")
     threads: int | None = option(THREADS)
@@ -84,8 +87,9 @@ def sweep(job: Sweep) -> None:
         chosen = None if what is None else chosen_design(what, job)
         if all(plain_name(name) in COORDINATES for name in grid):
             title += "" if job.absolute else ", from the neutral pose"
-            note = _note(chosen, f"with O {job.internal_point or 'held'}, in one orientation")
-            call = _over_poses(chosen, job, grid)
+            rule = job.internal_point or rule_of_study(chosen, grid)
+            note = _note(chosen, f"with O {rule}, in one orientation")
+            call = _over_poses(chosen, job, grid, rule)
         else:
             job.refuse("in a sweep over designs", *OF_POSES)
             design, own = _held_variables(what, chosen, job, grid)
@@ -108,7 +112,9 @@ def _note(chosen: Chosen | None, where: str) -> str:
     return f"{where}, not over the {'region' if study.objective.region else 'poses'} of the study"
 
 
-def _over_poses(chosen: Chosen | None, job: Sweep, grid: Mapping[str, Values]) -> Callable[..., nd.SweepResult]:
+def _over_poses(
+    chosen: Chosen | None, job: Sweep, grid: Mapping[str, Values], rule: str
+) -> Callable[..., nd.SweepResult]:
     """Return the sweep over coordinates of a design, or of the published one at its best zs."""
     if chosen is None:
         chosen = chosen_design(None, job) if job.given(*HEXAGON) else with_length(named_design(None), job.lc)
@@ -119,7 +125,7 @@ def _over_poses(chosen: Chosen | None, job: Sweep, grid: Mapping[str, Values]) -
         grid,
         job.index or "condition_number",
         relative=not job.absolute,
-        internal_point=job.internal_point or "held",
+        internal_point=rule,
         characteristic_length=chosen.characteristic_length,
         unit=chosen.unit,
         chunk=job.chunk,
