@@ -38,9 +38,10 @@ def _as_in_the_study(function: TakesDesigns[P, R_co]) -> TakesDesigns[P, R_co]:
     """Let O be by default as in the region of the study of a result."""
 
     @wraps(function)
-    def call(design: Any, *args: Any, **kwargs: Any) -> R_co:
+    def call(*args: Any, **kwargs: Any) -> R_co:
+        design = next(iter(args), kwargs.get("geometry"))
         over = next((one for one in (*args, *kwargs.values()) if isinstance(one, Mapping)), {})
-        return function(design, *args, **{"internal_point": rule_of_study(design, over)} | kwargs)
+        return function(*args, **{"internal_point": rule_of_study(design, over)} | kwargs)
 
     return call  # type: ignore[return-value]  # as takes_designs
 
