@@ -19,6 +19,7 @@ from ninedof.tables import RIGHT, Column, Table, grouped
 POWERS, WORKS = ("power", "braking"), ("work", "returned")
 OF_LENGTHS = ("leg_clearance", "stroke")
 SHOWN = 12  # breaks of limits
+FEW = 50  # poses of a path: fewer need not show what happens between them
 
 
 def legs_table(motion: Mapping[str, Any]) -> Table:
@@ -92,6 +93,11 @@ def motion_words(followed: Followed, motion: Mapping[str, Any]) -> Iterator[tupl
     """Yield remarks on the tables, one sentence each: words to be stressed, and the rest."""
     kappa, near = motion["condition_number"], motion["nearest_singularity"]
     o = where_o(motion["internal_point"])
+    if motion["poses"] < FEW:
+        yield (
+            f"at {motion['poses']} poses only",
+            f": between them nothing is looked at, and rates are of polynomials through them; give at least {FEW}",
+        )
     yield "", f"{motion['poses']} poses from t = {motion['begin']:g} to {motion['end']:g}; O: {o}"
     if motion["idle_legs"]:
         yield "", f"never move: {', '.join(motion['idle_legs'])}; with --internal-point best or 0.5 they help"

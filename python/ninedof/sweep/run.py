@@ -43,7 +43,7 @@ def _as_in_the_study(function: TakesDesigns[P, R_co]) -> TakesDesigns[P, R_co]:
         over = next((one for one in (*args, *kwargs.values()) if isinstance(one, Mapping)), {})
         return function(*args, **{"internal_point": rule_of_study(design, over)} | kwargs)
 
-    return call  # type: ignore[return-value]  # as takes_designs
+    return call
 
 
 class GridOptions(TypedDict, total=False):

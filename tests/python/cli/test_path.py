@@ -99,6 +99,13 @@ starts = 2
 """
 
 
+def test_a_path_of_few_poses_says_that_nothing_is_looked_at_between_them(run):
+    words = "at {} poses only: between them nothing is looked at"
+    for count in (4, 49, 50):
+        _, out, _ = run(f"path --line 0.1 0 0.1 --points {count} --no-figures --out {count}")
+        assert (words.format(count) in " ".join(out.split())) is (count < 50)
+
+
 def test_every_limit_of_a_run(run, tmp_path):
     with open("machine.toml", "w") as file:
         file.write(REGION)
