@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 HEIGHT = 2.75  # inches
 REACH = 1.5  # half a panel of a plan, in sizes of its plate
+AXIS, ARCS = 0.15, (0.45, 0.75)  # of a plan, in sizes of its plate: of the axes, radii of the angles
 LETTER, LINE = 4.3, 8.5  # points, of a letter and a line of the smallest words
 JOINTS = {
     "E": {"marker": "o", "ms": 5.5, "color": style.EXTERNAL, "mec": "white", "mew": 0.5, "ls": ""},
@@ -82,14 +83,13 @@ def drawing(
         for k, plate in enumerate(plates_of(geometry)):
             panel = _Panel(figure, k, f"{plate.title}, from +z", REACH * plate.size, np.zeros(2))
             panel.plate(plate, unit)
+            panel.note(plate.heights(unit))
         low, high = seen.min(axis=0), seen.max(axis=0)
         low[1] = min(low[1], 0.0)
         half, middle = 0.72 * (high - low).max(), 0.5 * (low + high)
         panel = _Panel(figure, 2, "Front, along +y, neutral pose", half, middle)
         panel.front(seen, configuration, unit)
-        panel.axes.text(
-            0.5, 0.04, "\n".join(words), size=style.SMALL_SIZE, ha="center", va="bottom", transform=panel.axes.transAxes
-        )
+        panel.note(words)
     return figure
 
 
@@ -117,6 +117,11 @@ class _Panel:
         at = self.places.put(LETTER * self.point * len(words), LINE * self.point, centres)
         self.axes.text(*at, words, size=style.SMALL_SIZE, color=colour, ha="center", va="center", zorder=8, bbox=CHIP)
 
+    def note(self, words: list[str]) -> None:
+        """Write lines at the foot of the view."""
+        place = {"ha": "center", "va": "bottom", "transform": self.axes.transAxes}
+        self.axes.text(0.5, 0.04, "\n".join(words), size=style.SMALL_SIZE, **place)
+
     def line(self, points: Floats, **look: Any) -> None:
         self.axes.plot(*points.T, **look)
         self.places.add_path(points)
@@ -135,7 +140,7 @@ class _Panel:
         for radius in plate.radii:
             self.axes.plot(*(radius * toward(np.linspace(0.0, 2.0 * np.pi, 121))).T, **CENTRE)
         for axis in np.eye(2):
-            self.line(np.array([-0.06 * plate.size * axis, 0.24 * plate.size * axis]), color=style.MUTED, lw=0.8)
+            self.line(np.array([-0.06 * plate.size * axis, AXIS * plate.size * axis]), color=style.MUTED, lw=0.8)
         for at, names in plate.centres().items():
             self.places.words.append(rectangle(np.array(at[:2]), 6.0 * self.point, 6.0 * self.point))
             for kind in sorted({name[0] for name in names}):
@@ -145,9 +150,9 @@ class _Panel:
         for radius, angle in zip(plate.radii, free_angles(plate), strict=False):
             self._radius(radius, angle, unit)
         for k, angles in enumerate(plate.angles):
-            self._angle((0.42 + 0.2 * k) * min(plate.radii), *angles)
+            self._angle(ARCS[k] * plate.size, *angles)
         for axis, name in zip(np.eye(2), "xy", strict=True):
-            self.write(name, self.beside(0.24 * plate.size * axis, name, axis, 1.0), style.MUTED)
+            self.write(name, self.beside(AXIS * plate.size * axis, name, axis, 1.0), style.MUTED)
         for at, names in plate.centres().items():
             words = " ".join(names)
             self.write(words, self.beside(np.array(at[:2]), words, np.array(at[:2])))

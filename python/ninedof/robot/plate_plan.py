@@ -12,6 +12,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.plates import outlines
 from ninedof.support.arrays import Floats
+from ninedof.support.units import amount
 
 ROUNDED = 1e-9  # radians: directions that differ by less are one
 SAME = 1e-9
@@ -45,6 +46,18 @@ class Plate(NamedTuple):
         angles = _directions(self)
         ends = list(pairwise([0.0, *angles[:2]])) if self.radii else []
         return [(start, end) for start, end in ends if end - start > ROUNDED]
+
+    def heights(self, unit: str) -> list[str]:
+        """Return the heights of each triple of joints, in words; none where all are 0."""
+        if max(abs(joint[2]) for joint in self.joints.values()) <= SAME * self.size:
+            return []
+        out = []
+        for kind in "EI":
+            values = [joint[2] for name, joint in self.joints.items() if name[0] == kind]
+            one = max(values) - min(values) <= SAME * self.size
+            numbers = (f"{round(z / self.size, 9) * self.size + 0.0:.5g}" for z in values[: 1 if one else 3])
+            out.append(f"{kind}1 to {kind}3 at z = {amount(', '.join(numbers), unit)}")
+        return out
 
     def centres(self) -> dict[tuple[float, ...], list[str]]:
         """Return the joints by their place, one place where some coincide."""

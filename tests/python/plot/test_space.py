@@ -8,7 +8,7 @@ import pytest
 from figure_table import SINGULAR, TILTED, G, made, velocities
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
-from matplotlib.patches import FancyArrowPatch
+from matplotlib.patches import Arc, FancyArrowPatch
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 import ninedof as nd
@@ -17,7 +17,9 @@ from ninedof.plot import style
 from ninedof.plot.space.ellipsoid import VIEW
 from ninedof.robot.leg_names import LEGS
 from ninedof.robot.plates import distinct, outlines
+from ninedof.support.placing import toward
 
+SPREAD = np.array([0.0, 120.0, 240.0])
 STANDING = nd.Configuration.neutral(zp=3.9828, zs=2.3745)
 GEOMETRIES = {
     "coupled": G,
@@ -193,6 +195,36 @@ def test_the_drawing_has_every_dimension_of_the_plates_and_the_heights(geometry)
             assert min(abs(x - arrow.xy[0]) for arrow in front.texts if not arrow.get_text()) < 0.06 * np.ptp(
                 front.get_xlim()
             )
+
+
+def test_the_drawing_has_the_heights_of_joints_off_the_plane_of_their_plate():
+    heights = np.array([-0.4, 0.0, 0.25])
+    raised = G.base_internal + np.array([0.0, 0.0, -0.4]), G.platform_internal + np.outer(heights, [0.0, 0.0, 1.0])
+    g = nd.Geometry(G.base_external, raised[0], G.platform_external, raised[1])
+    tool = nd.Tool((0.2, 0.0, -1.0), (0.0, 0.3, 0.5))
+    for design, more in (((g, STANDING), ()), (tool.robot(g, STANDING), (tool,))):  # on the plate as it is made
+        base, platform, _ = (
+            {text.get_text() for text in axes.texts} for axes in plot.drawing(*design, "mm", *more).axes
+        )
+        assert "E1 to E3 at z = 0 mm\nI1 to I3 at z = -0.4 mm" in base
+        assert "E1 to E3 at z = 0 mm\nI1 to I3 at z = -0.4, 0, 0.25 mm" in platform
+    assert not any(" at z" in text.get_text() for axes in plot.drawing(G, STANDING, "mm").axes for text in axes.texts)
+
+
+def test_the_angles_of_a_small_circle_are_beside_their_arcs():
+    """The plate of a designer: joints at 50.05 deg on a circle of 220, at 87.42 deg on one of 64.931."""
+    outer, inner = (
+        radius * np.column_stack([np.cos(at), np.sin(at), 0.0 * at])
+        for radius, at in ((220.0, np.radians(50.05 + SPREAD)), (64.931, np.radians(87.42 + SPREAD)))
+    )
+    axes = plot.drawing(nd.Geometry(2.0 * outer, 5.0 * inner, outer, inner), nd.Configuration.neutral(700, 500)).axes[1]
+    places = {text.get_text(): np.array(text.get_position()) for text in axes.texts}
+    arcs = [one for one in axes.patches if isinstance(one, Arc)]
+    lines = [0.5 * arc.width * toward(np.radians(np.linspace(arc.theta1, arc.theta2, 50))) for arc in arcs]
+    for words, own in (("50.05°", 0), ("37.37°", 1)):
+        away = [np.linalg.norm(line - places[words], axis=1).min() for line in lines]
+        assert np.argmin(away) == own
+        assert min(np.linalg.norm(places[words] - places[axis]) for axis in "xy") > 0.3 * 220.0
 
 
 def test_the_drawing_has_the_twist_and_the_tool_on_the_plates_as_they_are_made():
