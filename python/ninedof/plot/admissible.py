@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import combinations, cycle
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,8 +19,15 @@ if TYPE_CHECKING:
     from ninedof.proof.admissible_set import AdmissibleSet
 
 INSIDE, UNDECIDED = "#A9CCE3", "#B8BFC6"
-OTHERS = ("#E69F00", "#56B4E9", "#F0E442", "#CC79A7", "#009E73", "#999933")  # limits that have no colour elsewhere
+OTHERS = (
+    "#E69F00",
+    "#F0E442",
+    "#882255",
+    "#009E73",
+    "#999933",
+)  # limits that have no colour elsewhere; none is near blue
 PALE = 0.55  # of a limit's colour that is left: outside is ground, not figure
+LETTER = 0.056  # inches, of the smallest words
 MARK = style.HOME | {"marker": "D", "ms": 5.0, "clip_on": False}
 
 
@@ -57,7 +65,8 @@ def admissible(found: AdmissibleSet, figure: Figure | None = None) -> Figure:
     rows = -(-len(planes) // columns)
     wide = style.ONE_COLUMN + 0.9 if columns == 1 else style.TWO_COLUMNS
     colours = _colours(found)
-    with style.page(figure, wide, 2.6 * rows + 0.7, layout="constrained") as figure:
+    words = fill(found.of.held, round(wide / LETTER), break_on_hyphens=False)
+    with style.page(figure, wide, 2.6 * rows + 0.6 + 0.1 * (words.count("\n") + 1), layout="constrained") as figure:
         axes: Any = figure.subplots(rows, columns, squeeze=False).reshape(-1)
         lines = False
         for panel, (i, j) in zip(axes, planes, strict=False):
@@ -69,7 +78,7 @@ def admissible(found: AdmissibleSet, figure: Figure | None = None) -> Figure:
         keys += [style.key(colours[name], lw=6, label=f"outside: {name.replace('_', ' ')}") for name in found.excluded]
         keys += [style.key(UNDECIDED, lw=6, label="undecided"), style.key(**MARK, label="design")]
         keys += [style.key(style.INK, lw=0.8, label="worst condition number, sampled")] if lines else []
-        figure.suptitle(found.of.held, fontsize=style.SMALL_SIZE, color=style.MUTED)
+        figure.suptitle(words, fontsize=style.SMALL_SIZE, color=style.MUTED)
         figure.legend(handles=keys, loc="outside lower center", ncols=2 if columns == 1 else 4)
     return figure
 
@@ -112,7 +121,9 @@ def _plane(axes: Any, found: AdmissibleSet, i: int, j: int, colours: dict[str, A
     axes.grid(visible=False)
     axes.plot(*_shown(found, here[[i, j]][None], i, j)[0], **MARK)
     if others:
-        axes.set_title(found.of.values([names[k] for k in others]))
+        axes.set_title(
+            found.of.values([names[k] for k in others]).replace(", ", ",\n"), size=style.SMALL_SIZE, weight="normal"
+        )
 
 
 def _shown(found: AdmissibleSet, values: Floats, i: int, j: int) -> Floats:

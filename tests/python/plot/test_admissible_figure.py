@@ -1,0 +1,56 @@
+"""The figure of a set of admissible designs: its words are in the page, its colours are told apart."""
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+
+import ninedof as nd
+from ninedof import plot
+from ninedof.plot.admissible import INSIDE, OTHERS, PALE
+from ninedof.plot.workspace import KINDS
+
+RADII = ("base_external_radius", "platform_internal_radius")
+STUDY = nd.Study(
+    "symmetric",
+    variables={
+        "base_external_radius": (100.0, 500.0),
+        "base_internal_radius": 308.58123,
+        "platform_external_radius": (80.0, 220.0),
+        "platform_internal_radius": (60.0, 200.0),
+        "base_internal_angle": -1.23456,
+        "platform_external_angle": 0.98765,
+        "platform_internal_angle": -0.65432,
+        "zp": (300.0, 600.0),
+        "zs": (50.0, 550.0),
+    },
+    constraints={"stroke_ratio": (None, 1.5)},
+    objective={"region": {"box": (30.0, 30.0, 30.0)}},
+    characteristic_length=100.0,
+    unit="mm",
+)
+HOME = {"base_external_radius": 450.0, "platform_external_radius": 187.336, "platform_internal_radius": 87.336}
+HOME |= {"zp": 512.345, "zs": 312.345}
+
+
+@pytest.mark.parametrize("vary", [RADII, (*RADII, "zp"), (*RADII, "zp", "zs")])
+def test_all_words_are_in_the_page(vary):
+    found = nd.admissible(STUDY, vary, at=HOME, resolution=0.5, time_limit=2.0)
+    figure = plot.admissible(found)
+    figure.draw_without_rendering()
+    width, height = figure.get_size_inches() * figure.dpi
+    words = [figure._suptitle, *(axes.title for axes in figure.axes), *(axes._left_title for axes in figure.axes)]
+    assert figure._suptitle.get_text().replace("\n", " ") == found.of.held
+    for text in words:
+        if text.get_text():
+            box = text.get_window_extent()
+            assert -1.0 <= box.x0 < box.x1 <= width + 1.0
+            assert box.y1 <= height + 1.0
+    rows = [text.get_window_extent() for text in words[1:] if text.get_text()]
+    for k, one in enumerate(rows):
+        assert not any(one.overlaps(other) for other in rows[k + 1 :])
+
+
+@pytest.mark.parametrize("colour", [*OTHERS, *(KINDS[name][1] for name in KINDS if len(name) > 1 and name != "box")])
+def test_outside_is_not_the_colour_of_inside(colour):
+    pale = PALE * np.array(to_rgb(colour)) + 1.0 - PALE
+    assert np.linalg.norm(pale - to_rgb(INSIDE)) > 0.18
