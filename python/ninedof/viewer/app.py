@@ -41,7 +41,8 @@ class Viewer:
         self, machine: Machine, host: str, port: int, dark: bool, designs: AdmissibleSet | None = None
     ) -> None:
         self.state = State(machine, dark)
-        self.designs = None if designs is None else DesignPicture(designs)
+        top = EXTENT / machine.size * float(self.state.variant.home.position[2])
+        self.designs = None if designs is None else DesignPicture(designs, top)
         """The picture of a set of admissible designs, if there is one."""
         self.lock = threading.RLock()
         """Held while the state is changed or read."""

@@ -21,7 +21,7 @@ from ninedof.support.arrays import Floats
 from ninedof.viewer.machine import Machine
 
 HEIGHT, WIDTH = 2.6, 5.0  # at most, of the picture in the scene
-BEHIND, ABOVE = 2.2, 1.1  # the machine; its lower side above the ground
+BEHIND, ABOVE, BELOW = 2.2, 1.1, 0.5  # the machine; its lower side above the ground, at most so far below the platform
 RIGHT, UP = np.array([0.885, 0.465, 0.0]) / np.hypot(0.885, 0.465), np.array([0.0, 0.0, 1.0])  # of the first camera
 NORMAL = np.cross(RIGHT, UP)  # towards that camera
 DPI = 200
@@ -33,9 +33,12 @@ HINT = "A click in the picture shows the design there."
 
 
 class DesignPicture:
-    """The planes of a set, upright behind the machine, and which design is where."""
+    """The planes of a set, upright behind the machine, and which design is where.
 
-    def __init__(self, found: AdmissibleSet) -> None:
+    `top` is the height of the platform in the scene: it covers none of the picture, seen from the first camera.
+    """
+
+    def __init__(self, found: AdmissibleSet, top: float = 0.0) -> None:
         self.found = found
         with style.settings():
             figure = figure_of(found)
@@ -46,7 +49,7 @@ class DesignPicture:
         self._planes = list(zip(figure.axes, combinations(range(len(found.vary)), 2), strict=False))
         self._resolution = np.array(self.pixels.shape[1::-1], dtype=np.float64)
         self.size: Floats = self._resolution * min(HEIGHT / self._resolution[1], WIDTH / self._resolution[0])
-        self.centre: Floats = (ABOVE + 0.5 * self.size[1]) * UP - BEHIND * NORMAL
+        self.centre: Floats = (max(ABOVE, top - BELOW) + 0.5 * self.size[1]) * UP - BEHIND * NORMAL
         self.turn = to_quaternions(np.column_stack([RIGHT, -UP, -NORMAL])[None])[0]
 
     def design_at(self, origin: Sequence[float], direction: Sequence[float]) -> dict[str, float] | None:

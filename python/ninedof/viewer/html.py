@@ -121,5 +121,6 @@ def _limit(row: LimitRow, unit: str) -> str:
     if row.side:
         value, limit = (number(math.degrees(x) if row.unit == "angle" else x) + of for x in (row.value, row.limit))
         here, end = value, f"{'≥' if row.side == 'min' else '≤'} {limit}"
-    numbers = "".join(f'<td style="text-align:right">{x}</td>' for x in (here, end, margin_words(row.margin, row.unit)))
+    cells = (here, end, margin_words(row.margin, row.unit))
+    numbers = "".join(f'<td style="white-space:nowrap;padding-left:0.5em;text-align:right">{x}</td>' for x in cells)
     return f'<tr style="{red}"><td>{escape(row.name.replace("_", " "))}</td>{numbers}</tr>'

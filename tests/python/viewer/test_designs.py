@@ -66,6 +66,14 @@ def test_every_place_in_the_picture_is_the_design_there(found):
     assert picture.design_at((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)) is None  # along the picture
 
 
+def test_the_picture_is_over_a_high_machine(result):
+    """Seen from the first camera, which looks down, the platform covered its lower side: axis and key."""
+    found = nd.admissible(result, ("a2", "b1"), resolution=0.5)
+    low, high = (DesignPicture(found, top) for top in (0.5, 3.0))
+    for picture, bottom in ((low, 1.1), (high, 2.5)):
+        assert picture.centre[2] - 0.5 * picture.size[1] == pytest.approx(bottom)
+
+
 def test_the_picture_has_the_colours_of_the_figure_where_marks_say(found):
     """At the middle of the largest box inside the picture has the colour of what is inside."""
     if len(found.vary) > 2:
