@@ -167,7 +167,7 @@ def test_a_browser_clicks_in_the_picture(result, tmp_path):
         place = {"x": 0.0, "y": 0.0}
 
         def click():
-            place.update(seen_at(page, viewer, mark + np.array([-0.3, -0.3, 0.0])))
+            place.update(seen_at(page, viewer, mark + np.array([0.3, -0.3, 0.0])))  # beside the note of the browser
             for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
                 page.call("Input.dispatchMouseEvent", type=kind, **place, button="left", clickCount=1)
                 time.sleep(0.3)
@@ -176,7 +176,7 @@ def test_a_browser_clicks_in_the_picture(result, tmp_path):
         until(click, 60.0)
         until(lambda: viewer.panel.numbers.condition_number > 0.0)
         moved = viewer.designs.marks(viewer.state.variables)[0] - mark
-        np.testing.assert_allclose(moved, [-0.3, -0.3, 0.0], atol=0.08)
+        np.testing.assert_allclose(moved, [0.3, -0.3, 0.0], atol=0.08)
 
 
 def seen_at(page, viewer, mark):
