@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.family_variables import variables_of
 from ninedof.design.limit_numbers import leg_limits_of
@@ -29,10 +28,9 @@ from ninedof.robot.geometry import Geometry
 from ninedof.robot.plates import points_of
 from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
+from ninedof.workspace.region_share import leg_ranges_over
 
 LENGTH = "characteristic_length"
-SAMPLES = 1000
-"""Poses of a region at which the legs are looked at before the descents to their shortest and longest."""
 
 
 class Variable(NamedTuple):
@@ -170,7 +168,7 @@ class Machine:
         region = self.region
         if region is None:
             return lengths
-        ends = np.array(_core.leg_lengths_over(g, home, region.for_core(), SAMPLES))
+        ends = np.array(leg_ranges_over(region, g, home))
         if not places_o(region):
             ends[:, 3:] = lengths[0, 3:]  # nothing beyond the poses
         return np.concatenate([lengths, ends])

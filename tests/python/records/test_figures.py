@@ -116,7 +116,7 @@ def test_the_ground_of_limits_ends_at_the_limits():
     (curves,) = _over_poses(result)
     solved, best, edges = result.solved, result.variables, 0
     for own, places, name, passed in zip(
-        curves.point, (curves.zs, curves.theta_z), ("zs", ""), curves.passed, strict=True
+        curves.point[:2], (curves.zs, curves.theta_z), ("zs", ""), curves.passed, strict=True
     ):
         assert not passed[np.abs(places - own).argmin()]
         step = np.diff(places).max()
