@@ -140,14 +140,28 @@ THREE_DESIGNS = """(() => {
     row.append(row.lastChild.cloneNode(true), row.lastChild.cloneNode(true));
   }
 })()"""
+DESKTOP = (1000, 1200, 1920)
+MANY_REACHED = """(() => {
+  const rows = [...document.querySelectorAll("#answer tr")].filter((r) => r.innerText.startsWith("limits reached"));
+  for (const row of rows)
+    row.lastChild.textContent = "base external radius, stroke ratio, base cone, platform cone, leg clearance";
+  return rows.length;
+})()"""
+CUT = """[...document.querySelectorAll(".table")].filter((e) => e.scrollWidth > e.clientWidth + 1)
+  .map((e) => e.innerText)"""
 OVERLAP = """[...document.querySelectorAll(".beside > div")].filter((e) => e.scrollWidth > e.clientWidth + 1).length"""
 
 
 @pytest.mark.parametrize("study", [ORDINARY, LOADED], ids=["ordinary", "loads and limits of them"])
-def test_a_report_has_at_most_four_pages_without_a_torn_table(browser, tmp_path, study):
+def test_a_report_has_at_most_four_pages_and_no_table_is_torn_or_cut(browser, tmp_path, study):
     result = nd.optimize(study)
     write_run(result, tmp_path, figures_of(result, lambda _: None))
-    browser.open(nd.report(tmp_path), PAPER, 1000, media="print")
+    made = nd.report(tmp_path)
+    for width in DESKTOP:
+        browser.open(made, width, 1000)
+        assert browser.run(MANY_REACHED) == 1
+        assert browser.run(CUT) == [], width
+    browser.open(made, PAPER, 1000, media="print")
     assert browser.run(TORN) == []
     assert browser.run("getComputedStyle(document.querySelector('.of-mechanism')).display") == "none"  # shown already
     browser.pdf(tmp_path / "it.pdf")
