@@ -9,12 +9,13 @@ from ninedof.design.study import LENGTH, Study
 from ninedof.support.angles import degrees_of
 from ninedof.support.units import amount
 
-LEAST_PRICE = 0.0005  # per cent of the objective for one per cent of the limit; smaller prices are left out
+LEAST_PRICE = 0.0005  # per cent of the objective for one per cent of the limit; smaller prices have no number
+MOST_GAIN = 10.0  # per cent of the objective: first-order prices hold for small gains only
 SURE = 0.95  # probability with which a better optimum would have been met
 
 
 def price_words(study: Study, variables: Mapping[str, float], prices: Mapping[str, float]) -> list[str]:
-    """Return one sentence for each price of a candidate, the largest first.
+    """Return one sentence for each price of a candidate, the largest first: for 1 %, a steep one for a smaller step.
 
     Parameters
     ----------
@@ -24,11 +25,16 @@ def price_words(study: Study, variables: Mapping[str, float], prices: Mapping[st
 
     """
     largest_first = sorted(prices.items(), key=lambda item: -item[1])
-    return [
-        f"1 % {_direction(study, variables, name)} {name}{_part(study, variables, name, 0.01)} buys {price:.3g} %"
-        for name, price in largest_first
-        if price >= LEAST_PRICE
-    ]
+    return [_price_sentence(study, variables, name, price) for name, price in largest_first]
+
+
+def _price_sentence(study: Study, variables: Mapping[str, float], name: str, price: float) -> str:
+    step = 1.0  # per cent
+    while step * price >= MOST_GAIN and math.isfinite(price):
+        step /= 10.0
+    gain = f"{step * price:.3g} %" if price >= LEAST_PRICE else f"less than {LEAST_PRICE:g} %"
+    part = _part(study, variables, name, 0.01 * step)
+    return f"{step:g} % {_direction(study, variables, name)} {name}{part} buys {gain}"
 
 
 def reached_words(study: Study, variables: Mapping[str, float], active: Iterable[str]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from rich import box, table
@@ -37,19 +38,35 @@ def _rich(one: Table, width: int) -> table.Table:
     heads = [heading(column.name, column.unit) for column in one.columns]
     words = [column.format == WORDS for column in one.columns]
     rows = [row for group in groups for row in group]
-    least = sum(
-        max(_least(head, True), *(_least(row[k], folds) for row in rows), 0)
-        for k, (head, folds) in enumerate(zip(heads, words, strict=True))
-    )
-    styles = (style for style in STYLES if least + style[3] * len(heads) + 2 * style[2] <= width)
-    frame, padding, edge, _ = next(styles, STYLES[-1])
+    texts = [(head, *(row[k] for row in rows)) for k, head in enumerate(heads)]
+    least = [
+        max(_least(head, True), *(_least(text, folds) for text in others), 0)
+        for (head, *others), folds in zip(texts, words, strict=True)
+    ]
+    styles = (style for style in STYLES if sum(least) + style[3] * len(heads) + 2 * style[2] <= width)
+    frame, padding, edge, beside = next(styles, STYLES[-1])
     out = table.Table(box=frame, padding=padding, pad_edge=edge, show_header=one.has_head)
-    for head, folds in zip(heads, words, strict=True):
-        out.add_column(head, justify="left" if folds else "right", overflow="fold")
+    want = [max(len(line) for text in column for line in text.split("\n")) for column in texts]
+    widths = _widths(least, want, width - beside * len(heads) - edge)
+    for head, folds, own in zip(heads, words, widths, strict=True):
+        out.add_column(head, justify="left" if folds else "right", overflow="fold", width=own)
     for group in groups:
         for k, row in enumerate(group, start=1):
             out.add_row(*row, end_section=k == len(group))
     return out
+
+
+def _widths(least: list[int], want: list[int], room: int) -> Sequence[int | None]:
+    """Return the widths of columns where rich, which cuts the widest ones to one width, would tear a word."""
+
+    def cut(narrowest: list[int]) -> list[int]:
+        cuts = (
+            [max(n, min(w, most)) for n, w in zip(narrowest, want, strict=True)] for most in range(max(want), 0, -1)
+        )
+        return next((widths for widths in cuts if sum(widths) <= room), want)
+
+    torn = any(width < needs for width, needs in zip(cut([0] * len(want)), least, strict=True))
+    return cut(least) if torn and sum(least) <= room else [None] * len(want)
 
 
 def _least(text: str, folds: bool) -> int:
