@@ -50,10 +50,26 @@ def test_the_payload(folder, mass, run):
     data = json.loads(out)
     assert data["mass"] == pytest.approx(mass, rel=1e-12)
     assert data["proved"] is False
-    assert "searched, not proved" in run(f"payload {folder} --force 60")[1]
+    said = " ".join(run(f"payload {folder} --force 60")[1].split())
+    assert "searched, not proved" in said
+    assert f"largest payload {mass:.6g}, in kg where forces are in N: " in said
+    assert "reaches its limit of 60 (" in said
+    assert "a point mass at (0, 0, 0) in the frame of the plate (--centre); gravity (0, 0, -9.81)" in said
+    assert "beside it load 1: moment (0, 0, 0), force (12, 0, 0) and the masses of the study" in said
+    alone = " ".join(run(f"payload {folder} --force 60 --centre 0 0 1 --load '0 0 0 0 0 -5'")[1].split())
+    assert "at (0, 0, 1) in the frame of the plate (--centre); gravity" in alone
+    assert "force (0, 0, -5) and" in alone
     status, out = run(f"payload {folder} --force 1")
     assert status == 3
     assert "no payload" in out
+
+
+def test_with_a_tool_the_payload_is_at_the_origin_of_the_plate(run, tmp_path):
+    g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0), nd.Configuration.neutral(3.9828, 2.4432)
+    nd.save(nd.Design(g, home, unit="m", tool=nd.Tool(position=(0.0, 0.0, -0.5))), tmp_path / "tooled.toml")
+    said = " ".join(run(f"payload {tmp_path / 'tooled.toml'} --force 60")[1].split())
+    assert "a point mass at (0, 0, 0) m in the frame of the plate (--centre), not at the tool's point;" in said
+    assert said.endswith("beside it nothing")
 
 
 def test_the_force_is_that_of_the_study_where_it_has_one(folder, mass, run, tmp_path):

@@ -13,7 +13,12 @@ from ninedof.cli.options import LOAD, ONE_DESIGN, Options, Three, argument, opti
 from ninedof.cli.posed import loads_option
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.robot.leg_names import LEGS
+from ninedof.sheet.duty import masses_of
 from ninedof.sheet.payload import Payload, largest_payload
+from ninedof.sheet.pose_words import vector_words
+from ninedof.sheet.tables import load_words
+from ninedof.support.arguments import Vector
+from ninedof.support.units import amount
 from ninedof.tables import Table, columns, grouped
 
 PLACE = 4
@@ -48,8 +53,10 @@ def payload(options: PayloadOptions) -> Answer:
     loads = loads_option(options.load) or None
     centre = options.centre or (0.0, 0.0, 0.0)
     found = largest_payload(chosen.machine, options.force, options.pull, centre, loads)
-    stated = [f"from the study: force at most {found.limits[0][0]:g}"] if options.force is None else []
-    return Answer([*_parts(found, chosen), *stated], found.to_dict(), DONE if found.fits else NO_RESULT)
+    parts = [*_parts(found, chosen), _meant(found, chosen, centre, loads)]
+    if options.force is None:
+        parts.append(f"from the study: force at most {found.limits[0][0]:g}")
+    return Answer(parts, found.to_dict(), DONE if found.fits else NO_RESULT)
 
 
 def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
@@ -58,7 +65,11 @@ def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
     elif np.isinf(found.mass):
         yield "no limit: no leg reaches its force under any payload"
     else:
-        yield f"largest payload {found.mass:.6g}: {found.leg} reaches its limit ({found.side}) first"
+        limit = found.limits[found.side == "pull"][LEGS.index(found.leg)]
+        yield (
+            f"largest payload {found.mass:.6g}, in kg where forces are in N: {found.leg} reaches its limit of "
+            f"{limit:g} ({found.side}) first"
+        )
     if found.leg:
         yield f"worst pose: {chosen.words(found.configuration)}"
         rows = [(leg, f"{force:.5g}") for leg, force in zip(LEGS, found.forces, strict=True)]
@@ -66,3 +77,17 @@ def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
         yield Table(f"Leg forces there, {under}, + pushes", columns("leg", ">force"), list(grouped(rows)))
     if found.region is not None:
         yield f"searched, not proved: {found.region.looked_at} poses of the region looked at, {found.region.region}"
+
+
+def _meant(found: Payload, chosen: Chosen, centre: Vector, loads: list[list[float]] | None) -> str:
+    """Return where the payload is, and what acts beside it."""
+    study = chosen.duty
+    at = f"{amount(vector_words(centre), chosen.unit)} in the frame of the plate (--centre)"
+    at += ", not at the tool's point" * (bool(chosen.tool) and tuple(centre) != chosen.tool.position)
+    rows = loads or study.loads.wrenches
+    beside = [load_words(found.load + 1, rows[found.load], chosen.unit)] if rows else []
+    beside += ["the masses of the study"] if masses_of(study) is not None else []
+    return (
+        f"the payload is a point mass at {at}; gravity {vector_words(study.loads.gravity)}; "
+        f"beside it {' and '.join(beside) or 'nothing'}"
+    )
