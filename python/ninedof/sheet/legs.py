@@ -61,6 +61,11 @@ class LegRow:
     compare poses, between which placing O keeps it; None where nothing limits a leg. `shortest` and `longest` are
     those that the poses need."""
 
+    @property
+    def largest_force(self) -> float:
+        """The greatest force, pushing or pulling, of all loads; 0 without any."""
+        return max((abs(end) for ends in self.forces for end in ends), default=0.0)
+
     def flat(self) -> dict[str, Any]:
         """Return the columns of a table, angles in degrees, "" where a leg has no such joint."""
         row: dict[str, Any] = {"leg": self.name} | {name: getattr(self, name) for name in OF_EVERY_LEG}
@@ -75,6 +80,8 @@ class LegRow:
                 row |= {f"{name}_min": ends[0], f"{name}_max": ends[1]}
         if self.power is not None:
             row["power"] = self.power
+        if self.forces:
+            row["force_largest"] = self.largest_force
         for k, (low, high) in enumerate(self.forces):
             row |= {f"force_{k + 1}_min": low, f"force_{k + 1}_max": high}
         return row

@@ -209,16 +209,20 @@ class Sheet:
     def to_csv(self) -> str:
         """Return the table of the legs as CSV text: one row for each leg, empty where a leg has no such joint.
 
-        Names of columns are followed by the length unit in brackets, where there is one: "shortest (mm)".
+        Names of columns are followed by the length unit in brackets, where there is one: "shortest (mm)". Speeds,
+        accelerations and powers are those at `platform_speed` and `platform_turn_deg`, the same in every row.
         """
-        rows = [leg.flat() for leg in self.legs]
+        motion = self.motion
+        at = {"platform_speed": motion.linear_speed, "platform_turn_deg": float(np.degrees(motion.angular_speed))}
+        rows = [leg.flat() | at for leg in self.legs]
         import csv  # when it is needed, as it takes time to load
 
         text = io.StringIO()
         writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
         lengths = ("shortest", "longest", "neutral", "stroke", "permitted_shortest", "permitted_longest")
         units = dict.fromkeys(lengths, self.unit)
-        units |= {"speed": per(self.unit, "s"), "acceleration": per(self.unit, "s²")}
+        units |= dict.fromkeys(("speed", "platform_speed"), per(self.unit, "s"))
+        units |= {"acceleration": per(self.unit, "s²")}
         writer.writerow({name: with_unit(name, units.get(name, "")) for name in rows[0]})
         writer.writerows(rows)
         return text.getvalue()

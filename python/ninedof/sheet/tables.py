@@ -209,8 +209,7 @@ def _powers(sheet: Any) -> Table:
     """Return the drives beside each other: greatest force, speed and power of each leg."""
     speed = per(sheet.unit, "s")
     columns = [Column("force", "", RIGHT), Column("speed", speed, RIGHT), Column("power", times("force", speed), RIGHT)]
-    forces = (max(abs(end) for ends in leg.forces for end in ends) for leg in sheet.legs)
-    numbers = ((force, leg.speed, leg.power) for force, leg in zip(forces, sheet.legs, strict=True))
+    numbers = ((leg.largest_force, leg.speed, leg.power) for leg in sheet.legs)
     rows = ([f"{x:.5g}" for x in row] for row in numbers)
     note = "power: the most of force times speed at one pose, at rest or at constant speed"
     return _of_legs(f"Drives, largest {over(sheet)}", sheet, columns, rows, [note])

@@ -264,6 +264,8 @@ def test_csv_and_plain_values_are_in_degrees():
         assert row["base_cone_deg"] == ("" if leg.base_cone is None else repr(np.degrees(leg.base_cone).item()))
         assert entry["platform_cone_deg"] == (None if leg.platform_cone is None else np.degrees(leg.platform_cone))
         assert float(row["force_1_max"]) == entry["forces"][0]["max"] == leg.forces[0][1]
+        assert float(row["force_largest"]) == max(map(abs, leg.forces[0]))
+        assert (float(row["platform_speed"]), float(row["platform_turn_deg"])) == (1.0, 180.0)  # of its speeds
     assert plain["motion"]["angular_speed_deg"] == pytest.approx(180.0)
     assert plain["accuracy"]["rotation_deg"]["value"] == np.degrees(found.accuracy.rotation.value)
     placed = plain["joints"]["platform_internal_2"]["neutral_pose"]
