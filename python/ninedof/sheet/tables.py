@@ -18,7 +18,7 @@ from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table, grouped
 from ninedof.tables.numbers import short, spread
 from ninedof.tables.table import Part
 
-WAYS = {"shift": "shift of the platform", "turn": "turn about its origin", "internal": "O alone"}
+WAYS = {"shift": "shift with O", "turn": "turn, O at rest", "internal": "O alone"}
 MECHANISMS = {
     "det_b": "O in the plane of the lower internal joints",
     "det_c": "O in the plane of the upper internal joints",
@@ -113,7 +113,8 @@ def _worst_rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
         far = f"{math.degrees(near.distance):.2f}°" if turn else amount(short(near.distance), unit)
         way = f"{'about' if turn else 'toward'} {vector_words(np.round(near.direction, 3))}"
         remark = f"det {near.mechanism.upper()} = 0 {way}" if near.mechanism else "none"
-        yield f"nearest singularity: {WAYS[name]}", far, near.pose, remark
+        rests = name == "shift" and sheet.motion.internal == "held"
+        yield f"nearest singularity: {'shift, O at rest' if rests else WAYS[name]}", far, near.pose, remark
     yield ()
     if (errors := sheet.accuracy) is not None:
         yield "position error", amount(f"{errors.position.value:.4g}", unit), errors.position.pose, ""

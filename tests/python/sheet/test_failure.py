@@ -128,6 +128,9 @@ def test_a_region_no_random_pose_is_worse_and_shares():
             np.delete(nd.jacobian(g, nd.Configuration(c.position, c.rotation, o), 1.5), k, axis=2), compute_uv=False
         )
         assert case.share_from_home == pytest.approx((sigma[:, 0] / sigma[:, 5] <= 8.0).mean(), abs=0.05)
+    rows = {row[0]: row for group in locked_table(one, one.locked).texts() for row in group}
+    assert [rows[leg][-2] for leg in ("l1", "l2", "l3")] == ["-"] * 3  # five freedoms have no such share
+    assert "with six freedoms and" in one.summary()
 
 
 def test_control_is_lost_with_opposite_legs_of_a_region_locked():

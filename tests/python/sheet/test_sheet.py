@@ -133,6 +133,12 @@ def test_leg_speeds_with_o_held_and_carried(internal):
     assert [leg.speed for leg in found.legs] == pytest.approx(np.max(worst, axis=0), rel=1e-9, abs=1e-12)
 
 
+@pytest.mark.parametrize(("internal", "words"), [("shifted", "shift with O"), ("held", "shift, O at rest")])
+def test_the_nearest_singularity_says_whether_o_moves_with_the_platform(internal, words):
+    g, c, _, _ = robots_at_poses(2)
+    assert f"nearest singularity: {words} " in nd.sheet(g, c, internal=internal).summary()
+
+
 def test_the_rule_of_o_is_that_of_the_poses():
     g, c, _, _ = robots_at_poses(3)
     o = np.broadcast_to(c.internal_point[0], (5, 3))

@@ -116,12 +116,14 @@ def _coordinates(at: DesignAtPoses) -> tuple[list[Any], dict[str, Any]]:
         }
     heads = columns("", ">backward", "kind", ">forward", "kind")
     kinds_words = [f"kind {name[-1]}: {words}" for name, words in MECHANISMS.items()]
-    return [Table("Distance to the first singularity", heads, rows), *kinds_words, *nearest], {"distance": out}
+    title = "Distance to the first singularity, O at rest while the platform moves"
+    return [Table(title, heads, rows), *kinds_words, *nearest], {"distance": out}
 
 
 def _nearest(name: str, distance: str, one: nd.NearestSingularity, at: DesignAtPoses) -> str:
     """Return the nearest singularity of a part in words."""
+    way = f"{name} any axis" + ", O at rest" * (not name.startswith("O"))
     if not math.isfinite(one.distance):
-        return f"{name} any axis: no singularity found"
+        return f"{way}: no singularity found"
     pose = at.where(one.pose).replace(" at ", " from ")
-    return f"{name} any axis: nearest {distance}{pose}, kind {one.mechanism}, where {at.words(one.configuration)}"
+    return f"{way}: nearest {distance}{pose}, kind {one.mechanism}, where {at.words(one.configuration)}"

@@ -57,8 +57,10 @@ def locked_table(failure: Any, locked: Sequence[Any]) -> Table:
     if failure.region is not None:
         columns += columns_of("share", "from home")
         for row, one in zip(rows, locked, strict=True):
-            row += [_percent(one.share), _percent(one.share_from_home)]
-        notes.append(f"share: of the region's poses with a condition number of at most {failure.bound:g}")
+            row += [_percent(one.share if one.freedoms == 6 else None), _percent(one.share_from_home)]
+        notes.append(
+            f"share: of the region's poses with six freedoms and a condition number of at most {failure.bound:g}"
+        )
         notes.append("from home: the same with the leg at its length at home, O moved to the nearest point for it")
     notes += [f"pose {k}: {pose_of(failure, k)}" for k in sorted({one.pose for one in locked} - {0})]
     what = "one leg locked" if len(locked[0].legs) == 1 else "two legs locked"
