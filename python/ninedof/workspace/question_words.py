@@ -18,11 +18,20 @@ from ninedof.workspace.question import ROWS
 
 KINDS = {"external": slice(0, 3), "upper internal": slice(3, 6), "lower internal": slice(6, 9)}
 
+ASKED = {
+    "constant_orientation": "positions of the platform at the neutral rotation alone: no tilts and no yaws",
+    "orientation": "rotations of the platform at one position",
+    "reachable": "positions of the platform where one of a set of rotations, or more, is allowed",
+    "inclusive": "positions of the platform where every one of a set of rotations is allowed",
+    "dexterous": "positions of the platform where each of some rotations spread over all is allowed",
+}
+
 
 def asked_lines(
     keywords: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str], unit: str = ""
 ) -> Iterator[str]:
     """Yield what is asked, a line for each part."""
+    yield f"workspace: {ASKED[keywords['archetype']]}"
     p, o = (amount(_point(point), unit) for point in (home.position, home.internal_point))
     yield f"home: p = {p}, O = {o}"
     yield f"O: {rule_words(keywords, unit)}"

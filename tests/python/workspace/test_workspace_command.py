@@ -36,6 +36,7 @@ def test_the_command_leaves_a_run_folder(tmp_path, capsys, published):
         [*"--legs 2.5 6.5 --condition 5 --tolerance 5e-3 --json".split(), *box, "--out", str(tmp_path / "run")], capsys
     )
     assert code == 0
+    assert "\nworkspace: positions of the platform at the neutral rotation alone" in out.err
     numbers = json.loads(out.out)["workspace"]
     expected = nd.workspace(
         published, BOX, criteria=LEGS | {"condition_number": 5.0}, internal_point=OWN, tolerance=5e-3
@@ -65,6 +66,7 @@ def test_the_command_with_orientations_and_with_an_empty_workspace(tmp_path, cap
     code, out = run([*region, "--legs", "2", "6.5", "--no-figures", "--out", str(tmp_path / "a")], capsys)
     assert code == 0
     assert "volume" in out.out
+    assert out.out.startswith("workspace: rotations of the platform at one position\n")
     assert "the workspace reaches the boundary of the region: it is larger in a larger region" in " ".join(
         out.out.split()
     )

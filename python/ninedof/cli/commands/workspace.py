@@ -104,8 +104,10 @@ def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -
 
 
 def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
+    asked = asked_lines(question.keywords, chosen.configuration, question.own, question.left, chosen.unit)
+    yield next(asked)
     if question.actuators:
         yield question.actuators
-    yield from asked_lines(question.keywords, chosen.configuration, question.own, question.left, chosen.unit)
+    yield from asked
     yield workspace_table(result)
     yield from (bold(*words) for words in workspace_words(result))
