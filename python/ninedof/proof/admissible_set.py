@@ -25,6 +25,7 @@ from ninedof.support.files import write_whole
 INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
 STATES = (INSIDE, OUTSIDE, UNDECIDED)
 AROUND_SECONDS = 20.0
+ON_LIMIT, EASED_SECONDS = 1e-6, 5.0  # of a limit: what the optimizer's designs on it may pass it by
 
 
 class Reason(NamedTuple):
@@ -139,7 +140,8 @@ class AdmissibleSet:
         Raises
         ------
         ValueError
-            If the design is not inside: the message names the limit that it breaks, if that is proved.
+            If the design is not inside: the message names the limit that it breaks, if that is proved, or the limit
+            that it is on: an optimum has no room on that side.
 
         """
         values = self.of.at if design is None else design_values(design)
@@ -161,8 +163,12 @@ class AdmissibleSet:
             return dict(zip(self.vary, zip(low, high, strict=True), strict=True))
         words = ", ".join(f"{name} = {value:g}" for name, value in zip(self.vary, x, strict=True))
         if broken >= 0:
-            broke = " ".join(self.demands[broken]).strip().replace("_", " ")
-            raise ValueError(f"design: got {words}, expected one that is inside: it breaks {broke}")
+            limit = " ".join(self.demands[broken]).strip().replace("_", " ")
+            breaks = _core.room_around(self.of.eased(ON_LIMIT).for_core(), x, half, seconds=EASED_SECONDS)[3] >= 0
+            there = f"it breaks {limit}"
+            if not breaks:
+                there = f"it is on the limit {limit} (within {ON_LIMIT:g} of it): no room on that side"
+            raise ValueError(f"design: got {words}, expected one that is inside: {there}")
         raise ValueError(f"design: got {words}, expected one around which a box is proved to be inside")
 
     def __repr__(self) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
-from typing import Protocol
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -69,6 +69,21 @@ class DesignRange:
             high=[high for _, high in self.ranges],
             condition=math.inf if self.condition_number is None else float(self.condition_number),
         )
+
+    def eased(self, share: float) -> DesignRange:
+        """Return the same question with every limit wider by a share of it."""
+        wide, constraints = 1.0 + share, dict[str, Any]()
+        for limit in self.study.limits:
+            most = math.pi if limit.row.is_angle else math.inf
+            wider = replace(limit, low=limit.low * (1.0 - share), high=min(limit.high * wide, max(most, limit.high)))
+            constraints.setdefault(limit.name, []).append(wider)
+        objective = self.study.objective
+        names = ("condition_limit", "neutral_condition_limit")
+        given = {name: value for name in names if (value := getattr(objective, name)) is not None}
+        eased = replace(objective, **{name: value * wide for name, value in given.items()})
+        condition = None if self.condition_number is None else self.condition_number * wide
+        study = replace(self.study, constraints=constraints, objective=eased)
+        return replace(self, study=study, condition_number=condition)
 
     def values(self, names: Collection[str]) -> str:
         """Return values of variables in words."""
