@@ -314,13 +314,16 @@ class Result:
         Returns
         -------
         Tolerances
-            To 5 %. Both zero where a limit leaves no reserve: an optimum lies on its limits, unless the study has
-            tolerances.
+            To 5 %. `Tolerances()`, both zero and false, where none is proved: a limit leaves no reserve. An optimum
+            lies on its limits, unless the study has tolerances, for which `optimize` leaves a reserve. The limit is
+            `min(result.certify().limits, key=lambda limit: limit.margin).name`.
 
         Raises
         ------
         ValueError
             Without a design; for a bad option.
+        KeyboardInterrupt
+            With the largest tolerances proved so far.
 
         """
         return largest(self, options)

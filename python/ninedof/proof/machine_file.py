@@ -34,8 +34,8 @@ def require_replayable(study: Study, tolerances: Tolerances) -> None:
     """Raise ValueError unless the checker knows all machines and poses of a proof."""
     if tolerances:
         raise ValueError(
-            f"tolerance: got {max(tolerances.joints, tolerances.legs):g}, expected 0 for a file that is replayed: that "
-            "of the machine as it is drawn"
+            f"tolerance: got {max(tolerances.joints, tolerances.legs):g}, expected 0 (--tolerance 0, tolerance=0) for "
+            "a file that is replayed: it is of the machine as it is drawn"
         )
     if study.objective.region is not None and not places_o(study.objective.region):
         raise ValueError('internal_point: got "best", expected "shifted" or "held" for a file that is replayed')

@@ -22,22 +22,30 @@ def largest_tolerance(proved: Callable[[Tolerances], bool], shape: Tolerances, h
     height : float
         Of the machine: tolerances are looked for from a millionth to a twentieth of it.
 
+    Raises
+    ------
+    KeyboardInterrupt
+        With the largest ones proved so far.
+
     """
 
     def of(size: float) -> Tolerances:
         return tolerances_like(shape, size * height)
 
     low, high = 0.0, FIRST
-    while high <= MOST and proved(of(high)):
-        low, high = high, STEP * high
-    while low == 0.0 and high >= LEAST:
-        if proved(of(high / STEP)):
-            low = high / STEP
-        else:
-            high /= STEP
-    if low == 0.0:
-        return Tolerances()
-    for _ in range(HALVINGS):
-        middle = (low * high) ** 0.5
-        low, high = (middle, high) if proved(of(middle)) else (low, middle)
+    try:
+        while high <= MOST and proved(of(high)):
+            low, high = high, STEP * high
+        while low == 0.0 and high >= LEAST:
+            if proved(of(high / STEP)):
+                low = high / STEP
+            else:
+                high /= STEP
+        if low == 0.0:
+            return Tolerances()
+        for _ in range(HALVINGS):
+            middle = (low * high) ** 0.5
+            low, high = (middle, high) if proved(of(middle)) else (low, middle)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(of(low) if low > 0.0 else Tolerances()) from None
     return of(low)

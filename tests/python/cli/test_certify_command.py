@@ -54,7 +54,7 @@ def test_a_machine_is_written_for_the_checker(run, tmp_path, capsys):
     assert main_status("check", file) == 0
     assert "Proved: the machine keeps every limit at every pose" in capsys.readouterr().out
     assert status(run, "--certificate", file, "--tolerance", "0.01") == 2
-    assert "tolerance: got 0.01, expected 0 for a file that is replayed" in capsys.readouterr().err
+    assert "tolerance: got 0.01, expected 0 (--tolerance 0, tolerance=0) for a file" in capsys.readouterr().err
 
 
 def test_a_run_may_be_called_as_its_certificate(run, tmp_path, capsys):
@@ -113,6 +113,23 @@ def test_an_interrupted_fit_of_a_rule_leaves_nothing(run, tmp_path, monkeypatch,
     said = capsys.readouterr()
     assert "interrupted before the limits were proved: the run folder is as it was" in said.out
     assert "Traceback" not in said.err
+
+
+@pytest.mark.parametrize(("proofs", "words"), [(1, "joints 0.0004975, legs 0.0004975"), (0, "none")])
+def test_an_interrupted_search_for_tolerances_tells_the_largest_so_far(run, monkeypatch, capsys, proofs, words):
+    asked = []
+
+    def proved(*arguments, **_):
+        asked.append(arguments[2])
+        if len(asked) > proofs:
+            raise KeyboardInterrupt
+        return []
+
+    monkeypatch.setattr(import_module("ninedof.optimize.machine_proofs"), "open_limits", proved)
+    assert status(run, "--tolerance", "max") == 130
+    out = " ".join(capsys.readouterr().out.split())
+    assert f"interrupted: the largest tolerances proved so far: {words}" in out
+    assert asked[-1].joints == (4.0 if proofs else 1.0) * asked[0].joints
 
 
 def test_a_report_takes_no_certificate_of_another_machine_nor_a_changed_one(run, tmp_path):

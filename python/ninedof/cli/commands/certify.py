@@ -10,7 +10,7 @@ from typing import Any
 import ninedof as nd
 from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.options import THREADS, Options, argument, option, struct
-from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
+from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.proof.machine import tolerances_of
 from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import outward
@@ -74,11 +74,8 @@ def certify(options: CertifyOptions) -> Answer:
     except ValueError as error:
         raise ValueError(f"{error}; once it is removed, the proof begins anew") from None
     goes_on()
-    if options.tolerance == LARGEST:
-        with screen.bar("boxes", "certify") as bar:
-            built = result.largest_tolerance(**how, progress=bar)
-    else:
-        built = tolerances_of(tolerance, result.study)
+    largest = options.tolerance == LARGEST
+    built = _largest_of(result, how, screen) if largest else tolerances_of(tolerance, result.study)
     if options.certificate is not None:
         require_replayable(result.study, built)
     if earlier is not None and earlier.tolerances != built:  # a proof of other machines is kept, and not gone on with
@@ -106,7 +103,7 @@ def certify(options: CertifyOptions) -> Answer:
         raise ValueError(f"{file}: {str(error).removeprefix('resume: ')}") from None
     data = certificate.to_dict() | {"left": []}
     sentences = certificate.sentences() + architecture_sentences(result, result.study.unit)
-    if options.tolerance == LARGEST:
+    if largest:
         sentences.append(_largest(certificate))
     answer = Answer([certificate_table(certificate), *sentences], data)
     write_job(screen, answer, lambda _: save_certificate(certificate, file))
@@ -130,12 +127,27 @@ def _length(given: str) -> float:
         raise ValueError(f'--tolerance: got {given!r}, expected a length from 0 on, or "{LARGEST}"') from None
 
 
+def _largest_of(result: nd.Result, how: dict[str, Any], screen: Screen) -> nd.Tolerances:
+    """Return the largest tolerances; an interruption prints those proved so far."""
+    try:
+        with screen.bar("boxes", "certify") as bar:
+            return result.largest_tolerance(**how, progress=bar)
+    except KeyboardInterrupt as stop:
+        so_far = next((one for one in stop.args if one), None)
+        words = _tolerance_words(so_far, result.study.unit) if so_far else "none"
+        screen.print(bold("interrupted", f": the largest tolerances proved so far: {words}"))
+        raise
+
+
+def _tolerance_words(built: nd.Tolerances, unit: str) -> str:
+    joints, legs = (amount(f"{x:.4g}", unit) for x in (built.joints, built.legs))
+    return f"joints {joints}, legs {legs}"
+
+
 def _largest(certificate: nd.MachineCertificate) -> str:
     """Return what is said of the largest tolerances."""
-    built = certificate.tolerances
-    if built:
-        joints, legs = (amount(f"{x:.4g}", certificate.unit) for x in (built.joints, built.legs))
-        return f"The largest tolerances that were proved, to 5 %: joints {joints}, legs {legs}."
+    if built := certificate.tolerances:
+        return f"The largest tolerances that were proved, to 5 %: {_tolerance_words(built, certificate.unit)}."
     tight = min(certificate.limits, key=lambda limit: limit.margin)
     return (
         f"No tolerance was proved: {tight.name.replace('_', ' ')} leaves no reserve. `[tolerances]` in a study makes "
