@@ -217,6 +217,9 @@ def test_all_poses_of_a_study(run):
     assert "4 poses of the study" in out
     best = data_of(run, "best run --all-poses")
     assert all(a <= b * (1 + 1e-9) for a, b in zip(best["value"], best["now"], strict=True))
+    together = "Both hold together"
+    assert together in run("accuracy run --within 0.1")[1]
+    assert together not in run("accuracy run --within 0.1 --weights 1 0")[1]
     assert "p along any axis, O at rest: nearest" in run("singularity run")[1]
     nearest = data_of(run, "singularity run --all-poses")["distance"]["position"]["nearest"]
     expected = nd.nearest_singularity(result.geometry, stack, "position")

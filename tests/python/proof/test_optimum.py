@@ -15,6 +15,7 @@ from sizes import LONG
 
 import ninedof as nd
 from ninedof.cli.app import main
+from ninedof.cli.commands.check import with_degrees
 from ninedof.proof.optimum_proof import FILE, OptimumProof
 from ninedof.report.proof import of_result as report_proof
 
@@ -167,6 +168,7 @@ def test_a_small_certificate_is_checked(tmp_path, capsys):
     assert "study of the certificate:\n  hexagonal designs with 0 < zs < zp" in said
     assert "  a1 from 0 to 60\n" in said
     assert "  radius_ratio from 0 to 2\n" in said
+    assert "  lengths in the study's unit, which a certificate does not name\n" in said
     head, body = path.read_bytes().split(b"\n", 2)[:2], path.read_bytes().split(b"\n", 2)[2]
     assert head[1] == f"checksum {zlib.crc32(body):x}".encode()
 
@@ -336,3 +338,20 @@ def test_boxes_that_touch_the_bounds_at_a_corner_are_checked(tmp_path):
         proof = nd.prove_optimum(study, target, gap=0.0)
         assert proof.complete
         assert nd.check_certificate(proof.save(tmp_path / "touching")).proved
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("theta_z from -0.5 to 1e-3", "theta_z from -0.5 to 1e-3 rad (-28.6479 to 0.0572958 deg)"),
+        ("base_cone at most 1 about 0, 0, 1", "base_cone at most 1 rad (57.2958 deg) about 0, 0, 1"),
+        ("tilts up to 0.1, yaw up to 0, O held", "tilts up to 0.1 rad (5.72958 deg), yaw up to 0 rad (0 deg), O held"),
+        (
+            "turned by 0, 0, 1, O shifted by 0, 0, 2",
+            "turned by 0, 0, 1 rad (0, 0, 57.2958 deg), O shifted by 0, 0, 2",
+        ),
+        ("leg_ratio at most 3", "leg_ratio at most 3"),
+    ],
+)
+def test_angles_of_a_certificate_are_said_in_degrees_too(line, words):
+    assert with_degrees(line) == words

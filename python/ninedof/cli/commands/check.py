@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +24,13 @@ EXAMPLES = f"""[bold]Examples[/bold]
 
   ninedof check designs.certificate"""
 
+NUMBER = r"-?\d[\d.]*(?:e[-+]?\d+)?"
+# Angles of a line as the checker writes it, after their names.
+ANGLES = re.compile(
+    rf"(?:angle|theta_z|cone|tilts|yaw|turned)(?: from| at most| up to| by)? ({NUMBER}(?:(?:, | to ){NUMBER})*)"
+)
+UNIT = "lengths in the study's unit, which a certificate does not name"
+
 
 @struct
 class CheckOptions(Options):
@@ -37,7 +46,8 @@ def check(options: CheckOptions) -> Answer:
         raise ValueError(f"{options.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
     with options.screen.bar("points", "reading the certificate") as bar:
         result = check_certificate(path, progress=bar)
-    parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in result.study)] if result.study else []
+    lines = [*map(with_degrees, result.study), UNIT] if result.study else []
+    parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in lines)] if lines else []
     verdict = "Proved" if result.proved else "Incomplete" if result.incomplete else "Refused"
     parts.append(bold(verdict, f": {result.words}"))
     if result.study:
@@ -50,3 +60,13 @@ def check(options: CheckOptions) -> Answer:
         "study": result.study,
     }
     return Answer(parts, data, DONE if result.proved else NO_RESULT if result.incomplete else REFUSED)
+
+
+def with_degrees(line: str) -> str:
+    """Return a line of the checker with its angles in degrees too."""
+
+    def degrees(found: re.Match[str]) -> str:
+        shown = re.sub(NUMBER, lambda number: f"{math.degrees(float(number[0])):.6g}", found[1])
+        return f"{found[0]} rad ({shown} deg)"
+
+    return ANGLES.sub(degrees, line)
