@@ -7,12 +7,13 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ninedof.optimize.result import Result, Status
-from ninedof.pareto.front import objective_of
-from ninedof.pareto.limits import floor_of, own_value, value_of
+from ninedof.pareto.front import Front, limit_text, objective_of
+from ninedof.pareto.limits import CONDITION_LIMIT, floor_of, own_value, value_of
 from ninedof.pareto.solving import FrontSolver
 from ninedof.proof.tolerance import FIRST, MOST, STEP
 
 MOST_OBJECTIVE = 3.0  # times the best objective: designs above it are ignored
+WIDE = 4.0  # times the study's own limit: the loosest where the study is unbounded without it
 NEAR_LEAST = 1.002  # times the least condition number; at 1 only one design is left
 STEPS_DOWN = 12  # halvings; fewer steps of a tolerance
 BISECTIONS, IN_REGIONS = 6, 4  # a study over a region takes seconds
@@ -37,6 +38,26 @@ def of_a_limit(solver: FrontSolver) -> tuple[float, float] | None:
     best = objective_of(solver.solve(high, [without]))
     floor = min(floor_of(solver.study, solver.against), high)
     return None if math.isnan(best) else (_tightest(solver, high, best, lambda good: max(0.5 * good, floor)), high)
+
+
+def range_words(front: Front) -> str:
+    """Return where the limits of a front that were not given end, and what is beyond; "" where no design is there."""
+    with_design = [x for x, value in zip(front.limits, front.objectives, strict=True) if not math.isnan(value)]
+    if not with_design or front.limit_name == CONDITION_LIMIT:
+        return ""
+    first, last = (limit_text(front, x) for x in (with_design[0], front.limits[-1]))
+    beyond = "Larger tolerances" if front.of_tolerances else f"Limits below {first}"
+    words = f"{beyond} may have designs too: the rows end, roughly, at {MOST_OBJECTIVE:g} times the least objective."
+    if front.of_tolerances or _is_unbounded(front):
+        return words
+    return f"{words} From {last} on nothing changes: the best design without this limit keeps it."
+
+
+def _is_unbounded(front: Front) -> bool:
+    """Return whether the loosest limit is a multiple of the study's own, and not that of a design."""
+    own = own_value(front.study, front.limit_name)
+    scale = math.degrees(1.0) if front.unit == "deg" else 1.0
+    return own is not None and math.isclose(front.limits[-1], WIDE * scale * own)
 
 
 def of_tolerances(solver: FrontSolver) -> tuple[float, float]:
@@ -81,7 +102,7 @@ def _loosest(solver: FrontSolver, without: Result) -> float:
             f"values: got None, expected limits to sweep: without a limit on {solver.against} the study is "
             f"{without.status}, so none can be derived ({without.reason})"
         )
-    return 4.0 * own
+    return WIDE * own
 
 
 def _tightest(solver: FrontSolver, loose: float, objective: float, tighter: Callable[[float], float]) -> float:

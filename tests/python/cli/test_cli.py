@@ -86,8 +86,11 @@ def test_a_limit_at_the_neutral_pose_is_named_on_the_screen(run):
     assert status == 0
     assert "1 % more leg_ratio at neutral buys" in out
     line = "pareto study.toml --against 'leg_ratio at neutral' --value 1.9 --value 2.1"
-    status, out, _ = run(f"{line} --starts 4 --json --no-figures --out front")
+    status, out, err = run(f"{line} --starts 4 --json --no-figures --out front")
     assert status == 0
+    assert "may have designs too" not in err  # limits that were given
+    _, _, err = run("pareto --points 2 --starts 4 --json --no-figures --out chosen")
+    assert "may have designs too" in err
     assert json.loads(out)["front"]["against"] == "leg_ratio at neutral"
     status, _, err = run("pareto study.toml --against 'stroke at neutral' --value 1.0")
     assert status == 2

@@ -15,6 +15,7 @@ from ninedof.pareto import pareto
 from ninedof.pareto import solving as sweeping
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limits import own_value, resolve, value_of, with_limit, without_degrees
+from ninedof.pareto.span import WIDE, range_words
 
 PAPER = nd.Study.paper()
 
@@ -118,6 +119,12 @@ def test_a_limit_at_price_0_is_not_reached():
     shown = [row[-1] for row in front_table(found).rows]
     assert "(radius_ratio without effect)" in shown[-1]
     assert "without effect" not in shown[0]
+    first, last = (f"{limit:.5g}" for limit in found.limits)
+    words = range_words(found)
+    assert words.startswith(f"Limits below {first} may have designs too")
+    assert f"From {last} on nothing changes" in words
+    assert "From" not in range_words(replace(found, limits=(found.limits[0], WIDE * 2.0)))  # of a study without an end
+    assert range_words(replace(found, limits=(), results=())) == ""
 
 
 def test_impossible_limits_are_rows_too():

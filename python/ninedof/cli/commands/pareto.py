@@ -16,6 +16,7 @@ from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limits import TOLERANCE, with_degrees
+from ninedof.pareto.span import range_words
 from ninedof.records.folder import run_folder
 from ninedof.records.load import split
 from ninedof.records.record import write_run
@@ -79,6 +80,8 @@ def pareto(options: ParetoOptions) -> None:
         how: dict[str, Any] = {"threads": options.threads, "progress": bar.show, "out": directory}
         front = nd.pareto(replace(study), against, options.value or None, points=options.points, **how)
     parts: list[Any] = [front_table(front)] if front.limits else []
+    if not options.value and not front.interrupted:
+        parts += filter(None, [range_words(front)])
     if front.interrupted:
         count = "1 limit is" if len(front) == 1 else f"{len(front)} limits are"
         parts.append(bold("interrupted", f": {count} solved so far and kept in {directory}"))
