@@ -9,11 +9,14 @@ from ninedof.design.limits import Limit
 from ninedof.design.study import Study
 from ninedof.optimize.tables import listed_variables
 from ninedof.redundancy.rules import MEANING, WORDS
+from ninedof.sheet.pose_words import vector_words
+from ninedof.sheet.tables import load_words
 from ninedof.support.angles import degrees_of
-from ninedof.support.units import amount
+from ninedof.support.units import amount, per
 from ninedof.tables import Line, Table, columns
 from ninedof.tables.html import Html, html_of, joined, paragraphs
 
+MASSES = ("platform", "cylinder", "rod", "internal_point")
 FAMILIES = {
     "hexagonal": "hexagonal plates, eqs. (37) and (38)",
     "symmetric": "flat joint triples with threefold symmetry",
@@ -53,6 +56,33 @@ def sentences(study: Study) -> Iterator[str]:
         words = amount(f"{length:g}", study.unit)
     unit = f"in {study.unit}" if study.unit else "in one unit, which the study does not name"
     yield f"Lengths are {unit}, angles in degrees. The characteristic length is {words}."
+    if duty := " ".join(duty_sentences(study)):
+        yield duty
+
+
+def duty_sentences(study: Study) -> Iterator[str]:
+    """Yield what the machine is for: tool, loads, masses, speeds and tolerances, where the study has them."""
+    unit, loads, speeds, built = study.unit, study.loads, study.speeds, study.tolerances
+    if study.tool:
+        yield f"Poses, loads and speeds are of the {', '.join(study.tool.words(unit))}, in the frame of the plate."
+    if loads.wrenches:
+        words = "; ".join(load_words(k, load, unit) for k, load in enumerate(loads.wrenches, start=1))
+        yield f"{words[:1].upper()}{words[1:]}."
+    masses = [f"{name.replace('_', ' ')} {x:g}" for name in MASSES if (x := getattr(study.masses, name))]
+    if masses:
+        centre = amount(vector_words(study.masses.centre), unit)
+        at = f", the platform's centre at {centre} in the frame of the plate" * (study.masses.platform > 0.0)
+        yield f"Masses: {', '.join(masses)}{at}; gravity {vector_words(loads.gravity)}."
+    for name, linear, angular, time in (
+        ("Speed", speeds.linear, speeds.angular, "s"),
+        ("Acceleration", speeds.acceleration, speeds.angular_acceleration, "s²"),
+    ):
+        if linear or angular:
+            shift = amount(f"{linear:g}", per(unit, time))
+            yield f"{name} of the platform: at most {shift} and {math.degrees(angular):g}°/{time}."
+    if built:
+        joints, legs = (amount(f"{x:g}", unit) for x in (built.joints, built.legs))
+        yield f"Tolerances, within which every machine keeps the limits: joint centres {joints}, leg lengths {legs}."
 
 
 def variables_table(study: Study) -> Table:
@@ -72,7 +102,10 @@ def limits_table(study: Study) -> Table:
     heads = columns("limit", ">least", ">greatest", "how")
     if not any(row[-1] for row in rows):
         rows, heads = [row[:-1] for row in rows], heads[:-1]
-    return Table("Limits", heads, rows, () if rows else ["No limit is set beside these bounds and 0 < zs < zp."])
+    notes = [] if rows else ["No limit is set beside these bounds and 0 < zs < zp."]
+    if any(limit.name.endswith(("force", "power")) for limit in study.limits):
+        notes.append("Forces: of each leg under every load; in N where masses are in kg.")
+    return Table("Limits", heads, rows, notes)
 
 
 def _limit_row(limit: Limit, unit: str, several: bool) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ from ninedof.pareto.limits import without_degrees
 from ninedof.records.record import Record
 from ninedof.report import origin
 from ninedof.report.page import BLANK, title_block
-from ninedof.report.question import FAMILIES
+from ninedof.report.question import FAMILIES, question
 from ninedof.tables import Column, Table
 from ninedof.tables.html import Html, html_of, tag
 from ninedof.tables.numbers import short
@@ -87,6 +87,32 @@ def test_a_run_has_every_section_and_the_numbers_of_the_result(page, folder, res
         assert f"{leg.longest:.5f}" in words
     for row in found.limits:
         assert row.name.replace("_", " ") in words
+
+
+def test_the_question_names_what_the_machine_is_for():
+    study = nd.Study(
+        constraints={"force": (None, 900.0)},
+        tool={"position": [0.0, 0.0, -80.0]},
+        loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, 300.0], [0.0, 0.0, 5.0, 100.0, 0.0, 0.0]]},
+        masses={"platform": 10.0, "centre": [0.0, 0.0, -20.0], "rod": 0.5},
+        speeds={"linear": 200.0, "angular_deg": 30.0, "acceleration": 1500.0},
+        tolerances={"joints": 0.03, "legs": 0.02},
+        unit="mm",
+        characteristic_length=160.0,
+    )
+    words = " ".join(Reader(question(study)).words)
+    for part in (
+        "of the tool at (0, 0, -80) mm",
+        "load 2: moment (0, 0, 5) force mm, force (100, 0, 0)",
+        "Masses: platform 10, rod 0.5, the platform's centre at (0, 0, -20) mm in the frame of the plate",
+        "gravity (0, 0, -9.81)",
+        "Speed of the platform: at most 200 mm/s and 30°/s. Acceleration of the platform: at most 1500 mm/s² and 0°/s²",
+        "joint centres 0.03 mm, leg lengths 0.02 mm",
+        "Forces: of each leg under every load; in N where masses are in kg.",
+    ):
+        assert part in words
+    plain = " ".join(Reader(question(nd.Study.paper())).words)
+    assert not re.search("tool|[Ll]oad|Masses|Speed|Tolerances|Forces", plain)
 
 
 def test_the_study_file_in_the_page_makes_the_same_study(page, result):
