@@ -23,6 +23,13 @@ body, which may be of two makes and mounted in two ways."""
 CLEARANCE = next(name for name, parts in PARTS.items() if "-" in parts[0])
 """The limit on the distance of pairs of legs."""
 SPREADS = _core.limits_over_lengths  # limits that compare poses
+
+
+def compared(study: Study) -> list[str]:
+    """Return the names of the limits of a study that compare its poses."""
+    return list(dict.fromkeys(limit.name for limit in study.limits if limit.name in SPREADS and limit.at == "poses"))
+
+
 LEGS = {
     name: [LEG_NAMES.index(part) for part in parts]
     for name, parts in PARTS.items()

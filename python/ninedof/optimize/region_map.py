@@ -9,7 +9,7 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.limit_numbers import SPREADS
+from ninedof.design.limit_numbers import SPREADS, compared
 from ninedof.design.limits import kind_of
 from ninedof.design.pose import Pose
 from ninedof.design.region import Region
@@ -144,12 +144,15 @@ def _compared(study: Study, g: Geometry, neutral: Configuration, length: float) 
     """Return the least margin over the region of each limit that compares poses."""
     region, out = study.objective.region, dict[str, float]()
     assert region is not None
+    if not places_o(region):
+        return dict.fromkeys(compared(study), math.nan)
+    if not compared(study):
+        return {}
     ends = np.array(_core.leg_lengths_over(g, neutral, region.for_core(), SAMPLES))
     _, middle = configurations_at(region, neutral, np.zeros((1, 6)))
     for one in pose_limits(study, g, middle, neutral, length, ends):
         if one.name in SPREADS:
-            margin = float(one.margin[0]) if places_o(region) else math.nan
-            out[one.name] = min(margin, out.get(one.name, math.inf))
+            out[one.name] = min(float(one.margin[0]), out.get(one.name, math.inf))
     return out
 
 

@@ -12,6 +12,7 @@ from ninedof.design.limits import Limit
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine import NEUTRAL_LIMIT, open_limits
+from ninedof.sheet.limit_rows import limit_rows
 from ninedof.support.arguments import finite, flag, table, text
 from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr
@@ -111,13 +112,20 @@ def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
     best, out = result.best, dict[str, float]()
     poses = best.configurations[: 1 + len(study.objective.poses)]
     design = best.geometry, poses, best.characteristic_length, None
+    # Where the design lies within a limit, the reserve begins at its own value: else it would change nothing.
+    own = {
+        f"{row.name} {row.side}": row.value / row.limit
+        for row in limit_rows(result.solved, best.variables)
+        if row.limit
+    }
     for limit in open_limits(study, design, study.tolerances, FOR_PROOF, threads):
         met, worst = limit.value if limit.side == "max" else limit.value[::-1]
         if limit.name in CONDITION_LIMITS:  # its enclosure is wide
             share = min(limit.limit / met, 1.0) * (1.0 - STEP)
         else:
-            lack = 1.0 - limit.limit / worst if 0.0 < worst < math.inf else 1.0
-            share = 1.0 - lack * MORE - math.copysign(EDGE, lack)
+            lack, key = 1.0 - limit.limit / worst if 0.0 < worst < math.inf else 1.0, f"{limit.name} {limit.side}"
+            sign, most = (1.0, min) if limit.side == "max" else (-1.0, max)
+            share = (1.0 - lack * MORE - sign * EDGE) * most(own.get(key, 1.0), 1.0)
         out[f"{limit.name} {limit.side}"] = share
     return out
 

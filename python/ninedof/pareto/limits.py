@@ -115,7 +115,8 @@ def own_value(study: Study, against: str) -> float | None:
 
 def value_of(study: Study, against: str, result: Result) -> float:
     """Return the least limit that allows the best design of a result: its value over the region, with its options."""
-    study = with_limit(study, against, own_value(study, against) or 1.0)
+    least = _limit(study, against).low
+    study = with_limit(study, against, own_value(study, against) or max(least, 1.0))
     in_region = study.objective.region is not None
     rows = sheet(replace(result, study=study)).limits if in_region else limit_rows(study, result.variables or {})
     return next(row.value for row in rows if row.name == against and row.side == "max")

@@ -46,11 +46,14 @@ def range_words(front: Front) -> str:
     if not with_design or front.limit_name == CONDITION_LIMIT:
         return ""
     first, last = (limit_text(front, x) for x in (with_design[0], front.limits[-1]))
-    beyond = "Larger tolerances" if front.of_tolerances else f"Limits below {first}"
-    words = f"{beyond} may have designs too: the rows end, roughly, at {MOST_OBJECTIVE:g} times the least objective."
-    if front.of_tolerances or _is_unbounded(front):
-        return words
-    return f"{words} From {last} on nothing changes: the best design without this limit keeps it."
+    words, scale = [], math.degrees(1.0) if front.unit == "deg" else 1.0
+    if front.of_tolerances or with_design[0] > scale * floor_of(front.study, front.limit_name) * (1.0 + 1e-9):
+        beyond = "Larger tolerances" if front.of_tolerances else f"Limits below {first}"
+        end = f"no design was found, or only some of {MOST_OBJECTIVE:g} times the least objective and more"
+        words.append(f"{beyond} may have designs too: the rows end, roughly, where {end}.")
+    if not (front.of_tolerances or front.study.tolerances or _is_unbounded(front)):
+        words.append(f"From {last} on nothing changes: the best design without this limit keeps it.")
+    return " ".join(words)
 
 
 def _is_unbounded(front: Front) -> bool:

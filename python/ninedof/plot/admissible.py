@@ -19,13 +19,8 @@ if TYPE_CHECKING:
     from ninedof.proof.admissible_set import AdmissibleSet
 
 INSIDE, UNDECIDED = "#A9CCE3", "#B8BFC6"
-OTHERS = (
-    "#E69F00",
-    "#F0E442",
-    "#882255",
-    "#009E73",
-    "#999933",
-)  # limits that have no colour elsewhere; none is near blue
+# Of limits that have no colour elsewhere; none is near blue.
+OTHERS = ("#E69F00", "#F0E442", "#882255", "#009E73", "#999933")
 PALE = 0.55  # of a limit's colour that is left: outside is ground, not figure
 LETTER = 0.056  # inches, of the smallest words
 MARK = style.HOME | {"marker": "D", "ms": 5.0, "clip_on": False}

@@ -148,7 +148,7 @@ def _prices(axes: Any, rows: Sequence[Row], is_tolerance: bool) -> None:
         axes.set_yticks([])
     relaxed = "a tolerance 1 % smaller" if is_tolerance else "a limit 1 % looser"
     axes.set_title(f"slope: what {relaxed} gains, to first order", size=style.TEXT_SIZE)
-    axes.set_ylabel("gain (%)")
+    axes.set_ylabel("slope (%)")
 
 
 def _limits(panels: Sequence[Any], rows: Sequence[Row]) -> None:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.plot import style
 
+ALONE = ": kept at the mark alone"
 THINNEST = 0.005  # of the axis: a narrower white strip at a mark is not seen
 NEUTRAL: dict[str, Any] = {"color": style.MUTED, "lw": 0.9, "ls": (0, (4, 2))}
 
@@ -137,7 +138,7 @@ def _passed(axes: Any, design: DesignCurves, k: int) -> bool:
     own = (design.point[0], np.degrees(design.point[1]))[k]
     around = x[passed & (x >= own)].min(initial=np.inf) - x[passed & (x <= own)].max(initial=-np.inf)
     if 0.0 < around < THINNEST * (high - low):
-        axes.set_title(f"{axes.get_title(loc='left')}: kept at the mark alone")
+        axes.set_title(f"{axes.get_title(loc='left').removesuffix(ALONE)}{ALONE}")
     return bool(passed[(x >= low) & (x <= high)].any())
 
 

@@ -164,10 +164,10 @@ class AdmissibleSet:
         words = ", ".join(f"{name} = {value:g}" for name, value in zip(self.vary, x, strict=True))
         if broken >= 0:
             limit = " ".join(self.demands[broken]).strip().replace("_", " ")
-            breaks = _core.room_around(self.of.eased(ON_LIMIT).for_core(), x, half, seconds=EASED_SECONDS)[3] >= 0
-            there = f"it breaks {limit}"
-            if not breaks:
-                there = f"it is on the limit {limit} (within {ON_LIMIT:g} of it): no room on that side"
+            on, _, _, breaks = _core.room_around(self.of.eased(ON_LIMIT).for_core(), x, half, seconds=EASED_SECONDS)
+            there = f"it is on the limit {limit} (within {ON_LIMIT:g} of it): no room on that side"
+            if not on:
+                there = f"it breaks {limit}" if breaks >= 0 else f"it is on the limit {limit}, or breaks it"
             raise ValueError(f"design: got {words}, expected one that is inside: {there}")
         raise ValueError(f"design: got {words}, expected one around which a box is proved to be inside")
 

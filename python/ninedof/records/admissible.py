@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from ninedof.design.study import Study
+from ninedof.proof.admissible_roots import PIECES
 from ninedof.proof.admissible_set import STATES, AdmissibleSet
 from ninedof.proof.design_range import DesignRange
 from ninedof.support.files import Arrays, from_json_array, json_array, read_npz, write_npz
 from ninedof.support.structs import Fixed
 
-ARRAYS = ("low", "high", "state", "demand", "poses")
 ASKED = ("vary", "ranges", "condition_number", "moved")
 NUMBERS = ("designs", "boxes", "seconds", "interrupted")
 
@@ -31,7 +31,7 @@ def save_admissible(found: AdmissibleSet, file: Path) -> Path:
     others = {"question": found.of.digest, "demands": found.demands, "shares": dict(found.shares)}
     others |= {name: getattr(found, name) for name in NUMBERS}
     others["asked"] = {name: getattr(found.of, name) for name in ASKED} | {"at": dict(found.of.at)}
-    return write_npz(file, {name: getattr(found, name) for name in ARRAYS} | {"others": json_array(others)})
+    return write_npz(file, {name: getattr(found, name) for name in PIECES} | {"others": json_array(others)})
 
 
 def load_admissible(file: Path, of: DesignRange) -> AdmissibleSet | None:

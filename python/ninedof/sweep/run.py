@@ -161,7 +161,10 @@ def sweep(
         where = "displaced from home" if rule == "best" else "displacements"
         raise ValueError(f'over: got {", ".join(sorted(swept))} with internal_point="{rule}", expected O to be {where}')
     if rule == "best" and isinstance(length, str):
-        raise ValueError(f'characteristic_length: got {shown(length)} with internal_point="best", expected a number')
+        raise ValueError(
+            f'characteristic_length: got {shown(length)} with internal_point="best" (that of a region, where '
+            "nothing else is given), expected a number"
+        )
     poses = Poses(geometry, home, relative, rule, length)
     points = chunk_argument(options.get("chunk"), POSES)
     if rule == "best":

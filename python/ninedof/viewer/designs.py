@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Mapping, Sequence
 from itertools import combinations
@@ -25,10 +26,6 @@ BEHIND, ABOVE, BELOW = 2.2, 1.1, 0.5  # the machine; its lower side above the gr
 RIGHT, UP = np.array([0.885, 0.465, 0.0]) / np.hypot(0.885, 0.465), np.array([0.0, 0.0, 1.0])  # of the first camera
 NORMAL = np.cross(RIGHT, UP)  # towards that camera
 DPI = 200
-STATES = {
-    INSIDE: "Proved: the design shown keeps every limit at every pose.",
-    OUTSIDE: "Proved: the design shown breaks a limit.",
-}
 HINT = "A click in the picture shows the design there."
 
 
@@ -86,7 +83,14 @@ class DesignPicture:
         x = [variables[name] for name in of.vary]
         if not all(low <= value <= high for value, (low, high) in zip(x, of.ranges, strict=True)):
             return f"The design shown is not in the ranges of the set. {HINT}"
-        return f"{STATES.get(self.found.state_of([x])[0], 'Of the design shown nothing is proved.')} {HINT}"
+        state, bound = self.found.state_of([x])[0], of.condition_number
+        most = "" if bound is None else f"a condition number of at most {bound:g}"
+        words = {
+            INSIDE: f"Proved: the design shown keeps every limit{most and f' and {most}'} at every pose.",
+            OUTSIDE: f"Proved: the design shown breaks a limit{most and f', or {most}'}.",
+        }
+        drawn = " It is proved as it is drawn, without tolerances." if of.study.tolerances else ""
+        return f"{words.get(state, 'Of the design shown nothing is proved.')}{drawn} {HINT}"
 
     def _in_degrees(self, pair: Sequence[int]) -> list[bool]:
         return [self.found.vary[k] in self.found.study.angles for k in pair]
@@ -97,7 +101,11 @@ def designs_of(machine: Machine, design: Any, found: AdmissibleSet | None) -> Ad
     if found is None:
         if machine.result is None or not isinstance(design, str | os.PathLike):
             return None
-        return latest_admissible(run_of(os.fspath(design)), machine.result.study)
+        try:
+            return latest_admissible(run_of(os.fspath(design)), machine.result.study)
+        except ValueError as error:  # a damaged file: the machine is shown without it
+            logging.getLogger("ninedof").warning("%s", error)
+            return None
     study = instance("designs", found, AdmissibleSet).study
     if machine.result is None or _asked(study) != _asked(machine.result.study):
         raise ValueError("designs: got a set of another study, expected one of the study of the result")

@@ -9,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from ninedof.design.limit_numbers import SPREADS
+from ninedof.design.limit_numbers import compared
 from ninedof.design.region_poses import places_o
 from ninedof.export.export import export, formats
 from ninedof.motion.follow import follow
@@ -76,7 +76,7 @@ def lines_shown(state: State) -> dict[str, str]:
 
 def spread_words(machine: Machine) -> str:
     """Return over which poses the limits are taken that compare lengths of legs; "" without any."""
-    names = [] if machine.study is None else [name for name in machine.study.constraints if name in SPREADS]
+    names = [] if machine.study is None else compared(machine.study)
     if not names:
         return ""
     over = "the poses of the study"

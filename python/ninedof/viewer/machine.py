@@ -13,7 +13,7 @@ import numpy as np
 
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.family_variables import variables_of
-from ninedof.design.limit_numbers import SPREADS, leg_limits_of
+from ninedof.design.limit_numbers import compared, leg_limits_of
 from ninedof.design.region import Region
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import FAMILIES, Study, variable_kinds
@@ -166,7 +166,7 @@ class Machine:
     def _over_region(self, g: Geometry, home: Configuration, lengths: Floats) -> Floats:
         """Return lengths at poses with the ends over the region; of the legs at O where the region says where O is."""
         region, study = self.region, self.study
-        if region is None or study is None or not set(SPREADS) & set(study.constraints):
+        if region is None or study is None or not compared(study):
             return lengths
         ends = np.array(leg_ranges_over(region, g, home))
         if not places_o(region):

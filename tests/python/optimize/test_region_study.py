@@ -185,6 +185,7 @@ def test_what_a_dear_limit_buys_is_not_left_over():
     assert 0.0 <= result.region.gain <= 1e-7
 
 
+@pytest.mark.slow
 def test_check_finds_a_wrong_mean():
     result = solved("mean, one variable")
     average = result.region.mean

@@ -168,3 +168,19 @@ def test_the_rounds_end_within_the_limit_not_on_it(within):
     result = nd.optimize(study)
     assert result.status == "optimal"
     assert result.reserve.proved
+
+
+@pytest.mark.parametrize("limit", [4.7, 4.749, 4.8])
+def test_a_limit_that_the_design_keeps_as_drawn_is_no_end(limit):
+    """A looser limit is not infeasible: the reserve begins at the value of the design, not at the limit."""
+    sides = {"a1": (0.0, 6.0), "a2": (3.0, 6.0), "b1": (1.0, 4.0), "b2": (0.0, 4.0)}
+    study = nd.Study(
+        variables=sides | {"zp": (2.0, 8.0), "zs": (1.0, 6.0)},
+        constraints={"leg_ratio": (None, limit)},
+        objective={"poses": [{"position": [0.3, 0.0, 0.0]}]},
+        tolerances={"joints": 0.02, "legs": 0.02},
+        starts=2,
+    )
+    result = nd.optimize(study)
+    assert result.status == "optimal"
+    assert result.reserve.proved

@@ -121,7 +121,7 @@ def test_a_limit_at_price_0_is_not_reached():
     assert "without effect" not in shown[0]
     first, last = (f"{limit:.5g}" for limit in found.limits)
     words = range_words(found)
-    assert words.startswith(f"Limits below {first} may have designs too")
+    assert words.startswith(f"Limits below {first} may have designs too: the rows end, roughly, where no design")
     assert f"From {last} on nothing changes" in words
     assert "From" not in range_words(replace(found, limits=(found.limits[0], WIDE * 2.0)))  # of a study without an end
     assert range_words(replace(found, limits=(), results=())) == ""
@@ -386,9 +386,6 @@ def test_same_front_for_any_number_of_threads():
     assert one.table() == two.table()
 
 
-# --- Bad input --------------------------------------------------------------------------------------------------------
-
-
 # --- Over a region ----------------------------------------------------------------------------------------------------
 
 CUBE = nd.Study(
@@ -417,9 +414,22 @@ def test_the_loosest_limit_is_the_value_over_the_region(against, options):
     assert found.results[-1].status == "optimal"
     value = value_of(study, name, free)
     assert own_value(found.results[-1].study, name) == pytest.approx(value, rel=1e-6)
-    within, beyond = (
-        with_limit(study, name, value * factor) for factor in (1.0 + 1e-6, 0.98)
-    )  # random poses come near the worst
+    # Random poses come near the worst.
+    within, beyond = (with_limit(study, name, value * factor) for factor in (1.0 + 1e-6, 0.98))
     x = free.variables
     worst = [worst_at_random(one, x, size(2_000, 10_000), 1)[1] for one in (within, beyond)]
     assert worst[0] > 0.0 > worst[1]
+
+
+@pytest.mark.parametrize("own", [{"radius_ratio": (1.2, None)}, {"leg_length": (2.0, None)}, {"height": (3.5, 6.0)}])
+def test_a_limit_may_have_a_least_value(own):
+    """A min above 1 without a max, and rows that end at the min: the study has no designs below."""
+    ((name, (low, _)),) = own.items()
+    found = pareto(replace(PAPER, constraints=own, starts=4), name, points=2)
+    assert found.limits[0] >= low
+    assert ("Limits below" in range_words(found)) == (found.limits[0] > low * (1.0 + 1e-9))
+
+
+def test_of_a_reserve_nothing_is_said_beyond_the_last_row():
+    with_tolerances = replace(MOVING, tolerances={"joints": 1e-3, "legs": 1e-3}, starts=2)
+    assert "nothing changes" not in range_words(pareto(with_tolerances, "leg_ratio", points=2))

@@ -212,7 +212,7 @@ def at_random(study, variables, count, rng):
     return () if region is None else drawn(region, variables["zp"], rng, count)
 
 
-def test_a_million_designs_and_poses_contradict_nothing(case):
+def test_designs_drawn_in_numpy_contradict_nothing(case):
     """Of designs inside none breaks a limit, of those outside none keeps all; in numpy, without the core."""
     share = DEAR if "force" in case.study.constraints else 1
     (inside, poses), (outside, more) = DRAWN_INSIDE, DRAWN_OUTSIDE

@@ -16,6 +16,7 @@ constexpr double passed = 2e-8;       // what may be passed between the poses: b
 constexpr double one_place = 1e-9;    // of the region: nearer poses are one
 constexpr double follows_known = 1e-2;  // in coordinates of the solver
 constexpr double no_better = 2e-6;      // relative gain that is not worth the last rounds
+constexpr int most_exact = 3;  // solutions without Newton's method, each from the last one, whose slack is too large
 constexpr int first_comparison = 4;   // round from which a design is compared with the best known
 
 }  // namespace
@@ -97,12 +98,12 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
   Imposed imposed = first;
   Eigen::VectorXd x = start;
   double excess = 1.0;  // of the last design
-  bool exactly = false;
+  int exact = 0;  // rounds without Newton's method
   while (out.rounds < most_exchanges && !control_.stop.stop_requested()) {
     ++out.rounds;
     ++rounds_;
-    tell(out, imposed, excess);
-    Candidate next = solved(imposed, x, exactly);
+    tell(out, imposed, out.look.excess);
+    Candidate next = solved(imposed, x, exact > 0);
     if (control_.stop.stop_requested()) {
       if (out.rounds == 1) out.rounds = 0;  // there is no design yet
       break;
@@ -127,10 +128,10 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     }
     if (excess <= passed) {
       out.slack = slack(out);
-      out.settled = exactly || out.slack <= passed;
+      out.settled = exact >= most_exact || out.slack <= passed;
       if (out.settled) break;
     }
-    exactly |= out.look.excess <= passed;
+    exact += exact > 0 || out.look.excess <= passed;
     for (const Vec6& at : out.look.worst)
       if (std::ranges::none_of(imposed.at,
                                [&](const Vec6& other) { return distance_in(region_, at, other) <= one_place; }))

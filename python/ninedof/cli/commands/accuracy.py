@@ -106,7 +106,7 @@ def _allotted(options: AccuracyOptions, at: DesignAtPoses) -> Answer:
         "the neutral pose" if study is None else "the region" if study.objective.region else "the poses of the study"
     )
     title = f"Tolerances with which {' and '.join(limits)}, to first order, over {where}"
-    notes = ["Both hold together: joints and legs may be off by so much at once."] * (kept.joints > 0.0 < kept.legs)
+    notes = ["Both hold together: joints and legs may be off by so much at once."] * (min(kept.joints, kept.legs) > 0.0)
     return Answer([Table(title, columns("", ">"), rows, notes)], unit_entry(unit) | kept.to_dict())
 
 

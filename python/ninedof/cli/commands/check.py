@@ -25,10 +25,9 @@ EXAMPLES = f"""[bold]Examples[/bold]
   ninedof check designs.certificate"""
 
 NUMBER = r"-?\d[\d.]*(?:e[-+]?\d+)?"
+NAMES = "angle|theta_z|cone(?:_external|_internal)?|tilts|yaw|turned"
 # Angles of a line as the checker writes it, after their names.
-ANGLES = re.compile(
-    rf"(?:angle|theta_z|cone|tilts|yaw|turned)(?: from| at most| up to| by)? ({NUMBER}(?:(?:, | to ){NUMBER})*)"
-)
+ANGLES = re.compile(rf"(?:{NAMES})(?: from| at most| up to| by)? ({NUMBER}(?:(?:, | to ){NUMBER})*)")
 UNIT = "lengths in the study's unit, which a certificate does not name"
 
 
