@@ -72,11 +72,12 @@ def poses_table(sheet: Any) -> Table:
 def limits_table(sheet: Any) -> Table:
     """Return the limits of the study beside the values and margins."""
     where = "at its poses" if sheet.region is None else "over its region"
-    columns = [Column("limit"), Column(), Column(), *columns_of("allowed", "here", "margin")]
+    parts = any(row.part for row in sheet.limits)
+    columns = [Column("limit"), *[Column()] * parts, Column(), *columns_of("allowed", "here", "margin")]
     rows = []
     for row in sheet.limits:
         ends = (limit_amount(row, value, short, sheet.unit) for value in (row.limit, row.value))
-        rows.append([row.name, row.part, row.side, *ends, margin_words(row.margin, row.unit)])
+        rows.append([row.name, *[row.part] * parts, row.side, *ends, margin_words(row.margin, row.unit)])
     violated = [is_violated(row.margin, row.unit, row.limit) for row in sheet.limits]
     if any(violated):
         columns.append(Column())
