@@ -202,6 +202,22 @@ def test_loads_and_weights_of_the_study_are_taken():
     assert not len(nd.failure(nd.optimize(study), pairs=False).loads)
 
 
+def test_forces_over_a_region_are_those_of_the_sheet():
+    """A load along the axis of a symmetric machine: three legs of a kind carry the same, at poses of their own."""
+    study = nd.Study(
+        "symmetric",
+        constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0)},
+        objective={"region": {"cylinder": [0.2, 0.1], "tilt_deg": 6, "unit": "zp"}},
+        loads={"wrenches": [[0, 0, 0, 0, 0, -100.0]]},
+        starts=2,
+    )
+    result = nd.optimize(study)
+    carried = [one.loads[0].carries for one in nd.failure(result, pairs=False).free]
+    of_sheet = [max(abs(end) for end in leg.forces[0]) for leg in nd.sheet(result).legs]
+    assert carried == pytest.approx(of_sheet, rel=1e-5)
+    assert carried[6:] == pytest.approx([carried[6]] * 3, rel=1e-5)
+
+
 def test_numbers_of_a_column_have_the_same_decimals():
     g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     one = nd.failure(g, nd.Configuration.neutral([3.9828], 2.3745), loads=[0, 2.0, 0, 0, 0, -10.0])

@@ -23,6 +23,7 @@ from ninedof.sheet.request import load_rows
 from ninedof.sheet.sheet import Extreme, extreme
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import inverse_dynamics
+from ninedof.statics.masses import masses_for_core
 from ninedof.support.arguments import finite, flag, whole
 from ninedof.support.arrays import Floats
 
@@ -104,9 +105,12 @@ def failure(
     sets = SETS if flag("pairs", pairs) else SETS[:9]
     bound = None if condition_number is None else finite("condition_number", condition_number, 1.0)
     question = _core.SheetQuestion(g, c[0], characteristic_length=length, locked=list(sets))
+    question.loads, gravity = list(rows), study.loads.gravity
+    if masses is not None:
+        question.masses, question.gravity = masses_for_core(masses), gravity
     looked = look_over(design, c, question, count) if poses is None else Looked(c)
     even = None if looked.search is None else even_poses(design, looked, count)
-    c, gravity = looked.configurations, study.loads.gravity
+    c = looked.configurations
     forces = [inverse_dynamics(g, c, masses=masses, gravity=gravity, load=row).forces for row in rows]
     healthy = extreme(np.asarray(condition_numbers(g, c, length)), np.argmax)
     bound = 2.0 * healthy.value if bound is None else bound
