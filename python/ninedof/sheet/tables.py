@@ -211,8 +211,9 @@ def _powers(sheet: Any) -> Table:
     """Return the drives beside each other: greatest force, speed and power of each leg."""
     speed = per(sheet.unit, "s")
     columns = [Column("force", "", RIGHT), Column("speed", speed, RIGHT), Column("power", times("force", speed), RIGHT)]
-    numbers = ((leg.largest_force, leg.speed, leg.power) for leg in sheet.legs)
-    rows = ([f"{x:.5g}" for x in row] for row in numbers)
+    numbers = [(leg.largest_force, leg.speed, leg.power) for leg in sheet.legs]
+    rounding = [ROUNDING * max(filter(math.isfinite, column), default=0.0) for column in zip(*numbers, strict=True)]
+    rows = ([f"{x if x > least else 0.0:.5g}" for x, least in zip(row, rounding, strict=True)] for row in numbers)
     note = "power: the most of force times speed at one pose, at rest or at constant speed"
     return _of_legs(f"Drives, largest {over(sheet)}", sheet, columns, rows, [note])
 

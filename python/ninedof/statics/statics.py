@@ -50,7 +50,7 @@ def leg_forces(
         Shape (...).
     moment, force : array_like, shape (..., 3)
         External load on the platform: moment about its origin p (force times length) and force, base axes. They
-        broadcast against the configuration.
+        broadcast against the configuration. Nothing acts beside it: `inverse_dynamics` has the masses of a study too.
     force_at_o : array_like, shape (..., 3)
         Load on the internal point; zero by default.
 
