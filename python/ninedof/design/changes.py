@@ -1,11 +1,14 @@
-"""Values of variables as people give them: numbers, angles in degrees by their names, changes by per cent."""
+"""Changes of a study: variables as people give them (numbers, degrees by their names, per cent), limits scaled."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
+from ninedof.design.limits import Limit
+from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import LENGTH, Study, variable_kinds
 from ninedof.support.angles import DEG, in_radians
 from ninedof.support.arguments import finite, shown
@@ -75,3 +78,19 @@ def _value(name: str, value: Any, own: Mapping[str, float]) -> float:
         unit = " of degrees" if name.endswith(DEG) else ": it has no value to change"
         raise ValueError(f"{name}: got {value!r}, expected a number{unit}")
     return own[name] * (1.0 + share / 100.0)
+
+
+def with_scaled_limits(study: Study, factor: Callable[[str, str], float]) -> Study:
+    """Return a study with each end of its limits times factor(label, side); an angle is at most pi.
+
+    The limits of the condition number have the names of the objective's fields as labels.
+    """
+    constraints = dict[str, list[Limit]]()
+    for limit in study.limits:
+        most = math.pi if limit.row.is_angle else math.inf
+        high = min(limit.high * factor(limit.label, "max"), max(most, limit.high))
+        scaled = replace(limit, low=limit.low * factor(limit.label, "min"), high=high)
+        constraints.setdefault(limit.name, []).append(scaled)
+    bounds = {name: getattr(study.objective, name) for name in CONDITION_LIMITS}
+    kept = {name: bound * factor(name, "max") for name, bound in bounds.items() if bound is not None}
+    return replace(study, constraints=constraints, objective=replace(study.objective, **kept))

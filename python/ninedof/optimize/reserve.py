@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ninedof.design.changes import with_scaled_limits
 from ninedof.design.duty import Tolerances
-from ninedof.design.limits import Limit
 from ninedof.design.region_poses import places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine import NEUTRAL_LIMIT, open_limits
@@ -23,7 +23,6 @@ MORE, EDGE = 1.02, 1e-8  # of what a proof lacks, and of the limit: on its edge 
 STEP = 0.005  # of a limit of the condition number, in each round
 LEAST = 0.5  # of a limit, and of its inverse: tolerances that take more leave no machine
 FOR_PROOF = 60.0  # seconds of each limit, which takes fewer: the same result whatever the machine
-CONDITION_LIMITS = {"condition_limit": "condition_limit", NEUTRAL_LIMIT: "neutral_condition_limit"}
 UNPROVED = "not proved of every machine within the tolerances"
 
 
@@ -46,20 +45,9 @@ class Reserve(Table):
 
     def study(self, study: Study) -> Study:
         """Return the study that was solved: with limits that leave the reserve, and without tolerances."""
-        constraints: dict[str, list[Limit]] = {}
-        for limit in study.limits:
-            low, high = (self.shares.get(f"{limit.label} {side}", 1.0) for side in ("min", "max"))
-            kept = replace(limit, low=limit.low * low, high=limit.high * high)
-            constraints.setdefault(limit.name, []).append(kept)
-        kept_of = {name: self.shares.get(f"{label} max", 1.0) for label, name in CONDITION_LIMITS.items()}
-        bounds = {name: getattr(study.objective, name) for name in kept_of}
-        objective = {name: bound * kept_of[name] for name, bound in bounds.items() if bound is not None}
-        return replace(
-            study,
-            constraints=constraints,
-            objective=replace(study.objective, **objective),
-            tolerances=Tolerances(),
-        )
+        labels = {"neutral_condition_limit": NEUTRAL_LIMIT}
+        kept = with_scaled_limits(study, lambda label, side: self.shares.get(f"{labels.get(label, label)} {side}", 1.0))
+        return replace(kept, tolerances=Tolerances())
 
     @property
     def words(self) -> list[str]:
@@ -119,14 +107,15 @@ def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
         if row.limit
     }
     for limit in open_limits(study, design, study.tolerances, FOR_PROOF, threads):
+        key = f"{limit.name} {limit.side}"
         met, worst = limit.value if limit.side == "max" else limit.value[::-1]
-        if limit.name in CONDITION_LIMITS:  # its enclosure is wide
+        if limit.name in ("condition_limit", NEUTRAL_LIMIT):  # its enclosure is wide
             share = min(limit.limit / met, 1.0) * (1.0 - STEP)
         else:
-            lack, key = 1.0 - limit.limit / worst if 0.0 < worst < math.inf else 1.0, f"{limit.name} {limit.side}"
+            lack = 1.0 - limit.limit / worst if 0.0 < worst < math.inf else 1.0
             sign, most = (1.0, min) if limit.side == "max" else (-1.0, max)
             share = (1.0 - lack * MORE - sign * EDGE) * most(own.get(key, 1.0), 1.0)
-        out[f"{limit.name} {limit.side}"] = share
+        out[key] = share
     return out
 
 

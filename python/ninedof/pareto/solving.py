@@ -85,10 +85,9 @@ class FrontSolver:
         designs, so that a looser limit does not have a worse result.
         """
         self.planned = self._solved + 2 * len(limits)
-        there, back = [(k, False) for k in reversed(range(len(limits)))], [(k, True) for k in range(len(limits))]
-        for k, few in there + back:
+        for k in (*reversed(range(len(limits))), *range(len(limits))):
             beside = [self.results.get(limits[j]) for j in (k - 1, k + 1, k) if 0 <= j < len(limits)]
-            self.solve(limits[k], beside, few or limits[k] in self._thorough)
+            self.solve(limits[k], beside, few=limits[k] in self._thorough)
 
     def between(self, low: float, high: float) -> float:
         """Solve for the geometric mean of two limits, starting from both designs; return it."""

@@ -46,8 +46,8 @@ def range_words(front: Front) -> str:
     if not with_design or front.limit_name == CONDITION_LIMIT:
         return ""
     first, last = (limit_text(front, x) for x in (with_design[0], front.limits[-1]))
-    words, scale = [], math.degrees(1.0) if front.unit == "deg" else 1.0
-    if front.of_tolerances or with_design[0] > scale * floor_of(front.study, front.limit_name) * (1.0 + 1e-9):
+    words = []
+    if front.of_tolerances or with_design[0] > _scale(front) * floor_of(front.study, front.limit_name) * (1.0 + 1e-9):
         beyond = "Larger tolerances" if front.of_tolerances else f"Limits below {first}"
         end = f"no design was found, or only some of {MOST_OBJECTIVE:g} times the least objective and more"
         words.append(f"{beyond} may have designs too: the rows end, roughly, where {end}.")
@@ -59,8 +59,12 @@ def range_words(front: Front) -> str:
 def _is_unbounded(front: Front) -> bool:
     """Return whether the loosest limit is a multiple of the study's own, and not that of a design."""
     own = own_value(front.study, front.limit_name)
-    scale = math.degrees(1.0) if front.unit == "deg" else 1.0
-    return own is not None and math.isclose(front.limits[-1], WIDE * scale * own)
+    return own is not None and math.isclose(front.limits[-1], WIDE * _scale(front) * own)
+
+
+def _scale(front: Front) -> float:
+    """Return by what the limits of a front are larger than those of its studies."""
+    return math.degrees(1.0) if front.unit == "deg" else 1.0
 
 
 def of_tolerances(solver: FrontSolver) -> tuple[float, float]:

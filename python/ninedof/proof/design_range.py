@@ -6,13 +6,13 @@ import math
 from collections.abc import Collection, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.changes import angles_in_radians, given_values
+from ninedof.design.changes import angles_in_radians, given_values, with_scaled_limits
 from ninedof.design.region_poses import configurations_at, places_o
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
@@ -72,17 +72,9 @@ class DesignRange:
 
     def eased(self, share: float) -> DesignRange:
         """Return the same question with every limit wider by a share of it."""
-        wide, constraints = 1.0 + share, dict[str, Any]()
-        for limit in self.study.limits:
-            most = math.pi if limit.row.is_angle else math.inf
-            wider = replace(limit, low=limit.low * (1.0 - share), high=min(limit.high * wide, max(most, limit.high)))
-            constraints.setdefault(limit.name, []).append(wider)
-        objective = self.study.objective
-        names = ("condition_limit", "neutral_condition_limit")
-        given = {name: value for name in names if (value := getattr(objective, name)) is not None}
-        eased = replace(objective, **{name: value * wide for name, value in given.items()})
-        condition = None if self.condition_number is None else self.condition_number * wide
-        study = replace(self.study, constraints=constraints, objective=eased)
+        sides = {"min": 1.0 - share, "max": 1.0 + share}
+        condition = None if self.condition_number is None else self.condition_number * sides["max"]
+        study = with_scaled_limits(self.study, lambda _, side: sides[side])
         return replace(self, study=study, condition_number=condition)
 
     def values(self, names: Collection[str]) -> str:
