@@ -101,8 +101,8 @@ using FormPose = PoseOf<PoseForm>;
 using FormEnds = Ends<PoseForm>;
 
 /// The middle of a vector of forms.
-template <std::size_t N>
-Vec3 centre(const Xyz<Form<N>>& v) {
+template <class T>
+Vec3 centre(const Xyz<T>& v) {
   return {v.x.c, v.y.c, v.z.c};
 }
 

@@ -92,6 +92,46 @@ TEST_SUITE("condition_search") {
     check_at_poses(machine, wanted);
   }
 
+  TEST_CASE("the bound of all machines within tolerances is above that of each, and near it") {
+    PosedRobot machine = small_machine();
+    machine.region.front().size = {1e-4, 1e-4, 1e-4};
+    machine.region.front().tilt = 0.0;
+    const double drawn = search_condition(machine, {.gap = 1e-2}).low;
+    Random random(6);
+    for (const double off : {1e-4, 1e-3, 1e-2}) {
+      machine.tolerances.joints.fill(off);
+      const double first = search_condition(machine, {.gap = 0.5}).low / drawn - 1.0;  // to first order
+      const double bound = drawn * (1.0 + 15.0 * first);
+      const ConditionState state = search_condition(machine, {.gap = 15.0 * first});
+      CAPTURE(off);
+      CHECK(first > 0.1 * off);
+      CHECK(state.high <= bound * (1.0 + 2.0 * first));
+      double worst = 0.0;
+      for (int n = 0; n < cases(300); ++n) {
+        std::array<Triple, 4> joints{machine.geometry.base_external(), machine.geometry.base_internal(),
+                                     machine.geometry.platform_external(), machine.geometry.platform_internal()};
+        for (Triple& triple : joints)
+          for (Vec3& joint : triple) joint += off * random.matrix<Vec3>().normalized();
+        const Geometry built(joints[0], joints[1], joints[2], joints[3]);
+        worst = std::max(worst, condition_number(built, machine.neutral, machine.characteristic_length));
+      }
+      CHECK(worst > drawn);
+      CHECK(worst <= state.high);
+    }
+  }
+
+  TEST_CASE("a bound that no division of poses proves is given up at once") {
+    PosedRobot machine = small_machine();
+    machine.tolerances.joints.fill(1e-3);
+    const double bound = narrow().high * 1.0008;
+    const ConditionState state = search_condition(machine, {.seconds = 600.0, .gap = 0.5, .wanted = {bound}});
+    CHECK(state.left_count > 0);
+    CHECK(state.low < bound);
+    CHECK(state.high > bound);
+    CHECK(state.boxes < 2000);
+    CHECK(within(search_condition(machine, {.gap = 0.1}), 0.1));  // others are proved
+  }
+
   TEST_CASE("a state that has the gap stays as it is, and a wider one is narrowed") {
     const PosedRobot machine = small_machine();
     const ConditionState narrowed = search_condition(machine, settings(), wide());

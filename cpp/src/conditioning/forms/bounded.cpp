@@ -83,15 +83,35 @@ double column(const Mat6& v, std::size_t i, std::size_t j) {
   return v(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
 }
 
+/// The test of the drawn machine from which that of all machines follows. With N z the rows of the legs and D z what they
+/// change by,
+///     (1 - b) |N z|^2 - (1 / b - 1) |D z|^2 <= |(N + D) z|^2 <= (1 + a) |N z|^2 + (1 + 1 / a) |D z|^2,
+/// so that a smaller condition number is needed, and more room in the matrix of nine rows.
+struct AllMachines {
+  double condition, of_x = 0.0, of_w = 0.0;
+};
+AllMachines all_machines(const Looseness& loose, double condition, double most, double least) {
+  if (!(loose.fixed > 0.0)) return {condition};
+  constexpr double up = 1.0 + 0x1p-40, down = 1.0 - 0x1p-40;
+  constexpr double c = 0.2;  // (x + w)^2 <= (1 + c) x^2 + (1 + 1 / c) w^2
+  const double a = loose.fixed / std::sqrt(most), b = loose.fixed / std::sqrt(least);
+  if (!(b < 0.5)) return {0.0};
+  const double x = loose.fixed * loose.fixed, w = loose.moved * loose.moved, taken = 1.0 / b - 1.0;
+  return {condition * std::sqrt((1.0 - b) / (1.0 + a)) * down,
+          ((1.0 + 1.0 / a) + condition * condition * taken * (1.0 + c)) * x / (1.0 + a) * up,
+          taken * (1.0 + 1.0 / c) * w / (1.0 - b) * up};
+}
+
 }  // namespace
 
-bool bounded(const SplitGramOf<CurvedForm>& g, double condition) {
+bool bounded(const SplitGramOf<CurvedForm>& g, double condition, const Looseness& loose) {
   constexpr double part_of_spare = 0.6;
   if (!g.known) return false;
-  const double k = condition * (1.0 - 0x1p-51), squared = k * k * (1.0 - 0x1p-51);
   const RightSvd<6> eigen = jacobi_right_svd(forms::middle_of(g.above));
-  const double most = eigen.sigma[0], least = eigen.sigma[5], gap = squared * least - most;
-  if (!(gap > 0.0)) return false;
+  const double most = eigen.sigma[0], least = eigen.sigma[5];
+  const AllMachines all = all_machines(loose, condition * (1.0 - 0x1p-51), most, least);
+  const double k = all.condition, squared = k * k * (1.0 - 0x1p-51);
+  if (!(squared * least - most > 0.0)) return false;
 
   // All in the basis of the eigenvectors in the middle, without rounding.
   Symmetric6Of<CurvedForm> turned;
@@ -129,7 +149,7 @@ bool bounded(const SplitGramOf<CurvedForm>& g, double condition) {
   };
   std::array<double, 6> spare_above{};
   std::array<double, 9> spare_below{};
-  double lost_above = turned[entry(0, 0)].r, lost_below = squared * turned[entry(5, 5)].r;
+  double lost_above = turned[entry(0, 0)].r, lost_below = squared * turned[entry(5, 5)].r + all.of_x;
   for (std::size_t i = 0; i < 6; ++i) {
     const double value = eigen.sigma[static_cast<Eigen::Index>(i)];
     spare_above[i] = part_of_spare * (most - value);
@@ -171,7 +191,9 @@ bool bounded(const SplitGramOf<CurvedForm>& g, double condition) {
     for (std::size_t i = 0; i < 6; ++i) below.set(entry(6 + b, i), across[b][i], rounding);
     for (std::size_t c = 0; c <= b; ++c) below.set(entry(6 + b, 6 + c), g.sum[entry(b, c)], rounding);
   }
-  return above.positive(above.room(0, spare_above), moving) && below.positive(below.room(5, spare_below), moving);
+  std::array<double, 9> room_below = below.room(5, spare_below);
+  for (std::size_t i = 0; i < 9; ++i) room_below[i] += i < 6 ? all.of_x : all.of_w;
+  return above.positive(above.room(0, spare_above), moving) && below.positive(room_below, moving);
 }
 
 }  // namespace ninedof::forms

@@ -57,6 +57,7 @@ struct SplitGramOf {
   Symmetric6Of<T> external;  ///< A^T A, which is not above M^T M
   std::array<std::array<T, 6>, 3> across;
   Symmetric3Of<T> sum;  ///< H + F
+  double upper_reach = 0.0, lower_reach = 0.0;  ///< at least what H and F are taken of, for |x| = 1 and w = 0
   bool known = false;
 };
 using SplitGram = SplitGramOf<PoseForm>;
@@ -64,8 +65,15 @@ template <class T, class Robot>
 SplitGramOf<T> split_gram(const Robot& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves,
                           int locked = -1);
 
+/// What joints in balls change in the rows of the nine legs: by a vector of at most fixed |x| + moved |w|.
+struct Looseness {
+  double fixed = 0.0, moved = 0.0;
+};
+Looseness looseness(const AsBuilt& g, double characteristic_length, const PoseOf<CurvedForm>& pose,
+                    const SplitGramOf<CurvedForm>& drawn);
+
 /// Whether the condition number is proved to be at most K in all of the box.
-bool bounded(const SplitGramOf<CurvedForm>& g, double condition);
+bool bounded(const SplitGramOf<CurvedForm>& g, double condition, const Looseness& loose = {});
 
 /// Where in a box the condition number is at most K, and where it is not: by `cuts` coordinates from `first_cut` on, the
 /// first three of a box of poses, which then are all that move, or those of the designs.

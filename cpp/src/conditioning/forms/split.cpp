@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "conditioning/forms/gram.hpp"
 
@@ -38,6 +39,15 @@ double wandering(const Xyz<T>& v) {
   double sum = 0.0;
   for (const T* x : {&v.x, &v.y, &v.z}) sum += radius(*x) * radius(*x);
   return std::sqrt(sum) * (1.0 + 0x1p-48);
+}
+
+/// At least the length of a 3 x 6 matrix times a unit vector.
+template <class T>
+double reach_of(const Columns<T>& columns) {
+  double squares = 0.0;
+  for (const Xyz<T>& v : columns)
+    for (const T* x : {&v.x, &v.y, &v.z}) squares += (std::abs(x->c) + radius(*x)) * (std::abs(x->c) + radius(*x));
+  return std::sqrt(squares) * (1.0 + 0x1p-45);
 }
 
 /// e + P d / l - ((e . d) P d + |P d|^2 e / 2) / l^2 of v = l e + d, with P = 1 - e e^T, and a rest below
@@ -173,8 +183,38 @@ SplitGramOf<T> split_gram(const Robot& g, double characteristic_length, const Po
   for (std::size_t j = 0; j < 6; ++j)
     for (std::size_t i = 0; i <= j; ++i)
       out.above[entry(j, i)] = out.external[entry(j, i)] + dot(upper[i], upper_pull[j]) + dot(lower[i], lower_pull[j]);
+  out.upper_reach = reach_of(upper);
+  out.lower_reach = reach_of(lower);
   if (freedom.locked) keep_across(freedom.along, out.sum);
   return out;
+}
+
+Looseness looseness(const AsBuilt& g, double characteristic_length, const PoseOf<CurvedForm>& pose,
+                    const SplitGramOf<CurvedForm>& drawn) {
+  const AsBuilt nominal{g.nominal};
+  double fixed = 0.0, moved = 0.0;
+  for (int leg = 0; leg < 9; ++leg) {
+    const LegEnds joints = leg_ends(leg);
+    double off = 0.0;
+    for (const int joint : {joints.from, joints.to})
+      if (joint != point_s) off += g.radius[static_cast<std::size_t>(joint)];
+    const Ends<CurvedForm> ends = ends_of(nominal, pose, leg);
+    const Xyz<CurvedForm> v = ends.to - ends.from;
+    const double nearest = centre(v).norm() * (1.0 - 0x1p-48) - wandering(v);
+    // A direction turns by at most an angle whose sine is off / length.
+    const double turn = nearest > off ? off / (nearest - off) : std::numeric_limits<double>::infinity();
+    if (leg < 3) {
+      const double arm = joint_of(g.nominal, point_u + leg).norm() / characteristic_length;
+      const double row =
+          turn * std::sqrt(1.0 + arm * arm) + g.radius[static_cast<std::size_t>(point_u + leg)] / characteristic_length;
+      fixed += row * row;
+    } else {
+      const double row = turn * (leg < 6 ? drawn.upper_reach : drawn.lower_reach);
+      fixed += row * row;
+      moved += turn * turn;
+    }
+  }
+  return {std::sqrt(fixed) * (1.0 + 0x1p-40), std::sqrt(moved) * (1.0 + 0x1p-40)};
 }
 
 template Xyz<PoseForm> direction_of(const Xyz<PoseForm>&);

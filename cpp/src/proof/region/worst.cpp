@@ -155,6 +155,12 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
     return control.stop.stop_requested() ||
            std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
   };
+  const bool loose = std::ranges::any_of(domain.built().radius, [](double r) { return r > 0.0; });
+  // No division of poses makes a bound of all machines at one pose less.
+  const auto hopeless = [&](const Box& point, double bound) {
+    Moves unused;
+    return loose && !index.bounded(point, bound, unused);
+  };
   WorstOverPoses out;
   double proved = infinity;
   long count = 0;
@@ -171,7 +177,8 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
     double target = given ? settings.condition : met.value * (1.0 + gap);
     std::vector<Box> ahead = std::move(boxes), leaves, stuck;
     boxes.clear();
-    while (!ahead.empty() && !stopped() && ahead.size() < most_boxes) {
+    bool provable = !hopeless(met.at, target);
+    while (provable && !ahead.empty() && !stopped() && ahead.size() < most_boxes) {
       std::vector<Looked> looked(ahead.size());
       parallel_for(static_cast<long>(ahead.size()), 16, settings.threads, [&](long first, long last) {
         if (stopped()) return;
@@ -198,6 +205,7 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
         given = given && met.value < target;
         if (!given) target = std::max(target, met.value * (1.0 + gap));
       }
+      provable = best.value == 0.0 || !hopeless(best.at, target);
       ahead = std::move(next);
       if (control.progress) control.progress(count, 0, met.value);
     }
