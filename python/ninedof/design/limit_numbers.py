@@ -8,6 +8,7 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.limits import ROWS, Limit
+from ninedof.design.region_poses import Ranges
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -85,7 +86,7 @@ def apart(g: Geometry, study: Study | None = None) -> list[int]:
     return [k for k, meet in enumerate(exempt_pairs(g, study)) if not meet]
 
 
-def leg_limits_of(study: Study, neutral: Configuration) -> tuple[Floats, Floats]:
+def leg_limits_of(study: Study, neutral: Configuration, ranges: Ranges = ()) -> tuple[Floats, Floats]:
     """Return the least and greatest length of each leg in a study, shapes (9,); 0 and infinity where it has none.
 
     Parameters
@@ -93,13 +94,14 @@ def leg_limits_of(study: Study, neutral: Configuration) -> tuple[Floats, Floats]
     study : Study
     neutral : Configuration
         A single one, for limits in units of zp.
+    ranges : sequence of (float, float), optional
+        Those in which something else keeps each leg.
 
     """
-    low, high = np.zeros(9), np.full(9, math.inf)
-    zp = study.zp(neutral)
+    low, high = np.array(ranges or [(0.0, math.inf)] * 9).T.copy()
     for limit in study.limits:
         if limit.name in LEGS and limit.at == "poses":
-            unit, legs = zp if limit.of == "zp" else 1.0, LEGS[limit.name]
+            unit, legs = study.zp(neutral) if limit.of == "zp" else 1.0, LEGS[limit.name]
             low[legs] = np.maximum(low[legs], unit * limit.low)
             high[legs] = np.minimum(high[legs], unit * limit.high)
     return low, high

@@ -56,9 +56,15 @@ class Placing:
         )
 
 
-def places_o(region: Region) -> bool:
-    """Return whether the region alone says where O is."""
-    return region.internal_point != "best"
+def o_is_placed(study: Study) -> bool:
+    """Return whether O is placed anew at every pose of the region of a study."""
+    return study.objective.region is not None and study.objective.region.internal_point == "best"
+
+
+def posed(study: Study, poses: tuple[Pose, ...]) -> Study:
+    """Return a study with further listed poses in the place of its region."""
+    objective = study.objective
+    return replace(study, objective=replace(objective, poses=(*objective.poses, *poses), region=None))
 
 
 def configurations_at(region: Region, neutral: Configuration, at: Floats) -> tuple[Floats, Configuration]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ninedof.design.duty import Tolerances
-from ninedof.design.region_poses import Placing, places_o
+from ninedof.design.region_poses import Placing, o_is_placed
 from ninedof.proof.machine import certify, open_limits
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.point_rule import PointRule, rule_of
@@ -55,8 +55,8 @@ def machine_of(result: Any) -> tuple[Geometry, Configuration, float]:
 
 def placing_of(result: Any) -> Placing | None:
     """Return how O is placed in the region, where the study places it anew at every pose."""
-    region, best = result.study.objective.region, result.best
-    if region is None or places_o(region) or best is None:
+    best = result.best
+    if best is None or not o_is_placed(result.study):
         return None
     ranges = () if result.region is None else result.region.leg_ranges
     return Placing(result.study, best.configuration, best.variables, best.objective, ranges)

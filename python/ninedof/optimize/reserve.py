@@ -9,7 +9,7 @@ from typing import Any
 
 from ninedof.design.changes import with_scaled_limits
 from ninedof.design.duty import Tolerances
-from ninedof.design.region_poses import places_o
+from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.proof.machine import NEUTRAL_LIMIT, open_limits
 from ninedof.sheet.limit_rows import limit_rows
@@ -74,8 +74,7 @@ def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) 
 
     """
     study, shares, first, lacking = result.study, dict[str, float](), result, dict[str, float]()
-    region = study.objective.region
-    if region is not None and not places_o(region):
+    if o_is_placed(study):
         return replace(result, reserve=Reserve(note="no reserve for tolerances: O is placed anew at every pose"))
     for left in reversed(range(ROUNDS + 1)):
         if result.best is None or result.interrupted:

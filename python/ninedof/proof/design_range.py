@@ -13,7 +13,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.changes import angles_in_radians, given_values, with_scaled_limits
-from ninedof.design.region_poses import configurations_at, places_o
+from ninedof.design.region_poses import configurations_at, o_is_placed
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import plain_name
@@ -179,8 +179,7 @@ def _asked(of: Study | HasDesign, at: Mapping[str, float | str] | None) -> tuple
     if of is not study:
         values |= {name: x for name, x in design_values(of).items() if name in study.variables}  # type: ignore[arg-type]
     values |= given_values(study, values, {} if at is None else table("at", at), "at")
-    region = study.objective.region
-    if region is not None and not places_o(region):
+    if o_is_placed(study):
         raise ValueError('internal_point: got "best", expected a region that says where O is: "shifted" or "held"')
     return study, values
 

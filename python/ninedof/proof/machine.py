@@ -14,7 +14,7 @@ from ninedof.design.duty import Tolerances
 from ninedof.design.limits import label
 from ninedof.design.objective import Objective
 from ninedof.design.region import Region
-from ninedof.design.region_poses import places_o
+from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate, ProofPose
 from ninedof.proof.point_rule import PointRule
@@ -131,7 +131,7 @@ def certify(
     if resume is not None and resume.machine != digest:
         raise ValueError("resume: got a certificate of another machine, expected one of this machine")
     begin = perf_counter()
-    rule = _rule(region, configurations[0], values["rule"], resume)
+    rule = _rule(study, configurations[0], values["rule"], resume)
     end = perf_counter() + seconds  # finding a rule does not count for the time limit
 
     def settings(bounds: list[float]) -> _core.ConditionSettings:
@@ -292,13 +292,13 @@ def _state_of(earlier: MachineCertificate | None) -> _core.ConditionState:
 
 
 def _rule(
-    region: Region | None,
+    study: Study,
     neutral: Configuration,
     option: PointRule | Callable[[], PointRule] | None,
     resume: MachineCertificate | None,
 ) -> PointRule | None:
     """Return the rule that O follows, if it follows one."""
-    if region is None or places_o(region):
+    if not o_is_placed(study):
         if option is not None:
             raise ValueError(
                 'rule: got one, expected none: O follows a rule where internal_point is "best" in a region'

@@ -5,6 +5,7 @@ from __future__ import annotations
 from time import perf_counter
 from typing import Any
 
+from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.proof.design_range import DesignRange, design_range
 from ninedof.proof.existence import EXISTS, NONE, existence
@@ -86,7 +87,7 @@ def _missing(study: Study) -> str:
         return "objective: got another one, expected the worst condition number for a proof"
     if not isinstance(study.characteristic_length, float | int):
         return "characteristic_length: got one that depends on the design, expected a number for a proof over poses"
-    if objective.region is not None and objective.region.internal_point == "best":
+    if o_is_placed(study):
         return 'internal_point: got "best", expected "shifted" or "held" for a proof'
     if not 1 <= len(free) <= MOST_FREE:
         return f"variables: got {len(free)} that are free, expected one to {MOST_FREE} for a proof over poses"

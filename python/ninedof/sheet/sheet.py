@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Unpack
 
 import numpy as np
@@ -13,8 +13,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_limits
-from ninedof.design.pose import Pose
-from ninedof.design.study import Study
+from ninedof.design.region_poses import posed
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
 from ninedof.sheet.duty import duty_of, masses_besides_platform, weight_of, with_duty
@@ -343,7 +342,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         stiffness=Stiffness(*(extreme(x, np.argmin) for x in numbers["stiffness"].T))
         if "stiffness" in numbers
         else None,
-        limits=limit_rows(_with_poses(duty, looked.worst), design.variables) if hasattr(design, "solved") else (),
+        limits=limit_rows(posed(duty, looked.worst), design.variables) if hasattr(design, "solved") else (),
         region=region,
         unit=duty.unit if values["unit"] is None else unit_argument(values["unit"]),
         cone_axes={name: () if one is None else one.axis for name, one in cone_limits(duty).items()},
@@ -352,10 +351,6 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         stated=stated,
         tool=duty.tool,
     )
-
-
-def _with_poses(study: Study, poses: Sequence[Pose]) -> Study:
-    return replace(study, objective=replace(study.objective, poses=(*study.objective.poses, *poses)))
 
 
 def _tolerances(legs: ArrayLike | None, joints: ArrayLike | None) -> _core.Tolerances | None:

@@ -15,7 +15,6 @@ from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.family_variables import variables_of
 from ninedof.design.limit_numbers import compared, leg_limits_of
 from ninedof.design.region import Region
-from ninedof.design.region_poses import places_o
 from ninedof.design.study import FAMILIES, Study, variable_kinds
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
@@ -169,7 +168,7 @@ class Machine:
         if region is None or study is None or not compared(study):
             return lengths
         ends = np.array(leg_ranges_over(region, g, home))
-        if not places_o(region):
+        if region.internal_point == "best":
             ends[:, 3:] = lengths[0, 3:]  # nothing beyond the poses
         return np.concatenate([lengths, ends])
 
@@ -182,14 +181,10 @@ class Machine:
         return float(characteristic_length(g, home, length)) if isinstance(length, str) else float(length)
 
     def _leg_limits(self, home: Configuration) -> tuple[Floats, Floats]:
-        low, high = np.zeros(9), np.full(9, math.inf)
-        if self.study is not None:
-            low, high = leg_limits_of(self.study, home)
-        region = None if self.result is None else self.result.region
-        if region is not None and region.leg_ranges:
-            least, most = np.transpose(region.leg_ranges)
-            low, high = np.maximum(low, least), np.minimum(high, most)
-        return low, high
+        if self.result is None:
+            return np.zeros(9), np.full(9, math.inf)
+        region = self.result.region
+        return leg_limits_of(self.result.study, home, () if region is None else region.leg_ranges)
 
 
 def machine_of(design: Any = None) -> Machine:

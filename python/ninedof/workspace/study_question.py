@@ -13,7 +13,7 @@ from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, LEGS, PARTS, SPREADS
 from ninedof.design.region import Region
-from ninedof.design.region_poses import places_o
+from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
@@ -164,7 +164,7 @@ def built_ranges(result: Result, actuators: str = ACTUATORS[0]) -> tuple[Floats,
     """
     best, region = result.best, result.study.objective.region
     assert best is not None
-    if region is not None and not places_o(region):
+    if o_is_placed(result.study):
         ranges = () if result.region is None else result.region.leg_ranges
         if actuators == "needed":
             ranges = tuple((leg.shortest, leg.longest) for leg in result.sheet().legs)

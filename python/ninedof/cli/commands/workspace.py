@@ -12,7 +12,6 @@ from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.cli.workspace_figures import draw
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
-from ninedof.design.region_poses import places_o
 from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
 from ninedof.robot.configuration import arrays_of
@@ -80,7 +79,7 @@ def workspace(options: WorkspaceOptions) -> None:
         keep = Answer(proved.sentences(), {"workspace": result.to_dict()})
         write_job(screen, keep, lambda _: write_run(result, directory, None, record))
     data: dict[str, Any] = {"workspace": result.to_dict()}
-    if region is not None and places_o(region) and not result.interrupted:
+    if region is not None and region.internal_point != "best" and not result.interrupted:
         keywords = question.keywords
         share = region_share(region, chosen.geometry, home, keywords["criteria"], keywords["characteristic_length"])
         screen.print(share_words(region, share, chosen.unit))
