@@ -10,7 +10,7 @@ from ninedof import _core
 from ninedof.design.duty import Loads, Masses, Speeds, duty
 from ninedof.design.limits import Limit
 from ninedof.design.objective import Objective
-from ninedof.design.pose import ZERO
+from ninedof.design.poses import ZERO
 from ninedof.statics.masses import masses_for_core
 from ninedof.support.arguments import choice
 from ninedof.support.schema import Table, entry

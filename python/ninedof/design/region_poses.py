@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ninedof import _core
-from ninedof.design.pose import Pose
+from ninedof.design.poses import Pose
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.motion.rotations import from_vectors

@@ -21,8 +21,8 @@ from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.reserve import with_reserve
 from ninedof.optimize.result import Result, Status
+from ninedof.optimize.tables import axis_hint
 from ninedof.optimize.warm import Warm, warm_starts, warm_variables
-from ninedof.optimize.words import axis_hint
 from ninedof.proof.optimum import gap_of, left_out_of, prove_optimum
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown

@@ -11,9 +11,8 @@ from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.limit_numbers import SPREADS, compared
 from ninedof.design.limits import kind_of
-from ninedof.design.pose import Pose
-from ninedof.design.region import Region
-from ninedof.design.region_outline import circle, section_outline
+from ninedof.design.poses import Pose
+from ninedof.design.region import Region, circle, section_outline
 from ninedof.design.region_poses import configurations_at, o_is_placed
 from ninedof.design.study import Study
 from ninedof.motion.rotations import from_vectors

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ninedof import _core
-from ninedof.design.pose import Pose
+from ninedof.design.poses import Pose
 from ninedof.sheet.plain_values import plain_fields
 from ninedof.support.arguments import items
 from ninedof.support.schema import read

@@ -22,8 +22,7 @@ from ninedof.optimize.candidate import DERIVED, Candidate, candidate_at, candida
 from ninedof.optimize.machine_proofs import certified, largest, machine_of, placing_of
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.reserve import Reserve
-from ninedof.optimize.tables import candidates_table, internal_point_words, summary_lines
-from ninedof.optimize.words import agreement_sentence
+from ninedof.optimize.tables import agreement_sentence, candidates_table, internal_point_words, summary_lines
 from ninedof.proof.machine import machine_digest
 from ninedof.proof.machine_file import machine_file
 from ninedof.proof.machine_record import MachineCertificate

@@ -1,4 +1,4 @@
-"""A range of designs: which variables of a study vary, between which ends, and what the others are."""
+"""A range of designs: which variables of a study vary, between which ends; whether any of them keeps every limit."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -20,9 +20,11 @@ from ninedof.support.angles import plain_name
 from ninedof.support.arguments import finite, items, pair, shown, table, text
 from ninedof.support.arrays import Floats
 from ninedof.support.files import sha256
+from ninedof.support.progress import Progress
 from ninedof.support.structs import Fixed
 from ninedof.support.units import amount
 
+EXISTS, NONE, UNDECIDED = "exists", "none", "undecided"
 MOST_VARIED = 4
 LONGEST = 1e9  # seconds
 METHOD = 3  # of the proofs: sets that another one proved are not gone on with
@@ -203,3 +205,40 @@ def _range(study: Study, name: str, ends: tuple[float, float] | None) -> tuple[f
     if not low < high:
         raise ValueError(f"vary.{name}: got ({low:g}, {high:g}), expected low < high")
     return low, high
+
+
+class Existence(NamedTuple):
+    """An answer, proved but for "undecided"."""
+
+    state: str
+    design: dict[str, float] | None
+    """One that exists: the variables that vary."""
+    designs: int
+    """Boxes of designs that were looked at."""
+    left: int
+    """Boxes that are not decided."""
+    interrupted: bool
+    certificate: bytes
+    """Of "none", where it is asked for: a file that ninedof_check replays."""
+
+
+def existence(
+    of: DesignRange,
+    *,
+    seconds: float = LONGEST,
+    resolution: float = 0.0,
+    threads: int = 0,
+    certificate: bool = False,
+    progress: Progress | None = None,
+) -> Existence:
+    """Say whether any design of the range keeps every limit at every pose."""
+    state, x, designs, left, interrupted, written = _core.any_admissible(
+        of.for_core(),
+        threads=threads,
+        seconds=min(seconds, LONGEST),
+        resolution=resolution,
+        certificate=certificate,
+        progress=progress,
+    )
+    design = dict(zip(of.vary, x, strict=True)) if state == EXISTS else None
+    return Existence(state, design, designs, left, interrupted, written)

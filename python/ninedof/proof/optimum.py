@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ninedof import _core
 from ninedof.design.study import Study
-from ninedof.proof.existence import existence
+from ninedof.proof.design_range import existence
 from ninedof.proof.optimum_over_poses import GAP, ends_soon, prove_over_poses, range_to_prove
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.arguments import finite, instance, path_argument

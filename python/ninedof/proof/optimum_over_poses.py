@@ -7,8 +7,7 @@ from typing import Any
 
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
-from ninedof.proof.design_range import DesignRange, design_range
-from ninedof.proof.existence import EXISTS, NONE, existence
+from ninedof.proof.design_range import EXISTS, NONE, DesignRange, design_range, existence
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.progress import Progress, phase
 

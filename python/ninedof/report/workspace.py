@@ -7,17 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.region_outline import box_lines
+from ninedof.design.region import box_lines
 from ninedof.report import origin, proof, scene
-from ninedof.report.body import body_of
 from ninedof.report.page import Page
+from ninedof.report.scene import body_of
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.units import amount
 from ninedof.tables.html import Html, bullets, html_of, joined, paragraphs
 from ninedof.workspace import WorkspaceMap
-from ninedof.workspace.question_words import criterion_words, rule_words
-from ninedof.workspace.tables import workspace_table
+from ninedof.workspace.tables import criterion_words, rule_words, workspace_table
 
 
 def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:

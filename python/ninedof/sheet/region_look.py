@@ -8,7 +8,7 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length, length_argument
-from ninedof.design.pose import Pose
+from ninedof.design.poses import Pose
 from ninedof.design.region_poses import Placing, configurations_at, o_is_placed, poses_at
 from ninedof.robot.configuration import Configuration, flat
 from ninedof.robot.geometry import Geometry

@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from ninedof import _core
-from ninedof.design.region import Region
-from ninedof.design.region_outline import extent
+from ninedof.design.region import Region, extent
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats

@@ -19,9 +19,8 @@ from ninedof.robot.geometry import triples
 from ninedof.support.store import Store
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap, certified_workspace
 from ninedof.workspace import workspace as find_workspace
-from ninedof.workspace.question_words import asked_lines
 from ninedof.workspace.region_share import region_share
-from ninedof.workspace.tables import share_words, workspace_table, workspace_words
+from ninedof.workspace.tables import asked_lines, share_words, workspace_table, workspace_words
 
 PLACE = 6
 S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)
