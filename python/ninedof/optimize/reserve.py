@@ -12,7 +12,7 @@ from ninedof.design.duty import Tolerances
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.proof.machine import NEUTRAL_LIMIT, open_limits
-from ninedof.sheet.limit_rows import limit_rows
+from ninedof.sheet.rows import limit_rows
 from ninedof.support.arguments import finite, flag, table, text
 from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr

@@ -13,7 +13,7 @@ from ninedof.design.limits import AT, ROWS, Limit, label, names_with_max, split_
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
-from ninedof.sheet.limit_rows import limit_rows
+from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.sheet import sheet
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import did_you_mean, shown

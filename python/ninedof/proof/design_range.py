@@ -140,11 +140,8 @@ def design_range(
     """Return what `admissible` is asked for, checked; it says what the arguments mean. `most` variables may vary."""
     study, values = _asked(of, at)
     expected = f"names of one to {most} variables"
-    given = (
-        {_name(name): ends for name, ends in vary.items()}
-        if isinstance(vary, Mapping)
-        else dict.fromkeys(map(_name, items("vary", vary, expected)))
-    )
+    pairs = vary.items() if isinstance(vary, Mapping) else [(name, None) for name in items("vary", vary, expected)]
+    given = {text("vary", name): ends for name, ends in pairs}
     if not 1 <= len(given) <= most:
         raise ValueError(f"vary: got {shown(vary)}, expected {expected}")
     ends = angles_in_radians(study, {name: two for name, two in given.items() if two is not None}, _ends)
@@ -184,10 +181,6 @@ def _asked(of: Study | HasDesign, at: Mapping[str, float | str] | None) -> tuple
     if o_is_placed(study):
         raise ValueError('internal_point: got "best", expected a region that says where O is: "shifted" or "held"')
     return study, values
-
-
-def _name(name: object) -> str:
-    return text("vary", name)
 
 
 def _ends(name: str, ends: object) -> tuple[float, float]:

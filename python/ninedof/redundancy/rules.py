@@ -35,9 +35,10 @@ def where_o(rule: Any, unit: str = "") -> str:
     if isinstance(rule, int | float):
         return f"at {rule:.4g} of the way from the lower to the upper internal joints"
     if isinstance(rule, Mapping):
-        return f"{WORDS['carried']}, at {amount(_point(rule['platform']), unit)} of its frame"
-    return f"{WORDS['held']}, at {amount(_point(rule), unit)}"
+        return f"{WORDS['carried']}, at {amount(point_words(rule['platform']), unit)} of its frame"
+    return f"{WORDS['held']}, at {amount(point_words(rule), unit)}"
 
 
-def _point(values: Iterable[float]) -> str:
+def point_words(values: Iterable[float]) -> str:
+    """Return a point in brackets."""
     return "(" + ", ".join(f"{value + 0.0:.6g}" for value in values) + ")"

@@ -21,8 +21,7 @@ from ninedof.report import origin
 from ninedof.report.figures import OWN, figure, figures, image, stems
 from ninedof.report.optimization import of_front, of_result
 from ninedof.report.page import Page, page
-from ninedof.report.recorded import FROM_RECORD, of_recorded
-from ninedof.report.workspace import of_workspace
+from ninedof.report.recorded import FROM_RECORD, of_recorded, of_workspace
 from ninedof.tables.html import Html, html_of, joined
 from ninedof.workspace import WorkspaceMap
 

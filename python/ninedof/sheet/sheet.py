@@ -16,9 +16,6 @@ from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_limits
 from ninedof.design.region_poses import posed
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.sheet.legs import LegRow, leg_rows
-from ninedof.sheet.limit_rows import LimitRow, limit_rows
-from ninedof.sheet.near_singularity import NearSingularity, near_singularities
 from ninedof.sheet.plain_values import plain_fields, rows_of
 from ninedof.sheet.pose_words import turn_deg
 from ninedof.sheet.region_look import SAMPLES, Looked, RegionSearch, look_over, robot_of
@@ -34,6 +31,7 @@ from ninedof.sheet.request import (
     weight_of,
     with_duty,
 )
+from ninedof.sheet.rows import LegRow, LimitRow, NearSingularity, leg_rows, limit_rows, near_singularities
 from ninedof.sheet.tables import lengths_table, limits_table, summary_parts, worst_table
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import MOST_SAMPLES

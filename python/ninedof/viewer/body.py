@@ -20,9 +20,8 @@ from ninedof.support.units import amount
 from ninedof.viewer.machine import Variant
 from ninedof.viewer.numbers import limits_at
 from ninedof.viewer.shapes import Mesh
-from ninedof.workspace.region_share import EASE
 from ninedof.workspace.search import workspace
-from ninedof.workspace.study_question import study_limits
+from ninedof.workspace.study_question import EASE, study_limits
 
 COARSE = {"tolerance": 0.01, "resolution": 16, "points": 1000, "most_evaluations": 400_000}
 COARSE_SEARCHED = {"tolerance": 0.05, "resolution": 6, "points": 64, "most_evaluations": 20_000}

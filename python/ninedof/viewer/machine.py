@@ -15,7 +15,7 @@ from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.family_variables import variables_of
 from ninedof.design.limit_numbers import compared, leg_limits_of
 from ninedof.design.region import Region
-from ninedof.design.study import FAMILIES, Study, variable_kinds
+from ninedof.design.study import FAMILIES, LENGTH, Study, variable_kinds
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables
@@ -27,9 +27,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.robot.plates import points_of
 from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
-from ninedof.workspace.region_share import leg_ranges_over
-
-LENGTH = "characteristic_length"
+from ninedof.workspace.study_question import leg_ranges_over
 
 
 class Variable(NamedTuple):

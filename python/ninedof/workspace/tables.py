@@ -11,14 +11,13 @@ import numpy as np
 from ninedof.design.indices import INDICES
 from ninedof.design.limits import kind_unit
 from ninedof.design.region import Region
-from ninedof.redundancy.rules import where_o
+from ninedof.redundancy.rules import point_words, where_o
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.leg_names import LEGS as LEG_NAMES
-from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 from ninedof.tables import RIGHT, Column, Line, Table
 from ninedof.workspace.question import ROWS
-from ninedof.workspace.region_share import RegionShare
+from ninedof.workspace.study_question import RegionShare
 
 SHOWN = 8  # limits in the table
 STATUSES = {
@@ -95,7 +94,7 @@ def workspace_words(workspace: Any) -> Iterator[tuple[str, str]]:
         yield "", f"the workspace reaches the {where}: it is larger in a larger {what}"
 
 
-def share_words(region: Region, workspace: RegionShare, unit: str = "") -> str:
+def share_words(region: Region, workspace: RegionShare, unit: str) -> str:
     """Return a sentence on how much of a region keeps the limits."""
     words = f"region of the study, {region.worded(unit)}: {100.0 * workspace.share:.4g} % of it within these limits"
     broken = f"; passed: {', '.join(name.replace('_', ' ') for name in workspace.passed)}" if workspace.passed else ""
@@ -114,11 +113,11 @@ ASKED = {
 
 
 def asked_lines(
-    keywords: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str], unit: str = ""
+    keywords: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str], unit: str
 ) -> Iterator[str]:
     """Yield what is asked, a line for each part."""
     yield f"workspace: {ASKED[keywords['archetype']]}"
-    p, o = (amount(_point(point), unit) for point in (home.position, home.internal_point))
+    p, o = (amount(point_words(point), unit) for point in (home.position, home.internal_point))
     yield f"home: p = {p}, O = {o}"
     yield f"O: {rule_words(keywords, unit)}"
     for name, value in keywords["criteria"].items():
@@ -129,9 +128,9 @@ def asked_lines(
         yield f"of the study, no limit of a single pose: {', '.join(left)}"
     if "box" in keywords:
         low, high = keywords["box"]
-        yield f"box: p from {_point(low)} to {amount(_point(high), unit)}"
+        yield f"box: p from {point_words(low)} to {amount(point_words(high), unit)}"
     if "position" in keywords:
-        yield f"position: p = {amount(_point(keywords['position']), unit)}"
+        yield f"position: p = {amount(point_words(keywords['position']), unit)}"
     if "region" in keywords:
         yield "region: " + ", ".join(
             f"{name} to {math.degrees(a):.6g} degrees" for name, a in keywords["region"].items()
@@ -169,11 +168,7 @@ def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> It
         if side not in entries:
             continue
         if row.is_angle:
-            about = f"the axis {_point(entries['axis'])}" if "axis" in entries else "each leg's direction at home"
+            about = f"the axis {point_words(entries['axis'])}" if "axis" in entries else "each leg's direction at home"
             yield f"{name.replace('_', ' ')} {math.degrees(entries[side]):.6g} degrees about {about}"
         else:
             yield amount(f"{name.replace('_', ' ')} {words[side]} {entries[side]:.6g}", kind_unit(row.kind, unit))
-
-
-def _point(values: Sequence[float] | Floats) -> str:
-    return "(" + ", ".join(f"{value:.6g}" for value in np.asarray(values, dtype=np.float64) + 0.0) + ")"

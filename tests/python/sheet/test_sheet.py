@@ -21,8 +21,8 @@ from ninedof.cli.chosen_design import named_design
 from ninedof.cli.posed import PoseOptions
 from ninedof.design.limit_numbers import PARTS, apart, limit_numbers
 from ninedof.report.optimization import sheet_html
-from ninedof.sheet.limit_rows import limit_rows
 from ninedof.sheet.pose_words import pose_words
+from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.sheet import Extreme
 from ninedof.sheet.tables import sheet_parts
 

@@ -19,7 +19,7 @@ from ninedof.robot.geometry import triples
 from ninedof.support.store import Store
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap, certified_workspace
 from ninedof.workspace import workspace as find_workspace
-from ninedof.workspace.region_share import region_share
+from ninedof.workspace.study_question import region_share
 from ninedof.workspace.tables import asked_lines, share_words, workspace_table, workspace_words
 
 PLACE = 6
