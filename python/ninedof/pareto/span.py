@@ -51,15 +51,11 @@ def range_words(front: Front) -> str:
         beyond = "Larger tolerances" if front.of_tolerances else f"Limits below {first}"
         end = f"no design was found, or only some of {MOST_OBJECTIVE:g} times the least objective and more"
         words.append(f"{beyond} may have designs too: the rows end, roughly, where {end}.")
-    if not (front.of_tolerances or front.study.tolerances or _is_unbounded(front)):
+    own = None if front.of_tolerances else own_value(front.study, front.limit_name)
+    is_multiple = own is not None and math.isclose(front.limits[-1], WIDE * _scale(front) * own)  # and of no design
+    if not (front.of_tolerances or front.study.tolerances or is_multiple):
         words.append(f"From {last} on nothing changes: the best design without this limit keeps it.")
     return " ".join(words)
-
-
-def _is_unbounded(front: Front) -> bool:
-    """Return whether the loosest limit is a multiple of the study's own, and not that of a design."""
-    own = own_value(front.study, front.limit_name)
-    return own is not None and math.isclose(front.limits[-1], WIDE * _scale(front) * own)
 
 
 def _scale(front: Front) -> float:

@@ -120,7 +120,7 @@ def _is_over_poses(study: Study) -> bool:
     if instance("study", study, Study).tool or study.objective.region is not None or study.objective.poses:
         range_to_prove(study)  # raises where no proof is known
         return True
-    if not ends_soon(study):
+    if _missing(study) or len(_free(study)) > FEW:  # the proof over poses is not known, or does not end soon
         _left_out_of_class(study)  # raises
         return False
     try:
@@ -188,11 +188,6 @@ GAP = 1e-3
 STEPS = (0.1, 0.02, 5e-3)  # gaps that are proved before: a bound that is there when time ends
 COARSE = (0.5, 0.3)  # before these where many variables are free
 MOST_FREE, FEW = 6, 4
-
-
-def ends_soon(study: Study) -> bool:
-    """Whether this proof is known for a study, and comes to its end in seconds or minutes: few free variables."""
-    return not _missing(study) and len(_free(study)) <= FEW
 
 
 def range_to_prove(study: Study, condition_number: float | None = None) -> DesignRange:

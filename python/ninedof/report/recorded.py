@@ -14,7 +14,6 @@ from ninedof.paper.verdicts import verdicts_table
 from ninedof.redundancy.rules import where_o
 from ninedof.report import origin, proof, scene
 from ninedof.report.page import Page
-from ninedof.report.scene import body_of
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.margins import is_violated
@@ -37,7 +36,10 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
         sections["question"] = _question(workspace, question)
     if {"geometry", "home"} <= set(question):
         machine = _machine(question)
-        view = _scene(workspace, *machine, float(question.get("characteristic_length", 1.0)))
+        box = [] if workspace.of_angles else box_lines(workspace.low, workspace.high)
+        length, poses = float(question.get("characteristic_length", 1.0)), [("home", machine[1])]
+        shown = scene.machine("robot", machine[0], length, poses, box, scene.body_of(workspace))
+        view = scene.scene([shown], workspace.unit)
         hint = "The body is the set of positions of the platform's origin; lines: the box looked at."
         sections["machine"] = paragraphs([hint if view["machines"][0]["body"] else ""])
     cubed = "rad³" if workspace.of_angles else workspace.unit + "³" * bool(workspace.unit)
@@ -54,11 +56,6 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
 def _machine(question: Any) -> tuple[Geometry, Configuration]:
     g = Geometry(**{key: np.array(value) for key, value in question["geometry"].items()})
     return g, Configuration(**{key: np.array(value) for key, value in question["home"].items()})
-
-
-def _scene(workspace: WorkspaceMap, g: Geometry, home: Configuration, length: float) -> dict[str, Any]:
-    box = [] if workspace.of_angles else box_lines(workspace.low, workspace.high)
-    return scene.scene([scene.machine("robot", g, length, [("home", home)], box, body_of(workspace))], workspace.unit)
 
 
 def _question(workspace: WorkspaceMap, question: Any) -> Html:
