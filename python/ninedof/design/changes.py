@@ -17,11 +17,7 @@ from ninedof.support.arguments import finite, shown
 def angles_in_radians(study: Study, given: Mapping[str, Any], check: Callable[[str, Any], Any]) -> dict[str, Any]:
     """Return checked values of variables, numbers or pairs, with angles in radians under their own names.
 
-    Raises
-    ------
-    ValueError
-        If a value does not fit, or an angle without "_deg" is more than a turn: it was meant in degrees.
-
+    An angle without "_deg" of more than a turn was meant in degrees: it is refused.
     """
     values = {name: check(name, value) for name, value in given.items()}
     for name in study.angles:
@@ -45,14 +41,7 @@ def given_values(study: Study, own: Mapping[str, float], given: Mapping[str, Any
 
 
 def changed_variables(study: Study, own: Mapping[str, float], changes: Mapping[str, Any]) -> dict[str, float]:
-    """Return variables with those of `changes` in their place, as `given_values` reads them.
-
-    Raises
-    ------
-    ValueError
-        If a name or a value does not fit, or O is not between the plates.
-
-    """
+    """Return variables with those of `changes` in their place, as `given_values` reads them."""
     if not changes:
         raise ValueError("changes: got none, expected a variable and its value, as a2=900.0 or a2='+10%'")
     values = dict(own) | given_values(study, own, changes, "changes")

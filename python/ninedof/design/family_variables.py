@@ -16,14 +16,7 @@ SAME = 1e-12  # of the largest coordinate
 def variables_of(family: str, geometry: Geometry, neutral: Configuration) -> dict[str, float] | None:
     """Return the variables of a family whose design is a given robot at its neutral pose; None if there are none.
 
-    Parameters
-    ----------
-    family : str
-        As in `Study`.
-    geometry : Geometry
-    neutral : Configuration
-        A single one; of a family's designs p and O are on the z axis, and the platform turns about it alone.
-
+    Of a family's designs p and O are on the z axis at the neutral pose, and the platform turns about it alone.
     """
     candidates = _heights(neutral) | _hexagon(geometry) | _polar(geometry) | _coordinates(geometry)
     values = {name: candidates[name] for name in variable_kinds(family)}

@@ -188,14 +188,7 @@ def _own(function: OwnIndex) -> Index:
 
 
 def identity(index: Index) -> str:
-    """Return the name of an index in a record. A caller's function is identified by its module and name, not its code.
-
-    Raises
-    ------
-    ValueError
-        If it is a function that cannot be found by name.
-
-    """
+    """Return the name of an index in a record; of a caller's function its module too, where it can be found by name."""
     if not index.own:
         return index.name
     function = index.function

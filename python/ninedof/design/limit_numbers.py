@@ -39,26 +39,6 @@ LEGS = {
 """Constraints of lengths, and their legs in the order of `leg_lengths`."""
 
 
-def limit_numbers(
-    limit: _core.Limit, g: Geometry, c: Configuration, home: Configuration, characteristic_length: float = 1.0
-) -> Floats:
-    """Return what a limit is about at each pose, shape (n, items): lengths, radians, distances, determinants, ratios.
-
-    Parameters
-    ----------
-    limit : Limit
-        Of the core, one of `PARTS`.
-    g : Geometry
-    c : Configuration, shape (n,)
-    home : Configuration
-        A single one: determinants are positive on its side, and cones without an axis are about its legs.
-    characteristic_length : float
-        For condition numbers.
-
-    """
-    return _core.limit_numbers(limit, g, home, c, characteristic_length)
-
-
 def cone_limits(study: Study | None) -> dict[str, Limit | None]:
     """Return the limit on the cone of each of the `JOINTS` in a study, None without one.
 
@@ -89,14 +69,7 @@ def apart(g: Geometry, study: Study | None = None) -> list[int]:
 def leg_limits_of(study: Study, neutral: Configuration, ranges: Ranges = ()) -> tuple[Floats, Floats]:
     """Return the least and greatest length of each leg in a study, shapes (9,); 0 and infinity where it has none.
 
-    Parameters
-    ----------
-    study : Study
-    neutral : Configuration
-        A single one, for limits in units of zp.
-    ranges : sequence of (float, float), optional
-        Those in which something else keeps each leg.
-
+    The neutral configuration is a single one; `ranges` are those in which something else keeps each leg.
     """
     low, high = np.array(ranges or [(0.0, math.inf)] * 9).T.copy()
     for limit in study.limits:

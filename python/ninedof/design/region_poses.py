@@ -68,23 +68,9 @@ def posed(study: Study, poses: tuple[Pose, ...]) -> Study:
 
 
 def configurations_at(region: Region, neutral: Configuration, at: Floats) -> tuple[Floats, Configuration]:
-    """Return the poses nearest to given coordinates.
+    """Return the coordinates nearest to given ones in a region that says where O is, shape (n, 6), and the poses there.
 
-    Parameters
-    ----------
-    region : Region
-        One that says where O is.
-    neutral : Configuration
-        The neutral one of the design.
-    at : numpy.ndarray, shape (n, 6)
-        Shift of p (on a path the first from -1 to 1), tilt about x and y, and yaw.
-
-    Returns
-    -------
-    at : numpy.ndarray, shape (n, 6)
-        The nearest coordinates in the region.
-    configurations : Configuration, shape (n,)
-
+    Coordinates are the shift of p (on a path the first from -1 to 1), the tilt about x and y, and the yaw.
     """
     rows = _core.region_poses(region.for_core(), np.ascontiguousarray(at))
     near, shift, turn, internal = np.split(rows, [6, 9, 12], axis=1)

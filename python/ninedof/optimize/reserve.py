@@ -61,17 +61,8 @@ class Reserve(Table):
 def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) -> Any:
     """Return the result whose limits are proved of every machine within the study's tolerances, if one is found.
 
-    What the proof of a design lacks is taken from its limits, and the study solved anew from there, until the proof
-    succeeds.
-
-    Parameters
-    ----------
-    result : Result
-        Of the study without a reserve.
-    solve : callable
-        Solves a study, from a result.
-    threads : int
-
+    What the proof of a design lacks is taken from its limits, and `solve` solves the study anew from there, until the
+    proof succeeds. The result given is of the study without a reserve.
     """
     study, shares, first, lacking = result.study, dict[str, float](), result, dict[str, float]()
     if o_is_placed(study):

@@ -21,15 +21,7 @@ SURE = 0.95  # probability with which a better optimum would have been met
 
 
 def price_words(study: Study, variables: Mapping[str, float], prices: Mapping[str, float]) -> list[str]:
-    """Return one sentence for each price of a candidate, the largest first: for 1 %, a steep one for a smaller step.
-
-    Parameters
-    ----------
-    study : Study
-    variables, prices : mapping
-        Of a candidate; a price is the per cent by which the objective falls when that limit is relaxed by 1 %.
-
-    """
+    """Return one sentence for each price of a candidate, the largest first: for 1 %, a steep one for a smaller step."""
     largest_first = sorted(prices.items(), key=lambda item: -item[1])
     return [_price_sentence(study, variables, name, price) for name, price in largest_first]
 

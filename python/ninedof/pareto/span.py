@@ -24,12 +24,6 @@ def of_a_limit(solver: FrontSolver) -> tuple[float, float] | None:
 
     The loosest limit is the value of the best design without the limit. The tightest is, to a few per cent, the least
     limit that allows a design with an objective of at most three times the best.
-
-    Raises
-    ------
-    ValueError
-        If the study is unbounded without the limit and has no value for it: the limits then have no scale.
-
     """
     without = solver.solve(None)
     if without.status == Status.INFEASIBLE:

@@ -13,20 +13,8 @@ STEP, HALVINGS = 4.0, 5
 def largest_tolerance(proved: Callable[[Tolerances], bool], shape: Tolerances, height: float) -> Tolerances:
     """Return the largest tolerances that are proved, to 5 %; none at all where not even the least ones are.
 
-    Parameters
-    ----------
-    proved : callable
-        Whether all limits are proved of every machine within such tolerances.
-    shape : Tolerances
-        The ratio of joints and legs; where it has none they are alike.
-    height : float
-        Of the machine: tolerances are looked for from a millionth to a twentieth of it.
-
-    Raises
-    ------
-    KeyboardInterrupt
-        With the largest ones proved so far.
-
+    They have the ratio of `shape`, and are looked for from a millionth to a twentieth of the machine's height. A
+    KeyboardInterrupt has the largest ones proved so far.
     """
 
     def of(size: float) -> Tolerances:

@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.limit_numbers import CLEARANCE, CONES, PARTS, SPREADS, apart, limit_numbers
+from ninedof.design.limit_numbers import CLEARANCE, CONES, PARTS, SPREADS, apart
 from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
 from ninedof.design.limits import ROWS, kind_of
 from ninedof.design.study import Study
@@ -55,25 +56,12 @@ def pose_limits(
     characteristic_length: float,
     beside: Floats | None = None,
 ) -> list[PoseLimit]:
-    """Return every limit that a study has at its poses.
+    """Return every limit that a study has at its poses, of a design with a single neutral configuration.
 
-    Limits on the spread of lengths compare poses: at each they are taken over the stack up to it. The ways to the poses
-    that `singularity_free` tests are left out: its determinants are those of the poses. Legs whose joints coincide in
-    every design of the study are exempt from `leg_clearance`.
-
-    Parameters
-    ----------
-    study : Study
-    g : Geometry
-    c : Configuration, shape (n,)
-    neutral : Configuration
-        A single one, for the axes of cones, signs of determinants and units of zp.
-    characteristic_length : float
-        For `condition_limit` and `fault_tolerant`.
-    beside : array_like, shape (m, 9), optional
-        Leg lengths at other poses: with them the spread at a pose is over these and that pose alone, whatever the order
-        of the stack.
-
+    Limits on the spread of lengths compare poses: at each they are taken over the stack up to it or, with the lengths
+    at other poses, shape (m, 9), `beside` it, over these and that pose alone. The ways to the poses that
+    `singularity_free` tests are left out: its determinants are those of the poses. Legs whose joints coincide in every
+    design of the study are exempt from `leg_clearance`.
     """
     rows = list[PoseLimit]()
     for limit in study.limits:
@@ -81,14 +69,12 @@ def pose_limits(
         if limit.at != "poses":
             continue
         unit = study.zp(neutral) if limit.of == "zp" else 1.0
-        if name == CLEARANCE:
-            numbers = limit_numbers(study.limit_for_core(limit), g, c, neutral)
-            values = [("", numbers[:, apart(g, study)].min(axis=1, initial=math.inf))]
-        elif name in PARTS:
-            numbers = limit_numbers(study.limit_for_core(limit), g, c, neutral, characteristic_length)
+        values = _spreads(name, leg_lengths(g, c), beside) if name in SPREADS else []
+        if name in PARTS:
+            numbers = _core.limit_numbers(study.limit_for_core(limit), g, neutral, c, characteristic_length)
             values = list(zip(PARTS[name], numbers.T, strict=True))
-        else:
-            values = _spreads(name, leg_lengths(g, c), beside) if name in SPREADS else []
+            if name == CLEARANCE:
+                values = [("", numbers[:, apart(g, study)].min(axis=1, initial=math.inf))]
         for part, value in values:
             for side, end in limit.sides.items():
                 margin = margin_of(kind, side, unit * end, value)

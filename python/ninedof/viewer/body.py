@@ -109,12 +109,7 @@ def body_of(variant: Variant, question: dict[str, Any], unit: str, progress: Any
 class BodySearch:
     """The search for a workspace in a thread of its own; it is given up when another one begins.
 
-    Parameters
-    ----------
-    show : callable
-        Called with the number of a search and what it found, from its thread. The search may be given up before that
-        is shown: see `counts`.
-
+    From there `show` is called with the number of the search and what it found; `counts` says whether to show that.
     """
 
     def __init__(self, show: Callable[[int, Body], None]) -> None:

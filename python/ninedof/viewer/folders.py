@@ -267,16 +267,7 @@ def send(viewer: Any, kind: str, client: Any) -> str:
 
 
 def files_of(viewer: Any, kind: str) -> dict[str, bytes]:
-    """Return the files of a kind, by name; the picture alone needs a browser.
-
-    Raises
-    ------
-    ValueError
-        If what is shown cannot be written so.
-    MissingExtra
-        If that needs a package that is not installed.
-
-    """
+    """Return the files of a kind, by name; the picture alone needs a browser."""
     with viewer.lock:
         state = viewer.state
         design, rule, player, variant = state.design, state.rule, state.player, state.variant

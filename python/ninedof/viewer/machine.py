@@ -137,14 +137,7 @@ class Machine:
         return sliders
 
     def variant(self, variables: Mapping[str, float], length: float | None = None) -> Variant:
-        """Return the design of variables; a length of a kind is taken at its neutral pose unless one is given.
-
-        Raises
-        ------
-        ValueError
-            If there is no such design.
-
-        """
+        """Return the design of variables; a length of a kind is taken at its neutral pose unless one is given."""
         g, home, study = self.design.geometry, self.design.configuration, self.study
         lengths, margins = None, None
         if self.problem is not None:
@@ -186,14 +179,7 @@ class Machine:
 
 
 def machine_of(design: Any = None) -> Machine:
-    """Return the machine that an argument `design` names: the published design without one.
-
-    Raises
-    ------
-    ValueError
-        If it is no design: neither a Design, nor a Result with one, nor a path that `ninedof.load` reads as one.
-
-    """
+    """Return the machine that an argument `design` names: the published design without one."""
     name = "design: "
     if design is None:
         design = hexagonal_design(published_variables())

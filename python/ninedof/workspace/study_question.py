@@ -177,14 +177,7 @@ def with_leg_limits(limits: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def leg_ranges(ranges: Mapping[str, tuple[float, float]]) -> tuple[Any, Any] | None:
-    """Return the leg limits that all given ranges leave: two numbers where they are those of all nine legs.
-
-    Raises
-    ------
-    ValueError
-        If a range is empty by itself.
-
-    """
+    """Return the leg limits that all given ranges leave: two numbers where they are those of all nine legs."""
     low, high = np.zeros(9), np.full(9, np.inf)
     for name, (least, most) in ranges.items():
         if not 0.0 <= least < most:
