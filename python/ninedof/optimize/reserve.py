@@ -11,6 +11,7 @@ from ninedof.design.changes import with_scaled_limits
 from ninedof.design.duty import Tolerances
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
+from ninedof.optimize.machine_proofs import machine_of
 from ninedof.proof.machine import NEUTRAL_LIMIT, open_limits
 from ninedof.sheet.rows import limit_rows
 from ninedof.support.arguments import finite, flag, table, text
@@ -88,8 +89,7 @@ def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) 
 def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
     """Return the limits that are not proved of every machine within the tolerances, and the part to be kept of each."""
     best, out = result.best, dict[str, float]()
-    poses = best.configurations[: 1 + len(study.objective.poses)]
-    design = best.geometry, poses, best.characteristic_length, None
+    design = (*machine_of(result), None)
     # Where the design lies within a limit, the reserve begins at its own value: else it would change nothing.
     own = {
         f"{row.name} {row.side}": row.value / row.limit

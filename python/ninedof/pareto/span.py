@@ -6,11 +6,11 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
+from ninedof.optimize.machine_proofs import FIRST, MOST, STEP
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import Front, limit_text, objective_of
 from ninedof.pareto.limits import CONDITION_LIMIT, floor_of, own_value, value_of
 from ninedof.pareto.solving import FrontSolver
-from ninedof.proof.tolerance import FIRST, MOST, STEP
 
 MOST_OBJECTIVE = 3.0  # times the best objective: designs above it are ignored
 WIDE = 4.0  # times the study's own limit: the loosest where the study is unbounded without it
