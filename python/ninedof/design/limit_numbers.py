@@ -1,13 +1,16 @@
-"""The quantities of limits at the poses of a stack, and the limits of a study on leg lengths, for each leg."""
+"""The items of limits at a pose, legs and pairs of legs; the limits of a study on leg lengths, and all of them scaled."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from ninedof import _core
 from ninedof.design.limits import ROWS, Limit
+from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.region_poses import Ranges
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
@@ -78,3 +81,19 @@ def leg_limits_of(study: Study, neutral: Configuration, ranges: Ranges = ()) -> 
             low[legs] = np.maximum(low[legs], unit * limit.low)
             high[legs] = np.minimum(high[legs], unit * limit.high)
     return low, high
+
+
+def with_scaled_limits(study: Study, factor: Callable[[str, str], float]) -> Study:
+    """Return a study with each end of its limits times factor(label, side); an angle is at most pi.
+
+    The limits of the condition number have the names of the objective's fields as labels.
+    """
+    constraints = dict[str, list[Limit]]()
+    for limit in study.limits:
+        most = math.pi if limit.row.is_angle else math.inf
+        high = min(limit.high * factor(limit.label, "max"), max(most, limit.high))
+        scaled = replace(limit, low=limit.low * factor(limit.label, "min"), high=high)
+        constraints.setdefault(limit.name, []).append(scaled)
+    bounds = {name: getattr(study.objective, name) for name in CONDITION_LIMITS}
+    kept = {name: bound * factor(name, "max") for name, bound in bounds.items() if bound is not None}
+    return replace(study, constraints=constraints, objective=replace(study.objective, **kept))

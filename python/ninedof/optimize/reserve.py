@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninedof.design.changes import with_scaled_limits
 from ninedof.design.duty import Tolerances
+from ninedof.design.limit_numbers import with_scaled_limits
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.optimize.machine_proofs import machine_of

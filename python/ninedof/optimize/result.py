@@ -11,12 +11,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ninedof.design.changes import changed_variables
 from ninedof.design.design_point import design_point
 from ninedof.design.duty import Tolerances
 from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
+from ninedof.design.variables import changed_variables
 from ninedof.optimize.actuator_choice import ActuatorChoice
 from ninedof.optimize.candidate import DERIVED, Candidate, candidate_at, candidate_from
 from ninedof.optimize.machine_proofs import certified, largest, machine_of, placing_of

@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof.conditioning.characteristic_length import characteristic_length
-from ninedof.design.family_variables import variables_of
 from ninedof.design.limit_numbers import compared, leg_limits_of
 from ninedof.design.region import Region
 from ninedof.design.study import FAMILIES, LENGTH, Study, variable_kinds
+from ninedof.design.variables import variables_of
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables
