@@ -1,4 +1,4 @@
-"""The items of limits at a pose, legs and pairs of legs; the limits of a study on leg lengths, and all of them scaled."""
+"""The items of limits at a pose, legs and pairs of legs; the limits of a study on leg lengths; all of them scaled."""
 
 from __future__ import annotations
 

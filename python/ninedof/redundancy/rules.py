@@ -7,8 +7,6 @@ from typing import Any
 
 from ninedof.support.units import amount
 
-RULES = ("carried", "shifted", "held", "best")
-
 WORDS = {
     "carried": "carried as a point of the platform",
     "shifted": "shifted with the platform's origin",
@@ -16,6 +14,7 @@ WORDS = {
     "best": "placed at its best",
 }
 """The words after "O is"."""
+RULES = tuple(WORDS)
 
 MEANING = {
     "carried": "Qᵀ (s - p) stays as at the neutral pose",

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.design.duty import Masses, Tool
+from ninedof.design.leg_duty import INTERNAL
 from ninedof.design.limit_numbers import CONES, JOINTS, PARTS, cone_limits, exempt_pairs
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
@@ -100,7 +101,6 @@ def masses_besides_platform(study: Study) -> Masses | None:
 
 FASTEST = 1e100  # speeds: their squares must be numbers
 SLOW = {"linear_speed": 1.0, "angular_speed": 0.0}  # where nothing states them
-INTERNAL = ("least", "held", "shifted", "carried")
 
 
 class SheetArguments(TypedDict, total=False):
