@@ -113,14 +113,18 @@ def settings() -> AbstractContextManager[None]:
     return rc_context(_SETTINGS)
 
 
+def new_figure(width: float, height: float, layout: Any = None) -> Figure:
+    """Return an empty figure of a size in inches, with its own Agg canvas."""
+    figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
+    FigureCanvasAgg(figure)
+    return figure
+
+
 @contextmanager
 def page(figure: Figure | None, width: float, height: float, layout: Any = None) -> Iterator[Figure]:
     """Yield what to draw into, in the settings of all figures: the figure given, or a new one of a size in inches."""
     with settings():
-        if figure is None:
-            figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
-            FigureCanvasAgg(figure)  # of its own
-        yield figure
+        yield new_figure(width, height, layout) if figure is None else figure
 
 
 @contextmanager
