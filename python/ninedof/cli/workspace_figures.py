@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ninedof.cli.screen import Screen
-from ninedof.design.region import Region
-from ninedof.design.region_outline import region_lines, section_outline
+from ninedof.design.region import Region, region_lines, section_outline
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap

@@ -54,7 +54,7 @@ TWO_COLUMNS = 178.0 / 25.4
 TITLE_SIZE = 8.5  # points
 TEXT_SIZE = 8.0
 SMALL_SIZE = 7.0
-THICK, CURVE, THIN = 2.0, 1.4, 0.7  # points, of lines
+CURVE = 1.4  # points, of a line
 
 DPI = 200
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ninedof.design.study import Study
-from ninedof.proof.admissible_roots import PIECES
-from ninedof.proof.admissible_set import STATES, AdmissibleSet
+from ninedof.proof.admissible_set import PIECES, STATES, AdmissibleSet
 from ninedof.proof.design_range import DesignRange
 from ninedof.support.files import Arrays, from_json_array, json_array, read_npz, write_npz
 from ninedof.support.structs import Fixed

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +17,7 @@ from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import Arrays, Saved, from_json_array, json_array
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount
+from ninedof.workspace.question import SETS
 
 AXES = ("x", "y", "z")
 ENDS = {
@@ -28,7 +29,6 @@ ENDS = {
 }
 
 OF_ALL = "the gap asked for is reached by all allowed poses together"
-SETS = ("reachable", "inclusive", "dexterous")
 
 States = NDArray[np.int8]
 
@@ -218,33 +218,37 @@ class CertifiedWorkspace(Saved):
 
     def to_dict(self) -> dict[str, Any]:
         """Return what is proved as plain values, without the boxes."""
-        out = {one.name: getattr(self, one.name) for one in fields(self) if one.name not in ARRAYS}
+        out = {name: value for name, value in vars(self).items() if not isinstance(value, np.ndarray)}
         for name in ("low", "high", "box_low", "box_high"):
             out[name] = getattr(self, name).tolist()
         counts = {"inner_boxes": len(self.inner_low), "open_boxes": len(self.open_low)}
         return out | counts | {"bounds": self.bounds, "gap": self.gap}
 
     def _contents(self) -> dict[str, Any]:
-        words: dict[str, Any] = {"format": self.FORMAT}
-        arrays: dict[str, Any] = {}
-        for one in fields(self):
-            (arrays if one.name in ARRAYS else words)[one.name] = getattr(self, one.name)
-        return {"words": json_array(words), **arrays}
+        return packed(self.FORMAT, vars(self))
 
     @classmethod
     def _made(cls, contents: Arrays) -> CertifiedWorkspace:
-        data: dict[str, Any] = dict(contents)
-        words = from_json_array(data.pop("words"))
-        if words.pop("format") != cls.FORMAT:
-            raise ValueError
+        words, arrays = unpacked(cls.FORMAT, contents)
         for name in ("volume", "home_volume", "estimate"):
             words[name] = None if words[name] is None else tuple(words[name])
-        return cls(**words, **data)
+        return cls(**words, **arrays)
 
 
-ARRAYS = tuple(
-    one.name for one in fields(CertifiedWorkspace) if "Floats" in str(one.type) or "NDArray" in str(one.type)
-)
+def packed(form: str, entries: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the contents of a file: arrays as they are, the other entries with the format as words."""
+    arrays = {name: value for name, value in entries.items() if isinstance(value, np.ndarray)}
+    words = {name: value for name, value in entries.items() if name not in arrays}
+    return {"words": json_array({"format": form, **words}), **arrays}
+
+
+def unpacked(form: str, contents: Arrays) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the words and the arrays that `packed` took; raise for another format."""
+    arrays: dict[str, Any] = dict(contents)
+    words = from_json_array(arrays.pop("words"))
+    if words.pop("format") != form:
+        raise ValueError
+    return words, arrays
 
 
 def _between(bounds: tuple[float, float], unit: str) -> str:

@@ -14,12 +14,11 @@ from ninedof import _core
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, flag, whole
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Arrays, Saved, from_json_array, json_array
+from ninedof.support.files import Arrays, Saved
 from ninedof.support.structs import from_core
 from ninedof.tables.html import notebook
-from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of
-from ninedof.workspace.certified_record import CertifiedWorkspace
-from ninedof.workspace.statistics import IndexStatistics
+from ninedof.workspace.cells import LIMITS, IndexStatistics, WorkspaceCells, WorkspaceSlice, group_of
+from ninedof.workspace.certified_record import CertifiedWorkspace, packed, unpacked
 from ninedof.workspace.tables import workspace_table
 
 MOST_VOXELS = 1_300_000
@@ -251,21 +250,13 @@ class WorkspaceMap(Saved):
         return out | {"internal_point_audit": asdict(self.internal_point_audit), "indices": indices}
 
     def _contents(self) -> dict[str, Any]:
-        entries = self._entries()
-        arrays = {name: value for name, value in entries.items() if isinstance(value, np.ndarray)}
-        words = {name: value for name, value in entries.items() if name not in arrays}
         cells = {f"cells_{name}": value for name, value in self.cells._asdict().items()}
-        return {
-            "words": json_array({"format": self.FORMAT, "limit_names": list(LIMITS), **words}),
-            **cells,
-            **arrays,
-        }
+        return packed(self.FORMAT, {"limit_names": LIMITS, **self._entries()}) | cells
 
     @classmethod
     def _made(cls, contents: Arrays) -> WorkspaceMap:
-        data: dict[str, Any] = dict(contents)
-        words = from_json_array(data.pop("words"))
-        if words.pop("format") != cls.FORMAT or tuple(words.pop("limit_names")) != LIMITS:
+        words, data = unpacked(cls.FORMAT, contents)
+        if tuple(words.pop("limit_names")) != LIMITS:
             raise ValueError
         cells = WorkspaceCells(*(data.pop(f"cells_{name}") for name in WorkspaceCells._fields))
         words["status"] = WorkspaceStatus(words["status"])

@@ -32,7 +32,7 @@ from ninedof.records.folder import run_folder
 from ninedof.records.motion import plain, write_motion
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.sheet.duty import masses_of
+from ninedof.sheet.request import masses_of
 from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
 
