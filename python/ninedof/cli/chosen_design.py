@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import ninedof as nd
-from ninedof.cli.options import HEXAGON, SIDES, HexagonalOptions
+from ninedof.cli.options import HEXAGON, SIDES, HexagonalOptions, word_or_number
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.optimize.result import with_fixed_design
 from ninedof.paper.published import published_variables
@@ -107,9 +107,4 @@ def with_length(chosen: C, lc: str | None) -> C:
 
 def length_option(text: str) -> float | str:
     """Return the characteristic length given by --lc."""
-    try:
-        return float(text)
-    except ValueError:
-        if text not in KINDS:
-            raise ValueError(f"--lc: got {text!r}, expected a number or one of {', '.join(KINDS)}") from None
-        return text
+    return word_or_number("--lc", text, KINDS, f"a number or one of {', '.join(KINDS)}")

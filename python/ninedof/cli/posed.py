@@ -12,7 +12,7 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.options import ONE_DESIGN, Options, Three, argument, option, struct, triple
+from ninedof.cli.options import ONE_DESIGN, Options, Three, argument, option, struct, triple, typed, word_or_number
 from ninedof.cli.screen import DONE, bold
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
@@ -37,7 +37,7 @@ class PoseOptions(Options):
 
     def named(self) -> list[str]:
         """Return the options that say where to look."""
-        return [f"--{name.replace('_', '-')}" for name in self.given("position", "rotation_deg", "internal_point")]
+        return list(map(typed, self.given("position", "rotation_deg", "internal_point")))
 
     def at(self) -> DesignAtPoses:
         """Return the design at the poses of the options."""
@@ -173,12 +173,7 @@ def several(option: str, text: str, expected: str) -> list[float]:
 
 def rule_option(text: str) -> str | float:
     """Return the rule for O given by --internal-point, or a fraction."""
-    if text in RULES:
-        return text
-    try:
-        return float(text)
-    except ValueError:
-        raise ValueError(f"--internal-point: got {text!r}, expected {', '.join(RULES)} or a fraction") from None
+    return word_or_number("--internal-point", text, RULES, f"{', '.join(RULES)} or a fraction")
 
 
 def loads_option(texts: Iterable[str] | None) -> list[list[float]]:

@@ -32,7 +32,6 @@ from ninedof.support.arguments import (
     items,
     known_keys,
     number,
-    pair,
     shown,
     table,
     text,
@@ -83,7 +82,7 @@ def _constraints(name: str, value: Any) -> Mapping[str, Any]:
 def _length(name: str, value: Any) -> float | str | tuple[float, float]:
     if isinstance(value, str) or is_number(value):
         return length_argument(value)
-    low, high = (finite(name, x) for x in pair(name, value, "a number, a kind, or (low, high)"))
+    low, high = (finite(name, x) for x in items(name, value, "a number, a kind, or (low, high)", 2))
     if not 0.0 < low <= high:
         raise ValueError(f"{name}: got {shown(value)}, expected 0 < low <= high")
     return low if low == high else (low, high)

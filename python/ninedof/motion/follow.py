@@ -22,7 +22,7 @@ from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.statics.masses import GRAVITY
-from ninedof.support.arguments import choice, finite, instance, pair
+from ninedof.support.arguments import choice, finite, instance, items
 from ninedof.support.arrays import Floats, as_floats, as_number, broadcast_leading
 from ninedof.support.files import Arrays, Saved, from_json_array, json_array
 from ninedof.support.margins import TOLERANCE
@@ -317,7 +317,7 @@ def follow(
     single(g, home, "home")
     rule = choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
     lc = float(length_of(geometry, home, lc)) if isinstance(lc, str) else as_number("characteristic_length", lc)
-    path, bounds, ends, forces = trajectory, leg_limits(limits), pair("load", load, "force and moment"), None
+    path, bounds, ends, forces = trajectory, leg_limits(limits), items("load", load, "force and moment", 2), None
     without_loads = np.empty((0, 6)), None, np.zeros(3)
     motion = _core.follow(g, home, path.time, path.position, path.rotation, rule, bounds, lc, *without_loads)
     poses, margins, _ = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))

@@ -17,7 +17,7 @@ from ninedof.design.region_poses import configurations_at, places_o
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import plain_name
-from ninedof.support.arguments import finite, items, pair, shown, table, text
+from ninedof.support.arguments import finite, items, shown, table, text
 from ninedof.support.arrays import Floats
 from ninedof.support.files import sha256
 from ninedof.support.structs import Fixed
@@ -190,7 +190,7 @@ def _name(name: object) -> str:
 
 
 def _ends(name: str, ends: object) -> tuple[float, float]:
-    low, high = (finite(f"vary.{name}", end) for end in pair(f"vary.{name}", ends, "(low, high)"))
+    low, high = (finite(f"vary.{name}", end) for end in items(f"vary.{name}", ends, "(low, high)", 2))
     return low, high
 
 

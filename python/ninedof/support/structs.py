@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any, NoReturn, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from ninedof.support.arguments import LARGEST, flag, items, known_keys, number, shown, shown_key, table, text, whole
+from ninedof.support.arguments import LARGEST, flag, items, known_keys, number, shown_key, table, text, whole
 
 K = TypeVar("K")
 T = TypeVar("T")
@@ -110,14 +110,10 @@ def value_of(name: str, value: Any, kind: Any) -> Any:
 
 
 def _tuple(name: str, value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
-    entries = items(name, value, "a list")
     if inner[-1] is Ellipsis:
-        return tuple(value_of(f"{name}[{k}]", entry, inner[0]) for k, entry in enumerate(entries))
-    if len(entries) != len(inner):
-        raise ValueError(f"{name}: got {shown(value)}, expected a list of {len(inner)}")
-    return tuple(
-        value_of(f"{name}[{k}]", entry, one) for k, (entry, one) in enumerate(zip(entries, inner, strict=True))
-    )
+        return tuple(value_of(f"{name}[{k}]", entry, inner[0]) for k, entry in enumerate(items(name, value, "a list")))
+    entries = zip(items(name, value, f"a list of {len(inner)}", len(inner)), inner, strict=True)
+    return tuple(value_of(f"{name}[{k}]", entry, one) for k, (entry, one) in enumerate(entries))
 
 
 def _whole(name: str, value: Any) -> int:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ninedof.conditioning.hexagonal import HEXAGONAL
-from ninedof.support.arguments import finite, known_keys, pair, shown, whole
+from ninedof.support.arguments import finite, items, known_keys, shown, whole
 from ninedof.support.chunks import MOST_CHUNK, chunk_argument, computed
 from ninedof.support.extras import versions
 from ninedof.support.files import Arrays
@@ -151,7 +151,7 @@ def _bounds(bounds: Mapping[str, tuple[float, float]] | None) -> tuple[tuple[flo
 
 def _bound(name: str, value: Any) -> tuple[float, float]:
     where = f"bounds[{name!r}]"
-    low, high = (finite(where, end, 0.0) for end in pair(where, value, "(low, high)"))
+    low, high = (finite(where, end, 0.0) for end in items(where, value, "(low, high)", 2))
     if low > high or (name == "zs_fraction" and high > 1.0):
         raise ValueError(f"{where}: got {shown(value)}, expected 0 <= low <= high" + " <= 1" * (name == "zs_fraction"))
     return low, high

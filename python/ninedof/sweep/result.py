@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.design.indices import size_of
-from ninedof.support.arguments import choice, items, shown, whole
+from ninedof.support.arguments import choice, items, whole
 from ninedof.support.extras import optional
 from ninedof.support.files import Arrays, Saved, from_json_array, json_array
 from ninedof.support.json import encode
@@ -82,9 +82,7 @@ class SweepResult(Saved):
 
         """
         shape = self.arrays[choice("name", name, self.arrays)].shape
-        numbers = items("position", position, f"{len(shape)} whole numbers")
-        if len(numbers) != len(shape):
-            raise ValueError(f"position: got {shown(position)}, expected {len(shape)} whole numbers")
+        numbers = items("position", position, f"{len(shape)} whole numbers", len(shape))
         each = zip(self.dims[name], numbers, shape, strict=True)
         return {d: self.coords[d][whole("position", k, -size, size - 1)].item() for d, k, size in each}
 

@@ -13,7 +13,7 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.changes import changes_option
 from ninedof.cli.chosen_design import chosen_design, named_design
 from ninedof.cli.compared import compared, plot_argument
-from ninedof.cli.options import HEXAGON, ONE_DESIGN, PLOT, HexagonalOptions, argument, option, struct
+from ninedof.cli.options import HEXAGON, ONE_DESIGN, PLOT, HexagonalOptions, argument, option, struct, typed
 from ninedof.cli.posed import beyond_words
 from ninedof.design.indices import computed
 from ninedof.records.design_file import indices
@@ -77,7 +77,7 @@ def _changed(options: EvaluateOptions) -> Answer:
     """Return the run beside its design with other values of some variables."""
     plot_argument(options.plot)
     if given := options.given(*HEXAGON, "lc"):
-        raise ValueError(f"--set: got --{next(iter(given)).replace('_', '-')} beside it, expected a run alone")
+        raise ValueError(f"--set: got {typed(next(iter(given)))} beside it, expected a run alone")
     result = named_design(options.design).result if options.design else None
     if result is None:
         raise ValueError(f"--set: got {options.design or 'no design'}, expected a run, whose study has variables")

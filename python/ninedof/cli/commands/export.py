@@ -7,7 +7,7 @@ from pathlib import Path
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct
+from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct, typed
 from ninedof.export.export import formats
 from ninedof.export.model import Format
 from ninedof.support.arguments import choice
@@ -51,8 +51,8 @@ def export(options: ExportOptions) -> Answer:
         raise ValueError(f"--out: got {file}, the design itself, expected another file")
     more = options.given("leg_mass", "platform_mass", "gravity")
     for key in more.keys() - row.options:
-        what = ", ".join(map(_typed, row.options)) or "no option"
-        raise ValueError(f"{_typed(key)}: got {more[key]:g} with --to {row.name}, which takes {what}")
+        what = ", ".join(map(typed, row.options)) or "no option"
+        raise ValueError(f"{typed(key)}: got {more[key]:g} with --to {row.name}, which takes {what}")
     own_or_new("--out", file, row.mark)
     if row.beside is not None:
         own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
@@ -69,10 +69,6 @@ def _by_suffix(out: Path | None) -> Format:
     if out.suffix.lower() not in suffixes:
         raise ValueError(f"--out: got {out}, expected --to with a format, or a file that ends in {', '.join(suffixes)}")
     return suffixes[out.suffix.lower()]
-
-
-def _typed(name: str) -> str:
-    return f"--{name.replace('_', '-')}"
 
 
 def _stem(design: str) -> str:

@@ -18,6 +18,7 @@ from ninedof.cli.options import (
     argument,
     option,
     struct,
+    typed,
 )
 from ninedof.cli.posed import loads_option, several
 from ninedof.sheet.tables import sheet_parts
@@ -68,8 +69,7 @@ def sheet(options: SheetOptions) -> None:
         own_or_new("--csv", options.csv, MARK)
     chosen = named_design(options.design)
     vectors: dict[str, Any] = {
-        name: several(f"--{name.replace('_', '-')}", text, VECTORS[name])
-        for name, text in options.given(*VECTORS).items()
+        name: several(typed(name), text, VECTORS[name]) for name, text in options.given(*VECTORS).items()
     }
     turn = options.turn_deg
     result = nd.sheet(
