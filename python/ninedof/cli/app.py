@@ -36,7 +36,8 @@ def _register() -> None:
     names = [module.name for module in iter_modules(commands.__path__)]
     modules = {name: import_module(f"{commands.__name__}.{name}") for name in names}
     for name in sorted(names, key=lambda name: int(modules[name].PLACE)):
-        app.command(epilog=modules[name].EXAMPLES)(command(getattr(modules[name], name)))
+        examples = modules[name].EXAMPLES.replace("\n", "\n\n")  # a paragraph each
+        app.command(epilog=f"[bold]Examples[/bold]{examples}")(command(getattr(modules[name], name)))
 
 
 def _version(value: bool) -> None:

@@ -22,12 +22,9 @@ from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof best design.toml --position 0.8 0 3.98
-
   ninedof best runs/20260101-120000 --all-poses             the leg limits of the run's study
-
   ninedof best runs/20260101-120000#7 --criterion singularity --legs 200 650 --json | jq .value"""
 
 WORDS = {"condition_number": "condition number", "singularity": "least |det|", "leg_centring": "leg centring"}
@@ -36,15 +33,13 @@ SHOWN = 12  # poses, the worst ones
 
 
 @struct
-class BestOptions(PosesOptions):
-    """The options."""
-
+class _Options(PosesOptions):
     criterion: str = option(f"One of {', '.join(CRITERIA)}.", "condition_number")
     legs: Two | None = ends(LEG_LIMITS)
     lc: str | None = option(LC)
 
 
-def best(options: BestOptions) -> Answer:
+def best(options: _Options) -> Answer:
     """Print the best place of O at a pose, reached from where it is without passing a singularity."""
     at = with_length(options.at(), options.lc)
     c, length = at.c, length_at_home(at)

@@ -11,22 +11,18 @@ from ninedof.cli.compared import compared, plot_argument
 from ninedof.cli.options import DESIGN, PLOT, Options, argument, option, struct
 
 PLACE = 3
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof compare runs/20260101-120000 runs/20260102-120000
-
   ninedof compare front#1 front#7 design.toml --plot plates.png"""
 
 
 @struct
-class CompareOptions(Options):
-    """The options."""
-
+class _Options(Options):
     designs: list[str] = argument(f"Two or three of: {DESIGN}.")
     plot: Path | None = option(PLOT)
 
 
-def compare(options: CompareOptions) -> Answer:
+def compare(options: _Options) -> Answer:
     """Print two or three machines beside each other: numbers, limits, what differs in their studies."""
     plot_argument(options.plot)
     chosen = [named_design(name) for name in options.designs]

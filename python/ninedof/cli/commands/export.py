@@ -15,21 +15,16 @@ from ninedof.support.files import own_or_new
 from ninedof.support.units import unit_argument
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof export runs/20260101-120000 --to mjcf
-
   ninedof export runs/20260101-120000 --to urdf --out machine.urdf --platform-mass 12
-
   ninedof export design.toml --out joints.csv"""
 
 WORDS = "; ".join(f"{name}: {row.words}" for name, row in formats().items())
 
 
 @struct
-class ExportOptions(Options):
-    """The options."""
-
+class _Options(Options):
     design: str = argument(ONE_DESIGN)
     to: str | None = option(f"{WORDS}. Follows from the suffix of --out if that is given.")
     out: Path | None = option("The file; in this folder, with the name of the design, by default.")
@@ -39,7 +34,7 @@ class ExportOptions(Options):
     unit: str | None = option("The length unit (mm, cm, m, in, ft); that of the study or file by default.")
 
 
-def export(options: ExportOptions) -> Answer:
+def export(options: _Options) -> Answer:
     """Write a design as a file of another program: simulators, CAD, controllers, documents."""
     out = options.out
     row = _by_suffix(out) if options.to is None else formats()[choice("--to", options.to, formats())]

@@ -18,14 +18,10 @@ from ninedof.support.units import unit_entry, with_unit
 from ninedof.tables import Table, columns
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof modes design.toml                          all modes with the leg lengths of the neutral pose
-
   ninedof modes runs/20260101-120000 --position 10 0 350 --rotation-deg 0 5 0
-
   ninedof modes design.toml --certify                with a proof that there are no others
-
   ninedof modes design.toml --lengths "5 5 5 3 3 3 4 4 4" --json | jq .count"""
 
 YZ = (">\ny", ">\nz")  # heads behind one of x
@@ -33,14 +29,12 @@ SAME = 1e-6  # of Q, and of p and O over the longest leg
 
 
 @struct
-class ModesOptions(PoseOptions):
-    """The options."""
-
+class _Options(PoseOptions):
     lengths: str | None = option('Nine leg lengths "l1 l2 l3 q1 q2 q3 r1 r2 r3", in place of those of a pose.')
     certify: bool = option("Also prove how many there are, and enclose each of them.", False, "--certify")
 
 
-def modes(options: ModesOptions) -> Answer:
+def modes(options: _Options) -> Answer:
     """Print every configuration with the leg lengths of a pose: the assembly modes."""
     if options.lengths is not None and options.named():
         raise ValueError("--lengths: got a pose beside it, expected one of the two")

@@ -27,23 +27,16 @@ from ninedof.support.command import ended_by_time
 from ninedof.support.units import amount, unit_entry
 
 PLACE = 1
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof optimize                         the paper's problem, beside the published optimum
-
   ninedof optimize study.toml --out run1   a study of your own, run folder run1
-
   ninedof optimize study.toml --certify    with a proof of how much better any design can be
-
   ninedof optimize study.toml --time 60    the best design of a minute, and what is left to gain
-
   ninedof optimize --json --no-figures | jq .optimization.status"""
 
 
 @struct
-class OptimizeOptions(JobOptions):
-    """The options."""
-
+class _Options(JobOptions):
     study: Path | None = argument("A study file (TOML). The paper's study if none is given.", None)
     starts: int | None = option(STARTS)
     seed: int | None = option("Seed, in place of the study's.")
@@ -56,7 +49,7 @@ class OptimizeOptions(JobOptions):
     certify: bool = option("Also prove how much better a design of the study can be at most.", False, "--certify")
 
 
-def optimize(options: OptimizeOptions) -> Answer:
+def optimize(options: _Options) -> Answer:
     """Find the best design of a study: by default, the design with the least condition number."""
     screen = options.screen
     file = options.study

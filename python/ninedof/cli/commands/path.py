@@ -38,23 +38,16 @@ from ninedof.support.units import unit_entry
 
 PLACE = 7
 SHAPES, TIMES = ("circle", "line", "spiral"), ("duration", "points")
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof path design.toml path.csv --legs 2.5 6.5
-
   ninedof path runs/20260101-120000 path.csv              the limits of the run's study
-
   ninedof path design.toml --circle 0.5 --duration 2 --internal-point best
-
   ninedof path runs/20260101-120000 --line 30 0 20 --mass 5 --centre 0 0 20
-
   ninedof path --line 0.5 0 0.2 --force 0 0 -9.81 --json | jq .motion.legs.l1"""
 
 
 @struct
-class PathOptions(JobOptions):
-    """The options."""
-
+class _Options(JobOptions):
     design: str | None = argument(DESIGN_OR_PUBLISHED, None)
     file: Path | None = argument(
         "Poses (CSV): columns t x y z (or x_rel y_rel z_rel, from the neutral pose), and for the rotation "
@@ -79,7 +72,7 @@ class PathOptions(JobOptions):
     lc: str | None = option(LC)
 
 
-def path(options: PathOptions) -> None:
+def path(options: _Options) -> None:
     """Compute leg lengths, rates and accelerations along a path, and the limits that break.
 
     A run brings every limit of its study.
@@ -130,7 +123,7 @@ def path(options: PathOptions) -> None:
     finish_job(options, directory, answer, write, partial(_draw, result, options.screen, of_study))
 
 
-def _trajectory(chosen: Chosen, options: PathOptions) -> nd.Trajectory:
+def _trajectory(chosen: Chosen, options: _Options) -> nd.Trajectory:
     """Return the one trajectory of the options."""
     home, shapes = chosen.configuration, options.given(*SHAPES)
     names = [*(["a file"] if options.file else []), *(f"--{name}" for name in shapes)]
@@ -147,7 +140,7 @@ def _trajectory(chosen: Chosen, options: PathOptions) -> nd.Trajectory:
     return trajectory
 
 
-def _load(options: PathOptions, duty: nd.Study) -> tuple[Any, Any, list[str]]:
+def _load(options: _Options, duty: nd.Study) -> tuple[Any, Any, list[str]]:
     """Return force and moment of the options, or of each load of a study, and what the study states of them."""
     wrenches = duty.loads.wrenches
     if options.force is not None or options.moment is not None or not wrenches:

@@ -31,16 +31,11 @@ FIGURES = ("figure-6", "figure-7")
 OF_POSES = ("absolute", "internal_point", "threads")
 NONE_WITH_FIGURES = ("over", "index", *OF_POSES, "lc", "chunk", *HEXAGON)
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof sweep figure-6                   the condition number against displacement, as in the paper's Fig. 6
-
   ninedof sweep --over x_p=-1:1:201 --over theta_z_deg=-60:60:121
-
   ninedof sweep design.toml --over z_s=-1:1:401 --index singular_values --index leg_lengths
-
   ninedof sweep --over a1=0:3:31 --over b2=0:3:31      designs in place of configurations
-
   ninedof sweep runs/20260101-120000 --over platform_internal_angle_deg=-60:60:121 --index leg_ratio"""
 
 
@@ -49,9 +44,7 @@ Held = tuple[dict[str, float], DesignOptions]
 
 
 @struct
-class Sweep(HexagonalOptions, Job):
-    """The options."""
-
+class _Options(HexagonalOptions, Job):
     what: str | None = argument(
         f"figure-6, figure-7, or {DESIGN}. By default the published design at its best zs.", None
     )
@@ -74,7 +67,7 @@ class Sweep(HexagonalOptions, Job):
     threads: int | None = option(THREADS)
 
 
-def sweep(job: Sweep) -> None:
+def sweep(job: _Options) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
     what, chosen, note = job.what, None, ""
     if what in FIGURES:
@@ -113,7 +106,7 @@ def _note(chosen: Chosen | None, where: str) -> str:
 
 
 def _over_poses(
-    chosen: Chosen | None, job: Sweep, grid: Mapping[str, Values], rule: str
+    chosen: Chosen | None, job: _Options, grid: Mapping[str, Values], rule: str
 ) -> Callable[..., nd.SweepResult]:
     """Return the sweep over coordinates of a design, or of the published one at its best zs."""
     if chosen is None:
@@ -173,7 +166,7 @@ def _held(family: str, values: Mapping[str, float], over: list[str], length: flo
     return values_held, {"family": family, "characteristic_length": length, "unit": unit}
 
 
-def _grid(job: Sweep) -> dict[str, Values]:
+def _grid(job: _Options) -> dict[str, Values]:
     """Return the axes of --over."""
     what, over = job.what, job.over or ()
     if what is not None and what.startswith("figure-") and not Path(what).exists():

@@ -27,18 +27,12 @@ from ninedof.workspace.tables import share_words, workspace_table, workspace_wor
 PLACE = 6
 S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)
 OF_THE_MAP = ("method", "tolerance", "resolution", "points", "seed", "index")
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof workspace --legs 1.5 6.5 --condition 5 --singularity-free
-
   ninedof workspace runs/20260101-120000    the limits of the study, O as the design has it
-
   ninedof workspace runs/20260101-120000 --upper 1.5 3 --clearance 0 --no-figures
-
   ninedof workspace design.toml --legs 2.5 6.5 --x -2 2 --y -2 2 --z 3 7 --out run1
-
   ninedof workspace runs/20260101-120000 --certify --gap 0.02    bounds of the volume, proved
-
   ninedof workspace --archetype orientation --angle-deg 60 --legs 1.5 6.5 --json | jq .workspace.volume"""
 
 
