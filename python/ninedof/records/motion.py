@@ -34,19 +34,9 @@ def write_motion(
     question: Mapping[str, Any] | None = None,
     limits: PathLimits | None = None,
 ) -> Path:
-    """Write a motion into an existing directory; return the path of its record.
+    """Write a motion into an existing directory, and what was asked; return the path of its record.
 
-    Parameters
-    ----------
-    motion : Followed
-    directory : path
-    draw : callable, optional
-        Called with the directory after the record was written; draws figures there and returns their paths.
-    question : mapping, optional
-        What was asked, for the record.
-    limits : PathLimits, optional
-        Those of a study: their worst values and breaks join the record, their margins poses.csv.
-
+    The worst values and breaks of the limits of a study join the record, their margins poses.csv.
     """
     folder = Path(directory)
     write_whole(folder / LEGS_FILE, legs_csv(motion))

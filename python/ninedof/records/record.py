@@ -66,14 +66,7 @@ class Record:
 
     @property
     def study(self) -> Study:
-        """The study.
-
-        Raises
-        ------
-        ValueError
-            If the run was none of a study.
-
-        """
+        """The study; ValueError if the run was none of one."""
         if not isinstance(self.question, Study):
             raise ValueError(f"got the record of a run of kind {self.kind}, expected one with a study")
         return self.question
@@ -88,18 +81,9 @@ def write_run(
 ) -> Path:
     """Write a run into an existing directory; return the path of its record.
 
-    Parameters
-    ----------
-    run : Result, Comparison, Front, WorkspaceMap or SweepResult
-        One that was interrupted leaves the record of an earlier run as it is.
-    directory : path
-    draw : callable, optional
-        Called with the directory after the record was written; draws figures there and returns their paths.
-    question : mapping, optional
-        What was asked, where the run does not hold it itself: of a workspace, and of a sweep besides what it holds.
-    results : mapping, optional
-        What the record says of a sweep or an atlas; the arrays lie beside it.
-
+    One that was interrupted leaves the record of an earlier run as it is. `question` is what was asked where the run
+    does not hold it: of a workspace, and of a sweep besides what it holds. `results` are what the record says of a
+    sweep or an atlas, whose arrays lie beside it.
     """
     folder = Path(directory)
     result = run.result if isinstance(run, Comparison) else run
@@ -154,14 +138,7 @@ def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
 
 
 def load_record(path: str | os.PathLike[str]) -> Record:
-    """Read a record from its file or its directory.
-
-    Raises
-    ------
-    ValueError
-        If there is no record, or it was changed; the message names the file.
-
-    """
+    """Read a record from its file or its directory; ValueError names a file that is missing or was changed."""
     data = read_json(folder_of(path) / FILE if Path(path).is_dir() else Path(path), FORMAT)
     question = Study.from_dict(data.pop("study")) if "study" in data else data.pop("question")
     return Record(**{"command": "", **data, "files": tuple(data["files"])}, question=question)
@@ -171,12 +148,6 @@ def load_run(path: str | os.PathLike[str]) -> Result | Front | WorkspaceMap | Sw
     """Read what a run folder, or the record there, holds.
 
     Robots are made anew from their variables; all other numbers are those written.
-
-    Raises
-    ------
-    ValueError
-        If there is no such record, or it was changed; the message names the file.
-
     """
     record, folder = load_record(path), folder_of(path)
     if record.kind in ARRAYS:

@@ -67,14 +67,7 @@ def takes_designs(function: Callable[P, R_co]) -> TakesDesigns[P, R_co]:
 
 
 def robot_of(design: HasRobot) -> Geometry:
-    """Return the geometry of a design.
-
-    Raises
-    ------
-    ValueError
-        For a result without a design, and for what is no design.
-
-    """
+    """Return the geometry of a design; ValueError for a result without one, and for what is no design."""
     if not hasattr(design, "geometry"):
         raise ValueError(f"geometry: got {shown(design)}, expected a Geometry or a design")
     if design.geometry is None:

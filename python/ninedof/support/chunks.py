@@ -63,17 +63,8 @@ def computed(
 ) -> Iterator[tuple[Store | None, Computed]]:
     """Check the arguments; yield the folder, and every chunk with its values: those kept there, then the others.
 
-    Parameters
-    ----------
-    work : Work
-    out : path, optional
-        Folder that keeps what is finished; a run that began there goes on in chunks of its size.
-    executor : concurrent.futures.Executor, optional
-        Where chunks are computed, in this process by default. Retries and lost workers are left to it: its exceptions
-        end the run.
-    progress : callable, optional
-        Called as progress(points done, points in all, None), first with the points found in the folder.
-
+    A run that began in the folder `out` goes on in chunks of its size. Retries and lost workers are left to the
+    executor: its exceptions end the run. Progress begins with the points found in the folder.
     """
     executor_argument(executor)
     progress_argument(progress)

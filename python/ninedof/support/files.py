@@ -40,13 +40,8 @@ def part_name(name: str) -> str:
 def write_whole(path: Path, data: bytes | Callable[[IO[bytes]], object]) -> Path:
     """Write a file that appears whole or not at all, even if the power fails; return its path.
 
-    In the place of its bytes there may be a function that writes them to a file that is open.
-
-    Raises
-    ------
-    OSError
-        With the name of the file: the disk is full, or the folder gone.
-
+    In the place of its bytes there may be a function that writes them to a file that is open. OSError, of a full disk
+    too, has the name of the file.
     """
     part = path.with_name(part_name(path.name))  # in the same folder: renaming is atomic there
     try:
@@ -72,14 +67,7 @@ def naming(error: OSError, path: Path) -> OSError:
 
 
 def read_text(path: str | os.PathLike[str]) -> str:
-    """Return the text of a file, without a byte order mark; line ends are those of Python.
-
-    Raises
-    ------
-    ValueError
-        Naming the file, if it cannot be read.
-
-    """
+    """Return the text of a file, without a byte order mark; ValueError names one that cannot be read."""
     try:
         return Path(path).read_text(encoding="utf-8-sig")
     except OSError as error:
@@ -175,11 +163,7 @@ def json_bytes(entries: Mapping[str, Any]) -> bytes:
 def read_json(path: Path, form: str) -> dict[str, Any]:
     """Read a file of `json_bytes`, without the format and the digest.
 
-    Raises
-    ------
-    ValueError
-        Naming the file, if it cannot be read, was changed, or has another format.
-
+    ValueError names a file that cannot be read, was changed, or has another format.
     """
     try:
         data = path.read_bytes()
@@ -213,14 +197,7 @@ def write_npz(path: Path, arrays: Mapping[str, Any], *, compressed: bool = False
 
 
 def read_npz(path: Path, salt: str = "") -> Arrays:
-    """Read what `write_npz` wrote.
-
-    Raises
-    ------
-    ValueError
-        Naming the file, if it cannot be read or was changed.
-
-    """
+    """Read what `write_npz` wrote; ValueError names a file that cannot be read or was changed."""
     try:
         with path.open("rb") as file:
             digest = _digest(file, salt)
@@ -307,14 +284,7 @@ class Saved(ABC):
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Read a TOML file, with or without a byte order mark.
-
-    Raises
-    ------
-    ValueError
-        Naming the file, if it cannot be read or is not TOML.
-
-    """
+    """Read a TOML file; ValueError names one that cannot be read or is not TOML."""
     import tomllib  # when it is needed, as it takes time to load
 
     text = read_text(file := path_argument("path", path))

@@ -49,19 +49,7 @@ class Table:
 
 
 def read(kind: type[T], data: Any, where: str = "", **defaults: Any) -> T:
-    """Return a table made of the mapping of a file.
-
-    Parameters
-    ----------
-    kind : type
-        The class of the table.
-    data : mapping
-    where : str
-        Where it stands in the file, for messages. "" by default.
-    **defaults
-        Values of entries that it does not have.
-
-    """
+    """Return a table made of the mapping of a file, which stands `where` in it; entries it lacks have the defaults."""
     name = where or kind.__name__.lower()
     known_keys(name, data, keys(kind))
     needed = [one.name for one in entries(kind) if one.default is MISSING and one.default_factory is MISSING]

@@ -22,14 +22,7 @@ def from_core(kind: type[T], struct: Any, **others: Any) -> T:
 
 
 def options_of(where: str, kind: type, options: Mapping[str, Any], **defaults: Any) -> Mapping[str, Any]:
-    """Return options of a declared kind; those that are left out have their default, or None.
-
-    Raises
-    ------
-    ValueError
-        For an unknown name.
-
-    """
+    """Return options of a declared kind; those that are left out have their default, or None."""
     names = kind.__annotations__
     known_keys(where, options, names)
     return {**dict.fromkeys(names), **defaults, **options}
@@ -55,21 +48,8 @@ _hints = functools.cache(get_type_hints)
 def entries_of(kind: type, data: Any, where: str = "", skipped: Collection[str] = ()) -> dict[str, Any]:
     """Return the entries of a table that are fields of a dataclass, lists as tuples; other entries are left out.
 
-    Parameters
-    ----------
-    kind : type
-        The dataclass.
-    data : mapping
-    where : str
-        What the table is called in messages; "" for the whole file.
-    skipped : collection of str
-        Fields that the caller sees to.
-
-    Raises
-    ------
-    ValueError
-        Naming an entry that is missing or of another kind.
-
+    The caller sees to the fields that are skipped. ValueError names an entry that is missing or of another kind, and
+    where it stands: "" for the whole file.
     """
     entries = table(where or kind.__name__, data)
     out: dict[str, Any] = {}
