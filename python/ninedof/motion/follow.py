@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -24,13 +24,14 @@ from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.statics.masses import GRAVITY
 from ninedof.support.arguments import choice, finite, instance, items
 from ninedof.support.arrays import Floats, as_floats, as_number, broadcast_leading
-from ninedof.support.files import Arrays, Saved, from_json_array, json_array
+from ninedof.support.files import Saved
 from ninedof.support.margins import TOLERANCE
 from ninedof.support.short import short_repr
 from ninedof.support.units import metres, unit_entry
 
 FORCES = ("push", "pull", "rms")
 """The entries of `Followed.drives` that are forces."""
+PATH = ("time", "position", "rotation")
 DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
 
 
@@ -201,28 +202,20 @@ class Followed(Saved):
         limits = ", ".join(sorted({entry.limit for entry in self.breaks}))
         return f"<Followed: {len(self.time)} poses, {'breaks ' + limits if limits else 'within limits'}>"
 
-    def _contents(self) -> dict[str, Any]:
-        words = {one.name: getattr(self, one.name) for one in fields(self)}
-        arrays = triples(words.pop("geometry")) | {"o": words.pop("configurations").internal_point}
-        path = words.pop("trajectory")
-        arrays |= {"time": path.time, "position": path.position, "rotation": path.rotation}
-        for name, value in list(words.items()):
-            if isinstance(value, np.ndarray | tuple):
-                arrays[name] = np.array(words.pop(name))
-        return {"words": json_array({"format": self.FORMAT, **words}), **arrays}
+    def _saved(self) -> dict[str, Any]:
+        entries = super()._saved()
+        path, c, g = (entries.pop(name) for name in ("trajectory", "configurations", "geometry"))
+        entries |= {name: np.array(entries[name]) for name in ("limits", "singularity_margins")}
+        return {**triples(g), "o": c.internal_point, **{name: getattr(path, name) for name in PATH}, **entries}
 
     @classmethod
-    def _made(cls, contents: Arrays) -> Followed:
-        data = contents | from_json_array(contents.pop("words"))
-        if data.pop("format") != cls.FORMAT:
-            raise ValueError
-        data["geometry"] = Geometry(**{name: data.pop(name) for name in TRIPLES})
-        path = Trajectory(data.pop("time"), data.pop("position"), data.pop("rotation"), data["unit"])
-        data["trajectory"] = path
-        data["configurations"] = Configuration(path.position, path.rotation, data.pop("o"))
-        data["limits"] = tuple(data["limits"])
-        data["singularity_margins"] = SingularityMargins(*data["singularity_margins"])
-        return cls(**data)
+    def _restored(cls, entries: dict[str, Any]) -> Followed:
+        g = Geometry(**{name: entries.pop(name) for name in TRIPLES})
+        path = Trajectory(**{name: entries.pop(name) for name in PATH}, unit=entries["unit"])
+        c = Configuration(path.position, path.rotation, entries.pop("o"))
+        entries["limits"] = tuple(entries["limits"])
+        entries["singularity_margins"] = SingularityMargins(*entries["singularity_margins"])
+        return cls(geometry=g, trajectory=path, configurations=c, **entries)
 
 
 def stretches(

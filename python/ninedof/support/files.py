@@ -7,6 +7,7 @@ import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import fields
 from functools import partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, ClassVar, Self
@@ -235,9 +236,10 @@ def _digest(file: IO[bytes], salt: str) -> bytes:
 
 
 class Saved(ABC):
-    """A result that one .npz file holds."""
+    """A dataclass that one .npz file holds: its arrays, and one entry of JSON, the head, for all else."""
 
     FORMAT: ClassVar[str]
+    HEAD: ClassVar[str] = "words"
     COMPRESSED: ClassVar[bool] = False
 
     def save(self, path: str | os.PathLike[str]) -> Path:
@@ -273,14 +275,30 @@ class Saved(ABC):
         except (KeyError, ValueError):
             raise ValueError(f"{os.fspath(path)}: got no {cls.FORMAT!r} file, expected what `save` wrote") from None
 
-    @abstractmethod
     def _contents(self) -> dict[str, Any]:
         """Return the arrays of the file."""
+        entries = self._saved()
+        arrays = {name: value for name, value in entries.items() if isinstance(value, np.ndarray)}
+        words = {name: value for name, value in entries.items() if name not in arrays}
+        return {self.HEAD: json_array({"format": self.FORMAT, **words}), **arrays}
+
+    @classmethod
+    def _made(cls, contents: Arrays) -> Self:
+        """Return the result that has these arrays; raise KeyError or ValueError for those of another format."""
+        words = from_json_array(contents.pop(cls.HEAD))
+        if words.pop("format") != cls.FORMAT:
+            raise ValueError
+        return cls._restored(contents | words)
+
+    def _saved(self) -> dict[str, Any]:
+        """Return the entries of the file: arrays, and plain values."""
+        this: Any = self
+        return {one.name: getattr(self, one.name) for one in fields(this)}
 
     @classmethod
     @abstractmethod
-    def _made(cls, contents: Arrays) -> Self:
-        """Return the result that has these arrays; raise KeyError or ValueError for those of another format."""
+    def _restored(cls, entries: dict[str, Any]) -> Self:
+        """Return the result of the entries that `_saved` returned, as JSON leaves them."""
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:

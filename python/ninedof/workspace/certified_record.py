@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +14,7 @@ from ninedof import _core
 from ninedof.proof.machine_record import outward
 from ninedof.support.arguments import choice, finite, text, whole
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.files import Arrays, Saved, from_json_array, json_array
+from ninedof.support.files import Saved
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount
 
@@ -218,33 +218,17 @@ class CertifiedWorkspace(Saved):
 
     def to_dict(self) -> dict[str, Any]:
         """Return what is proved as plain values, without the boxes."""
-        out = {one.name: getattr(self, one.name) for one in fields(self) if one.name not in ARRAYS}
+        out = {name: value for name, value in self._saved().items() if not isinstance(value, np.ndarray)}
         for name in ("low", "high", "box_low", "box_high"):
             out[name] = getattr(self, name).tolist()
         counts = {"inner_boxes": len(self.inner_low), "open_boxes": len(self.open_low)}
         return out | counts | {"bounds": self.bounds, "gap": self.gap}
 
-    def _contents(self) -> dict[str, Any]:
-        words: dict[str, Any] = {"format": self.FORMAT}
-        arrays: dict[str, Any] = {}
-        for one in fields(self):
-            (arrays if one.name in ARRAYS else words)[one.name] = getattr(self, one.name)
-        return {"words": json_array(words), **arrays}
-
     @classmethod
-    def _made(cls, contents: Arrays) -> CertifiedWorkspace:
-        data: dict[str, Any] = dict(contents)
-        words = from_json_array(data.pop("words"))
-        if words.pop("format") != cls.FORMAT:
-            raise ValueError
+    def _restored(cls, entries: dict[str, Any]) -> CertifiedWorkspace:
         for name in ("volume", "home_volume", "estimate"):
-            words[name] = None if words[name] is None else tuple(words[name])
-        return cls(**words, **data)
-
-
-ARRAYS = tuple(
-    one.name for one in fields(CertifiedWorkspace) if "Floats" in str(one.type) or "NDArray" in str(one.type)
-)
+            entries[name] = None if entries[name] is None else tuple(entries[name])
+        return cls(**entries)
 
 
 def _between(bounds: tuple[float, float], unit: str) -> str:
