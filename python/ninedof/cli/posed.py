@@ -127,6 +127,11 @@ def length_at_home(chosen: Chosen) -> float:
     return length
 
 
+def xyz(name: str) -> tuple[str, str, str]:
+    """Return the heads of three columns of numbers, the coordinates of a point."""
+    return f">{name}\nx", ">\ny", ">\nz"
+
+
 def poses_data(c: nd.Configuration) -> list[dict[str, Floats]]:
     """Return a stack as plain values, one pose after the other."""
     arrays = arrays_of(c)

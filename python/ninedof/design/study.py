@@ -38,7 +38,7 @@ from ninedof.support.arguments import (
     whole,
 )
 from ninedof.support.files import read_toml, write_toml
-from ninedof.support.schema import Check, check_entries, entry, plain
+from ninedof.support.schema import Check, check_entries, entry, plain, within
 from ninedof.support.short import short_repr
 from ninedof.support.structs import Fixed
 from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
@@ -242,12 +242,10 @@ class Study:
 
         """
         data = read_toml(path)
-        try:
+        with within(os.fspath(path), ": "):
             if isinstance(name := data.get("actuators"), str):
                 data["actuators"] = bought.beside_study(path, name, _unit("unit", data.get("unit", "")))
             return cls.from_dict(data)
-        except ValueError as error:
-            raise ValueError(f"{os.fspath(path)}: {error}") from None
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Study:

@@ -17,9 +17,9 @@ from ninedof.design.indices import computed
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.angles import in_radians
-from ninedof.support.arguments import finite, is_number, known_keys, number, path_argument, table
+from ninedof.support.arguments import finite, is_number, known_keys, number, table
 from ninedof.support.files import read_toml, write_toml
-from ninedof.support.schema import read
+from ninedof.support.schema import read, within
 from ninedof.support.short import short_repr
 from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
 
@@ -82,12 +82,9 @@ def load_design(path: str | os.PathLike[str]) -> Design:
         Naming the file and the entry.
 
     """
-    file = path_argument("path", path)
-    try:
-        return _from_tables(read_toml(file))
-    except ValueError as error:
-        text = str(error)
-        raise ValueError(text if text.startswith(str(file)) else f"{file}: {text}") from None
+    data = read_toml(path)
+    with within(os.fspath(path), ": "):
+        return _from_tables(data)
 
 
 def save_design(design: Design, path: str | os.PathLike[str]) -> Path:

@@ -86,9 +86,9 @@ def plain(value: Any) -> Any:
 
 
 @contextmanager
-def within(where: str) -> Iterator[None]:
-    """Put the place of a table before the names of its entries in messages."""
+def within(where: object, mark: str = ".") -> Iterator[None]:
+    """Put the place of a table, or with the mark ": " the name of a file, before messages on its entries."""
     try:
         yield
     except ValueError as error:
-        raise ValueError(f"{where}.{error}" if where else str(error)) from None
+        raise ValueError(f"{where}{mark}{error}" if where else str(error)) from None

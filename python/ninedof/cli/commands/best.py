@@ -13,7 +13,7 @@ import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import with_length
 from ninedof.cli.options import LC, LEG_LIMITS, Two, ends, option, struct
-from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home
+from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.redundancy.redundancy import CRITERIA
 from ninedof.sheet.pose_words import decimals_of, fixed, vector_words
@@ -28,7 +28,6 @@ EXAMPLES = """
   ninedof best runs/20260101-120000#7 --criterion singularity --legs 200 650 --json | jq .value"""
 
 WORDS = {"condition_number": "condition number", "singularity": "least |det|", "leg_centring": "leg centring"}
-YZ = (">\ny", ">\nz")  # heads behind one of x
 SHOWN = 12  # poses, the worst ones
 
 
@@ -100,8 +99,8 @@ def _table(at: DesignAtPoses, result: nd.InternalPoint, now: Floats, words: str,
     c, points = at.c, result.configuration.internal_point
     order = np.argsort(-now if small else now, kind="stable")
     decimals = decimals_of(c.position, points)
-    p, o = (f"{with_unit(name, at.unit)}\nx" for name in ("p", "best O"))
-    heads = columns(">pose", f">{p}", *YZ, ">now", ">best", f">{o}", *YZ, "why")
+    p, o = (xyz(with_unit(name, at.unit)) for name in ("p", "best O"))
+    heads = columns(">pose", *p, ">now", ">best", *o, "why")
     rows = []
     for k in order[:SHOWN].tolist():
         place, centre = (

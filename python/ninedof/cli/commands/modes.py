@@ -9,7 +9,7 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import option, struct
-from ninedof.cli.posed import PoseOptions, length_at_home, poses_data, several
+from ninedof.cli.posed import PoseOptions, length_at_home, poses_data, several, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.proof.machine_record import outward
 from ninedof.sheet.pose_words import decimals_of, fixed, turn_deg
@@ -24,7 +24,6 @@ EXAMPLES = """
   ninedof modes design.toml --certify                with a proof that there are no others
   ninedof modes design.toml --lengths "5 5 5 3 3 3 4 4 4" --json | jq .count"""
 
-YZ = (">\ny", ">\nz")  # heads behind one of x
 SAME = 1e-6  # of Q, and of p and O over the longest leg
 
 
@@ -88,8 +87,8 @@ def _proof(proof: nd.ModesCertificate) -> str:
 
 def _table(result: nd.AssemblyModes, kappa: Floats, this: int, neutral: Floats, unit: str) -> Table:
     """Return a row for each mode: p, the rotation vector from the neutral orientation, O, the condition number."""
-    p, o = (f"{with_unit(name, unit)}\nx" for name in ("p", "O"))
-    heads = columns(">", f">{p}", *YZ, ">turn °\nx", *YZ, f">{o}", *YZ, ">cond.\nno.")
+    p, o = (xyz(with_unit(name, unit)) for name in ("p", "O"))
+    heads = columns(">", *p, *xyz("turn °"), *o, ">cond.\nno.")
     decimals, turns = decimals_of(result.position, result.internal_point), turn_deg(result, neutral)
     rows = []
     for k in range(len(result)):
