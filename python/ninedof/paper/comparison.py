@@ -173,6 +173,7 @@ def comparison_table(designs: Iterable[Mapping[str, Any]]) -> Table:
 def _texts(row: Mapping[str, Any]) -> list[str]:
     """Return the column of a design, a text for each name in PRINTED."""
     values, legs, gain = row["variables"], row["leg_lengths"], row["gain_percent"]
+    active = [f"{name} = {_short(values[name])}" if name in values else name for name in row["active"]]
     return [
         f"{_short(values['a1'])}, {_short(values['a2'])}",
         f"{_short(values['b1'])}, {_short(values['b2'])}",
@@ -182,13 +183,8 @@ def _texts(row: Mapping[str, Any]) -> list[str]:
         *(f"{legs[leg]:.4f}" for leg in "lqr"),
         f"{row['condition_number']:.6f}",
         "-" if abs(gain) < 0.005 else f"{gain:.2f} %",
-        "\n".join(_active(row)) or "nothing",
+        "\n".join(active) or "nothing",
     ]
-
-
-def _active(row: Mapping[str, Any]) -> list[str]:
-    values = row["variables"]
-    return [f"{name} = {_short(values[name])}" if name in values else name for name in row["active"]]
 
 
 def _short(value: float) -> str:

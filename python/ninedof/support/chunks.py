@@ -90,7 +90,8 @@ def _computed(work: Work, store: Store | None, executor: Executor | None, progre
         done += chunk.last - chunk.first
     if progress is not None:
         progress(done, work.points, None)
-    with closing(_here(work, missing) if executor is None else _by(executor, work, missing)) as new:
+    here = ((chunk, work.values(*chunk)) for chunk in missing)
+    with closing(here if executor is None else _by(executor, work, missing)) as new:
         for chunk, values in new:
             if store is not None:
                 store.keep(chunk.first // work.chunk, values)
@@ -98,11 +99,6 @@ def _computed(work: Work, store: Store | None, executor: Executor | None, progre
             done += chunk.last - chunk.first
             if progress is not None:
                 progress(done, work.points, None)
-
-
-def _here(work: Work, chunks: list[Chunk]) -> Computed:
-    for chunk in chunks:
-        yield chunk, work.values(*chunk)
 
 
 def _by(executor: Executor, work: Work, chunks: list[Chunk]) -> Computed:

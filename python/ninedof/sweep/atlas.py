@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -146,12 +147,11 @@ def _bounds(bounds: Mapping[str, tuple[float, float]] | None) -> tuple[tuple[flo
     """Return the bounds of all six variables, the usual ones where there are no others."""
     own = {} if bounds is None else bounds
     known_keys("bounds", own, BOUNDS)
-    return tuple(_bound(name, own.get(name, usual)) for name, usual in BOUNDS.items())
-
-
-def _bound(name: str, value: Any) -> tuple[float, float]:
-    where = f"bounds[{name!r}]"
-    low, high = (finite(where, end, 0.0) for end in items(where, value, "(low, high)", 2))
-    if low > high or (name == "zs_fraction" and high > 1.0):
-        raise ValueError(f"{where}: got {shown(value)}, expected 0 <= low <= high" + " <= 1" * (name == "zs_fraction"))
-    return low, high
+    out = []
+    for name, usual in BOUNDS.items():
+        where, value, most = f"bounds[{name!r}]", own.get(name, usual), 1.0 if name == "zs_fraction" else math.inf
+        low, high = (finite(where, end, 0.0) for end in items(where, value, "(low, high)", 2))
+        if not low <= high <= most:
+            raise ValueError(f"{where}: got {shown(value)}, expected 0 <= low <= high" + " <= 1" * math.isfinite(most))
+        out.append((low, high))
+    return tuple(out)
