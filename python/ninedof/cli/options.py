@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -51,6 +51,26 @@ def word_or_number(option: str, text: str, words: Collection[str], expected: str
         return text if text in words else float(text)
     except ValueError:
         raise ValueError(f"{option}: got {text!r}, expected {expected}") from None
+
+
+def changes_option(texts: Sequence[str]) -> dict[str, float | str]:
+    """Return the values of --set NAME=VALUE, and the texts of NAME=+10%."""
+    changes: dict[str, float | str] = {}
+    for text in texts:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not equals or name in changes:
+            raise ValueError(f"--set: got {text!r}, expected NAME=VALUE or NAME=+10%, each name once")
+        changes[name] = value if value.endswith("%") else _value(text, value)
+    return changes
+
+
+def _value(text: str, value: str) -> float:
+    try:
+        if value.startswith("+"):
+            raise ValueError
+        return float(value)
+    except ValueError:
+        raise ValueError(f"--set: got {text!r}, expected NAME=VALUE without a plus, or NAME=+10%") from None
 
 
 def triple(words: str) -> Any:

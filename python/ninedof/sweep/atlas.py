@@ -18,8 +18,7 @@ from ninedof.support.files import Arrays
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
 from ninedof.sweep.result import SweepResult
-from ninedof.sweep.sample import BOUNDS, Sample, closed_form, squared_radius_ratio
-from ninedof.sweep.tally import Tally, condition_edges, ratio_edges
+from ninedof.sweep.survey import BOUNDS, Sample, Tally, closed_form, condition_edges, ratio_edges, squared_radius_ratio
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor

@@ -8,12 +8,11 @@ from typing import Any
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.changes import changes_option
-from ninedof.cli.options import SCHEDULER, THREADS, Options, argument, option, struct
+from ninedof.cli.options import SCHEDULER, THREADS, Options, argument, changes_option, option, struct
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.proof.design_range import design_range
-from ninedof.records.admissible import admissible_file, load_admissible, run_of, save_admissible
+from ninedof.records.proofs import admissible_file, load_admissible, run_of, save_admissible
 from ninedof.support.command import goes_on
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns

@@ -13,7 +13,7 @@ import ninedof as nd
 from ninedof.cli.options import option, struct
 from ninedof.cli.sweep_job import Job
 from ninedof.conditioning.hexagonal import HEXAGONAL
-from ninedof.sweep.sample import squared_radius_ratio
+from ninedof.sweep.survey import squared_radius_ratio
 from ninedof.sweep.tables import atlas_table
 
 PLACE = 5

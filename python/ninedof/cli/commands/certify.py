@@ -14,7 +14,7 @@ from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.proof.machine import tolerances_of
 from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import outward
-from ninedof.records.certificate import certificate_file, save_certificate
+from ninedof.records.proofs import certificate_file, save_certificate
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.arguments import finite

@@ -10,10 +10,19 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.changes import changes_option
 from ninedof.cli.chosen_design import chosen_design, named_design
-from ninedof.cli.compared import compared, plot_argument
-from ninedof.cli.options import HEXAGON, ONE_DESIGN, PLOT, HexagonalOptions, argument, option, struct, typed
+from ninedof.cli.commands.compare import compared, plot_argument
+from ninedof.cli.options import (
+    HEXAGON,
+    ONE_DESIGN,
+    PLOT,
+    HexagonalOptions,
+    argument,
+    changes_option,
+    option,
+    struct,
+    typed,
+)
 from ninedof.cli.posed import beyond_words
 from ninedof.design.indices import computed
 from ninedof.records.design_file import indices
