@@ -17,7 +17,6 @@ from ninedof.optimize.result import with_fixed_design
 from ninedof.optimize.tables import agreement_words, best_prices, candidates_table, proof_words
 from ninedof.paper.comparison import Comparison, compare, comparison_table, comparison_words
 from ninedof.proof.optimum import left_out_of
-from ninedof.records.figures import figures_of
 from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
 from ninedof.sheet.tables import limits_table
@@ -70,7 +69,11 @@ def optimize(options: _Options) -> Answer:
         result, answer = run, Answer(_result_parts(run), {"optimization": run.to_dict()})
     data = {**unit_entry(study.unit), **answer.data}
     with_figures = options.figures and not result.interrupted
-    draw = figures_of(run, screen.say, options.convergence) if with_figures else None
+    draw = None
+    if with_figures:
+        from ninedof.records.figures import figures_of
+
+        draw = figures_of(run, screen.say, options.convergence)
     write = partial(write_run, run, directory)
     record = write_job(screen, Answer(answer.parts, data), write, draw, with_figures and options.report)
     if options.check and result.best is not None and not result.interrupted:
