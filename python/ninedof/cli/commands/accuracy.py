@@ -81,11 +81,8 @@ def accuracy(options: _Options) -> Answer:
 
 def _allotted(options: _Options, at: DesignAtPoses) -> Answer:
     """Return the tolerances that keep the machine within an error, over the poses of its study."""
-    for name in ("leg_error", "joint_error", "samples", "all_poses"):
-        if getattr(options, name):
-            raise ValueError(f"--{name.replace('_', '-')}: got it with --within, expected one of the two")
-    if named := options.named():
-        raise ValueError(f"{named[0]}: got it with --within, expected none: it is about all poses of the study")
+    more = ("leg_error", "joint_error", "samples", "all_poses", "position", "rotation_deg", "internal_point")
+    options.refuse("with --within: it is about all poses of the study", *more)
     turn = None if options.within_deg is None else math.radians(options.within_deg)
     design, unit = at.machine, at.unit
     kept = tolerances_for(design, options.within, turn, options.weights)
