@@ -81,7 +81,7 @@ class DesignAtPoses(Chosen):
 
     def first(self, k: int) -> int:
         """Return the first pose that coincides with one: poses of a study may, and are named and printed once."""
-        rows = np.concatenate([np.reshape(x, (len(self.c), -1)) for x in arrays_of(self.c).values()], axis=1)
+        rows = np.hstack([x.reshape(len(self.c), -1) for x in arrays_of(self.c).values()])
         return int(np.argmax(np.abs(rows - rows[k]).max(axis=1) <= SAME * np.abs(rows[k]).max()))
 
     def where(self, k: int) -> str:
