@@ -96,8 +96,7 @@ def save(run: Loaded, path: str | os.PathLike[str]) -> Path:
     load : the reverse, with an example.
 
     """
-    from ninedof.records.motion import write_motion  # with all kinds of runs, when they are needed
-    from ninedof.records.record import write_run
+    from ninedof.records.record import write_run  # with all kinds of runs, when they are needed
 
     path_argument("path", path)
     if isinstance(run, Design):
@@ -114,7 +113,7 @@ def save(run: Loaded, path: str | os.PathLike[str]) -> Path:
     except OSError as error:
         expected = "expected a writeable place"
         raise ValueError(f"path: got {folder}, which cannot be created ({error.strerror}), {expected}") from None
-    return write_motion(run, folder) if isinstance(run, Followed) else write_run(run, folder)
+    return write_run(run, folder)
 
 
 def design_and_result(run: object, name: str) -> tuple[Design, Result | None]:

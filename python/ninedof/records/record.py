@@ -22,6 +22,8 @@ from ninedof.paper.comparison import Comparison
 from ninedof.pareto import Front
 from ninedof.pareto.limits import with_limit, without_degrees
 from ninedof.proof.optimum_proof import FILE as CERTIFICATE
+from ninedof.records.motion import write_tables
+from ninedof.sheet.path_limits import PathLimits
 from ninedof.support.command import command_line
 from ninedof.support.extras import versions
 from ninedof.support.files import json_bytes, read_json, write_whole
@@ -32,7 +34,7 @@ from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 FORMAT = "ninedof-record-4"
 FILE = "record.json"
 
-Run = Result | Comparison | Front | WorkspaceMap | SweepResult
+Run = Result | Comparison | Front | WorkspaceMap | SweepResult | Followed
 Draw = Callable[[Path], Sequence[Path]]
 """Called with the directory after the record was written; draws figures there and returns their paths."""
 
@@ -78,12 +80,13 @@ def write_run(
     draw: Draw | None = None,
     question: Mapping[str, Any] | None = None,
     results: Mapping[str, Any] | None = None,
+    limits: PathLimits | None = None,
 ) -> Path:
     """Write a run into an existing directory; return the path of its record.
 
     One that was interrupted leaves the record of an earlier run as it is. `question` is what was asked where the run
-    does not hold it: of a workspace, and of a sweep besides what it holds. `results` are what the record says of a
-    sweep or an atlas, whose arrays lie beside it.
+    does not hold it: of a workspace or a motion, and of a sweep besides what it holds. `results` are what the record
+    says of a sweep, an atlas or a motion, whose arrays lie beside it; `limits` those of a study along a motion.
     """
     folder = Path(directory)
     result = run.result if isinstance(run, Comparison) else run
@@ -92,7 +95,9 @@ def write_run(
             draw(folder)
         return folder / FILE
     record, files = _record_of(run, question or {}, results or {}), []
-    if isinstance(run, WorkspaceMap | SweepResult):
+    if isinstance(run, Followed):
+        files += write_tables(run, folder, limits)
+    if isinstance(run, WorkspaceMap | SweepResult | Followed):
         files.append(run.save(folder / ARRAYS[record.kind][1]))
     if isinstance(run, WorkspaceMap) and run.certified is not None:
         files.append(run.certified.save(folder / CERTIFIED))
@@ -119,6 +124,8 @@ def _record_of(run: Run, question: Mapping[str, Any], results: Mapping[str, Any]
         return Record("front", run.study, {"front": front})
     if isinstance(run, WorkspaceMap):
         return Record("workspace", question, {"workspace": run.to_dict()})
+    if isinstance(run, Followed):
+        return Record("motion", question, results or {"motion": run.to_dict()})
     own = {name: value for name, value in run.attributes.items() if name not in versions()}
     question = {**question, **own}
     return Record("atlas" if run.attributes.get("kind") == "atlas" else "sweep", question, results)

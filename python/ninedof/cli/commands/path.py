@@ -29,7 +29,8 @@ from ninedof.cli.posed import rule_option
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.motion.tables import motion_tables, motion_words
 from ninedof.records.folder import run_folder
-from ninedof.records.motion import plain, write_motion
+from ninedof.records.motion import plain
+from ninedof.records.record import write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.duty import masses_of
@@ -118,7 +119,7 @@ def path(options: _Options) -> None:
     if masses is not None and options.mass is None:
         stated = [*stated, "[masses]"]
     parts += [f"from the study: {', '.join(stated)}"] if stated else []
-    write = partial(write_motion, result, directory, question=question, limits=of_study)
+    write = partial(write_run, result, directory, question=question, results={"motion": motion}, limits=of_study)
     answer = Answer(parts, {"motion": motion}, DONE if result.tracked and not motion["breaks"] else NO_RESULT)
     finish_job(options, directory, answer, write, partial(_draw, result, options.screen, of_study))
 
