@@ -60,17 +60,11 @@ def changes_option(texts: Sequence[str]) -> dict[str, float | str]:
         name, equals, value = (part.strip() for part in text.partition("="))
         if not equals or name in changes:
             raise ValueError(f"--set: got {text!r}, expected NAME=VALUE or NAME=+10%, each name once")
-        changes[name] = value if value.endswith("%") else _value(text, value)
+        try:
+            changes[name] = value if value.endswith("%") else float("" if value.startswith("+") else value)
+        except ValueError:
+            raise ValueError(f"--set: got {text!r}, expected NAME=VALUE without a plus, or NAME=+10%") from None
     return changes
-
-
-def _value(text: str, value: str) -> float:
-    try:
-        if value.startswith("+"):
-            raise ValueError
-        return float(value)
-    except ValueError:
-        raise ValueError(f"--set: got {text!r}, expected NAME=VALUE without a plus, or NAME=+10%") from None
 
 
 def triple(words: str) -> Any:

@@ -83,7 +83,9 @@ def _figures(
     panels = []
     for name, g, c, kappa, _ in designs:
         lines = () if region is None else region_lines(region, c)
-        panels.append(plot.Robot(name, g, c, kappa, worst + _heights(tool.plate(c), note), lines))
+        plate = tool.plate(c)
+        zp, zs = (amount(f"{point[2]:.4f}", note) for point in (plate.position, plate.internal_point))
+        panels.append(plot.Robot(name, g, c, kappa, f"{worst}zp = {zp}, zs = {zs}", lines))
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
     files += plot.save(plot.drawing(*designs[-1][1:3], note, tool), directory, "drawing")
     say("drawing the condition number along zs and theta_z")
@@ -107,11 +109,6 @@ def _figures(
     if runs["minimax"] and result.objective is not None:
         files += plot.save(plot.convergence(runs["minimax"], runs["plain"], result.objective), directory, "convergence")
     return files
-
-
-def _heights(c: Configuration, unit: str) -> str:
-    zp, zs = (amount(f"{point[2]:.4f}", unit) for point in (c.position, c.internal_point))
-    return f"zp = {zp}, zs = {zs}"
 
 
 def _pose_names(result: Result, count: int) -> list[str]:

@@ -106,10 +106,9 @@ def _example(one: nd.AdmissibleRow, study: nd.Study) -> str:
 
 
 def _draw(found: nd.AdmissibleSet, file: Path) -> list[Path]:
-    from ninedof.plot.admissible import admissible as figure_of
-    from ninedof.plot.files import save
+    from ninedof import plot
 
-    return save(figure_of(found), file.parent, file.stem)
+    return plot.save(plot.admissible(found), file.parent, file.stem)
 
 
 def _of(options: _Options) -> tuple[nd.Study | nd.Result, Path | None]:
