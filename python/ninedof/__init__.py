@@ -36,7 +36,7 @@ from ninedof.design.actuators import Actuator
 from ninedof.design.design_point import DesignPoint
 from ninedof.design.duty import About, Loads, Masses, Speeds, Tolerances, Tool
 from ninedof.design.objective import Objective
-from ninedof.design.pose import Pose
+from ninedof.design.poses import Pose
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.export.export import export
@@ -90,8 +90,8 @@ from ninedof.sheet.allotment import tolerances_for
 from ninedof.sheet.comparison import Comparison, compare
 from ninedof.sheet.failure.failure import failure
 from ninedof.sheet.failure.result import Failure
-from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.payload import Payload, largest_payload
+from ninedof.sheet.pose_limits import PathLimits, path_limits
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.architecture import (
     ArchitectureClass,

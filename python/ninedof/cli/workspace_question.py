@@ -29,10 +29,10 @@ from ninedof.design.limit_numbers import CONES, LEGS, SPREADS
 from ninedof.support.arguments import choice, finite
 from ninedof.support.units import unit_entry
 from ninedof.workspace.certified import GAPS, require_certifiable
-from ninedof.workspace.region_share import box_about
 from ninedof.workspace.study_question import (
     ACTUATOR_WORDS,
     ACTUATORS,
+    box_about,
     box_around,
     built_ranges,
     narrowed,

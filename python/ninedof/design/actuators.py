@@ -103,7 +103,7 @@ def _distinct(where: str, rows: Sequence[Actuator]) -> tuple[Actuator, ...]:
     return tuple(rows)
 
 
-def catalogue(path: str | os.PathLike[str], unit: str = "") -> tuple[Actuator, ...]:
+def catalogue(path: str | os.PathLike[str], unit: str) -> tuple[Actuator, ...]:
     """Return the rows of a CSV file whose first line names the columns; ValueError names file, line and column.
 
     An empty force or rate is without limit, an empty price unknown. Other columns are left out. Lengths are in `unit`:
@@ -141,7 +141,7 @@ def _row(line: int, entries: Mapping[str, str]) -> Actuator:
         raise ValueError(f"line {line}, column {error}") from None
 
 
-def beside_study(path: str | os.PathLike[str], name: str, unit: str = "") -> tuple[Actuator, ...]:
+def beside_study(path: str | os.PathLike[str], name: str, unit: str) -> tuple[Actuator, ...]:
     """Return the rows of the file that a study file names: one of its own folder, or in a folder there."""
     file = path_argument("actuators", name)
     if file.is_absolute() or ".." in file.parts:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -71,7 +71,6 @@ def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:
     core = problem.evaluate(x)
     objective = infinite_if_singular(core["objective"])
     slope = objective * core["gradient"] if math.isfinite(objective) else np.full(len(names), np.nan)
-    configurations = Configuration(*problem.configurations(x))
     return DesignPoint(
         variables=dict(zip(names, x, strict=True)),
         objective=objective,
@@ -82,10 +81,14 @@ def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:
         margins={name: margin for name, margin, _ in core["margins"]},
         margin_gradients={n: dict(zip(names, s.tolist(), strict=True)) for n, _, s in core["margins"]},
         values=core["limited"],
-        geometry=problem.geometry(x),
-        configuration=configurations[0],
-        configurations=configurations,
+        **robot_at(problem, x),
     )
+
+
+def robot_at(problem: _core.Problem, x: Sequence[float]) -> dict[str, Any]:
+    """Return geometry, neutral configuration and all configurations of one full vector of variables, by field."""
+    configurations = Configuration(*problem.configurations(x))
+    return {"geometry": problem.geometry(x), "configuration": configurations[0], "configurations": configurations}
 
 
 def infinite_if_singular(value: float) -> float:

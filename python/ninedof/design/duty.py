@@ -116,10 +116,9 @@ class Tool(Table):
 
     def seen(self, point: Vector) -> Vector:
         """Return a point of the platform's frame in the tool's frame."""
-        x, y, z = (self.axes.T @ np.subtract(vector("point", point), self.position)).tolist()
-        return x, y, z
+        return self.turned(np.subtract(vector("point", point), self.position))
 
-    def turned(self, direction: Vector) -> Vector:
+    def turned(self, direction: Vector | Floats) -> Vector:
         """Return a direction of the platform's frame in the tool's frame."""
         x, y, z = (self.axes.T @ np.array(vector("direction", direction))).tolist()
         return x, y, z

@@ -24,12 +24,10 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.singularity.singularity import singularity_margins
+from ninedof.singularity.singularity import SingularityMargins, singularity_margins
 from ninedof.support.arguments import choice, shown
 from ninedof.support.arrays import as_floats
 from ninedof.support.files import is_plain_name
-
-MECHANISMS = ("det_n", "det_b", "det_c")
 
 
 @dataclass(frozen=True)
@@ -128,7 +126,7 @@ INDICES: dict[str, Index] = {
             "singularity_margins",
             _margins,
             dimension="mechanism",
-            components=MECHANISMS,
+            components=SingularityMargins._fields,
             needs_length=False,
             signed=True,
         ),
@@ -188,14 +186,7 @@ def _own(function: OwnIndex) -> Index:
 
 
 def identity(index: Index) -> str:
-    """Return the name of an index in a record. A caller's function is identified by its module and name, not its code.
-
-    Raises
-    ------
-    ValueError
-        If it is a function that cannot be found by name.
-
-    """
+    """Return the name of an index in a record; of a caller's function its module too, where it can be found by name."""
     if not index.own:
         return index.name
     function = index.function

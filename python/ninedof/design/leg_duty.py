@@ -10,10 +10,13 @@ from ninedof import _core
 from ninedof.design.duty import Loads, Masses, Speeds, duty
 from ninedof.design.limits import Limit
 from ninedof.design.objective import Objective
-from ninedof.design.pose import ZERO
+from ninedof.design.poses import ZERO
 from ninedof.statics.masses import masses_for_core
 from ninedof.support.arguments import choice
 from ninedof.support.schema import Table, entry
+
+INTERNAL = ("least", "held", "shifted", "carried")
+"""How O moves with the platform."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +26,7 @@ class LegDuty(Table):
     loads: Loads = entry(duty(Loads), Loads())
     masses: Masses = entry(duty(Masses), Masses())
     speeds: Speeds = entry(duty(Speeds), Speeds())
-    internal: str = entry(partial(choice, known=("least", "held", "shifted", "carried")), "least")
+    internal: str = entry(partial(choice, known=INTERNAL), "least")
 
     def for_core(self) -> _core.Duty:
         """Return the duty as the core takes it; a machine without wrenches has its weights alone."""

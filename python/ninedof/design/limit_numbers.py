@@ -1,13 +1,17 @@
-"""The quantities of limits at the poses of a stack, and the limits of a study on leg lengths, for each leg."""
+"""The items of limits at a pose, legs and pairs of legs; the limits of a study on leg lengths; all of them scaled."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from ninedof import _core
 from ninedof.design.limits import ROWS, Limit
+from ninedof.design.objective import CONDITION_LIMITS
+from ninedof.design.region_poses import Ranges
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -38,26 +42,6 @@ LEGS = {
 """Constraints of lengths, and their legs in the order of `leg_lengths`."""
 
 
-def limit_numbers(
-    limit: _core.Limit, g: Geometry, c: Configuration, home: Configuration, characteristic_length: float = 1.0
-) -> Floats:
-    """Return what a limit is about at each pose, shape (n, items): lengths, radians, distances, determinants, ratios.
-
-    Parameters
-    ----------
-    limit : Limit
-        Of the core, one of `PARTS`.
-    g : Geometry
-    c : Configuration, shape (n,)
-    home : Configuration
-        A single one: determinants are positive on its side, and cones without an axis are about its legs.
-    characteristic_length : float
-        For condition numbers.
-
-    """
-    return _core.limit_numbers(limit, g, home, c, characteristic_length)
-
-
 def cone_limits(study: Study | None) -> dict[str, Limit | None]:
     """Return the limit on the cone of each of the `JOINTS` in a study, None without one.
 
@@ -85,21 +69,31 @@ def apart(g: Geometry, study: Study | None = None) -> list[int]:
     return [k for k, meet in enumerate(exempt_pairs(g, study)) if not meet]
 
 
-def leg_limits_of(study: Study, neutral: Configuration) -> tuple[Floats, Floats]:
+def leg_limits_of(study: Study, neutral: Configuration, ranges: Ranges = ()) -> tuple[Floats, Floats]:
     """Return the least and greatest length of each leg in a study, shapes (9,); 0 and infinity where it has none.
 
-    Parameters
-    ----------
-    study : Study
-    neutral : Configuration
-        A single one, for limits in units of zp.
-
+    The neutral configuration is a single one; `ranges` are those in which something else keeps each leg.
     """
-    low, high = np.zeros(9), np.full(9, math.inf)
-    zp = study.zp(neutral)
+    low, high = np.array(ranges or [(0.0, math.inf)] * 9).T.copy()
     for limit in study.limits:
         if limit.name in LEGS and limit.at == "poses":
-            unit, legs = zp if limit.of == "zp" else 1.0, LEGS[limit.name]
+            unit, legs = study.zp(neutral) if limit.of == "zp" else 1.0, LEGS[limit.name]
             low[legs] = np.maximum(low[legs], unit * limit.low)
             high[legs] = np.minimum(high[legs], unit * limit.high)
     return low, high
+
+
+def with_scaled_limits(study: Study, factor: Callable[[str, str], float]) -> Study:
+    """Return a study with each end of its limits times factor(label, side); an angle is at most pi.
+
+    The limits of the condition number have the names of the objective's fields as labels.
+    """
+    constraints = dict[str, list[Limit]]()
+    for limit in study.limits:
+        most = math.pi if limit.row.is_angle else math.inf
+        high = min(limit.high * factor(limit.label, "max"), max(most, limit.high))
+        scaled = replace(limit, low=limit.low * factor(limit.label, "min"), high=high)
+        constraints.setdefault(limit.name, []).append(scaled)
+    bounds = {name: getattr(study.objective, name) for name in CONDITION_LIMITS}
+    kept = {name: bound * factor(name, "max") for name, bound in bounds.items() if bound is not None}
+    return replace(study, constraints=constraints, objective=replace(study.objective, **kept))

@@ -14,7 +14,7 @@ from ninedof import _core
 from ninedof.design import poses
 from ninedof.design.duty import duty
 from ninedof.design.indices import objectives
-from ninedof.design.pose import Pose
+from ninedof.design.poses import Pose
 from ninedof.design.region import Region
 from ninedof.support.arguments import choice, finite, items, known_keys, number, text, whole
 from ninedof.support.schema import Table, entry, keys, within

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ninedof import _core
-from ninedof.design.pose import Pose
+from ninedof.design.poses import Pose
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.motion.rotations import from_vectors
@@ -56,29 +56,21 @@ class Placing:
         )
 
 
-def places_o(region: Region) -> bool:
-    """Return whether the region alone says where O is."""
-    return region.internal_point != "best"
+def o_is_placed(study: Study) -> bool:
+    """Return whether O is placed anew at every pose of the region of a study."""
+    return study.objective.region is not None and study.objective.region.internal_point == "best"
+
+
+def posed(study: Study, poses: tuple[Pose, ...]) -> Study:
+    """Return a study with further listed poses in the place of its region."""
+    objective = study.objective
+    return replace(study, objective=replace(objective, poses=(*objective.poses, *poses), region=None))
 
 
 def configurations_at(region: Region, neutral: Configuration, at: Floats) -> tuple[Floats, Configuration]:
-    """Return the poses nearest to given coordinates.
+    """Return the coordinates nearest to given ones in a region that says where O is, shape (n, 6), and the poses there.
 
-    Parameters
-    ----------
-    region : Region
-        One that says where O is.
-    neutral : Configuration
-        The neutral one of the design.
-    at : numpy.ndarray, shape (n, 6)
-        Shift of p (on a path the first from -1 to 1), tilt about x and y, and yaw.
-
-    Returns
-    -------
-    at : numpy.ndarray, shape (n, 6)
-        The nearest coordinates in the region.
-    configurations : Configuration, shape (n,)
-
+    Coordinates are the shift of p (on a path the first from -1 to 1), the tilt about x and y, and the yaw.
     """
     rows = _core.region_poses(region.for_core(), np.ascontiguousarray(at))
     near, shift, turn, internal = np.split(rows, [6, 9, 12], axis=1)

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from ninedof.export.model import JOINTS, LEGS, Format, Model, O, P
-from ninedof.sheet.limit_rows import LimitRow
+from ninedof.sheet.rows import LimitRow
 from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, with_unit
 

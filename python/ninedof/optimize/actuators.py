@@ -9,8 +9,9 @@ next best.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
+from functools import partial
 from heapq import heappop, heappush
 from typing import Any
 
@@ -64,78 +65,62 @@ class ActuatorSearch:
     def _best_first(self) -> list[Rows]:
         """Return the best combination and the next best; fewer where no others have a design."""
         found: list[Rows] = []
-        heap: list[tuple[float, float, tuple[int, ...]]] = []
+        heap: list[tuple[float, float, list[int], Rows]] = []
 
-        def push(value: float, node: tuple[int, ...]) -> None:
-            if value < math.inf and self._is_within_price(node):
-                heappush(heap, (float(f"{value:.6g}"), self._least_price(node), node))  # equal ones by their price
+        def push(value: float, rows: Rows) -> None:
+            if value < math.inf and self._is_within_price(rows):
+                order = [some.index(row) for some, row in zip(self.rows, rows, strict=True) if row is not None]
+                heappush(heap, (float(f"{value:.6g}"), self._least_price(rows), order, rows))  # equal ones by price
 
-        root = self._ask((None,) * len(self.groups))
-        push(self._value(root), ())
+        nothing = (None,) * len(self.groups)
+        root = self._ask(nothing)
+        push(self._value(root), nothing)
         if root.best is not None and self._is_within_price(guess := self._guess(root)):
-            self._ask(self._rows_of(guess))  # a design to begin with, should the search be interrupted
+            self._ask(guess)  # a design to begin with, should the search be interrupted
         while heap and len(found) < 2:
-            bound, _, node = heappop(heap)
-            rows = self._rows_of(node)
-            question = next((one for one in (self._last_alone(node), rows) if one not in self.results), None)
+            bound, *_, rows = heappop(heap)
+            fixed = _fixed(rows)
+            # The question about the last row alone is one that many combinations have in common.
+            question = next((one for one in (_only(rows, fixed[-1:]), rows) if one not in self.results), None)
             if question is not None:
-                push(max(bound, self._value(self._ask(question), None not in question)), node)
-            elif len(node) == len(self.groups):
+                push(max(bound, self._value(self._ask(question), None not in question)), rows)
+            elif None not in rows:
                 found.append(rows)
             else:
-                for k in range(len(self.rows[len(node)])):
-                    known = self.results.get(self._last_alone((*node, k)))
-                    push(bound if known is None else max(bound, self._value(known)), (*node, k))
+                for row in self.rows[g := len(fixed)]:
+                    more = (*rows[:g], row, *rows[g + 1 :])
+                    known = self.results.get(_only(more, [g]))
+                    push(bound if known is None else max(bound, self._value(known)), more)
         return found
 
-    def _guess(self, root: Result) -> tuple[int, ...]:
+    def _guess(self, root: Result) -> Rows:
         """Return the rows that are nearest to the best design of all."""
-        margins = (
-            [self._least_margin(root, kinds, row) for row in rows]
-            for kinds, rows in zip(self.groups, self.rows, strict=True)
-        )
-        return tuple(some.index(max(some)) for some in margins)
+        every = zip(self.groups, self.rows, strict=True)
+        return tuple(max(rows, key=partial(self._least_margin, root, kinds)) for kinds, rows in every)
 
-    def _is_within_price(self, node: tuple[int, ...]) -> bool:
+    def _is_within_price(self, rows: Rows) -> bool:
         most = self.study.greatest_price
-        return most is None or self._least_price(node) <= most
+        return most is None or self._least_price(rows) <= most
 
-    def _rows_of(self, node: tuple[int, ...]) -> Rows:
-        fixed = tuple(rows[k] for rows, k in zip(self.rows, node, strict=False))
-        return fixed + (None,) * (len(self.groups) - len(node))
-
-    def _last_alone(self, node: tuple[int, ...]) -> Rows:
-        """Return the question about the last row of a node alone, which many nodes have in common."""
-        last = len(node) - 1
-        return tuple(row if g == last else None for g, row in enumerate(self._rows_of(node)))
-
-    def _least_price(self, node: tuple[int, ...]) -> float:
-        fixed = [rows[k : k + 1] for rows, k in zip(self.rows, node, strict=False)]
-        every = fixed + self.rows[len(node) :]
+    def _least_price(self, rows: Rows) -> float:
+        every = zip(self.groups, self.rows, rows, strict=True)
         return sum(
-            EACH * len(kinds) * min(row.price or 0.0 for row in rows)
-            for kinds, rows in zip(self.groups, every, strict=True)
+            EACH * len(kinds) * min(one.price or 0.0 for one in (some if row is None else [row]))
+            for kinds, some, row in every
         )
 
     def _ask(self, rows: Rows) -> Result:
         if rows not in self.results:
             hulls = [hull(rows) for rows in self.rows]
-            parts = [row or any_row for row, any_row in zip(rows, hulls, strict=True)]
-            study = self.study.with_actuators(self._by_kind(parts))
-            before = [part for part in self._parts(rows) if part in self.results]
-            warm = [best for part in before if (best := self.results[part].best) is not None]
+            study = self.study.with_actuators(self._by_kind([a or b for a, b in zip(rows, hulls, strict=True)]))
+            # Less strict questions that are solved before, whatever the order of the search.
+            fixed = _fixed(rows)
+            parts = dict.fromkeys(_only(rows, some) for some in (fixed[:0], fixed[:-1], fixed[-1:]))
+            before = [self.results[part].best for part in parts if part in self.results]
+            warm = [best for best in before if best is not None]
             names = ", ".join("any" if row is None else row.name for row in rows)
             self.results[rows] = self._solved(study, warm, names)
         return self.results[rows]
-
-    def _parts(self, rows: Rows) -> list[Rows]:
-        """Return the questions that are solved before one, whatever the order of the search, and less strict."""
-        fixed = [g for g, row in enumerate(rows) if row is not None]
-        parts = (
-            tuple(row if g in some else None for g, row in enumerate(rows))
-            for some in (fixed[:0], fixed[:-1], fixed[-1:])
-        )
-        return [part for part in dict.fromkeys(parts) if part != rows]
 
     def _solved(
         self, study: Study, warm: Sequence[Candidate], names: str, most_starts: int = FEW, explain: bool = False
@@ -203,7 +188,7 @@ class ActuatorSearch:
                 reasons.append(f"{which}: {nearest.reason}")
                 causes |= dict.fromkeys(nearest.causes)
         if not reasons:
-            most, least = self.study.greatest_price, self._least_price(())
+            most, least = self.study.greatest_price, self._least_price((None,) * len(self.groups))
             price = "" if most is None else f" of at most {most:g} does; the cheapest costs {least:g}"
             reasons = [f"rows fit each kind of legs, but no combination{price or ' does'}"]
         return replace(
@@ -222,6 +207,16 @@ class ActuatorSearch:
         assert free.best is not None, "its margins are asked of a study that has a design"
         point = replace(free.solved, constraints=limits).evaluate(free.best.variables)
         return min(point.margins.values())
+
+
+def _fixed(rows: Rows) -> list[int]:
+    """Return the groups of legs whose rows are chosen."""
+    return [g for g, row in enumerate(rows) if row is not None]
+
+
+def _only(rows: Rows, groups: Collection[int]) -> Rows:
+    """Return a combination with the rows of some groups alone."""
+    return tuple(row if g in groups else None for g, row in enumerate(rows))
 
 
 def _replaces(other: Actuator, j: int, row: Actuator, k: int) -> bool:

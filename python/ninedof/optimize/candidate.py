@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields
-from enum import StrEnum
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ninedof.design.design_point import DesignPoint
+from ninedof.design.design_point import DesignPoint, robot_at
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.sheet.plain_values import plain_fields
 from ninedof.support.arguments import finite
 from ninedof.support.short import short_repr
 from ninedof.support.structs import Fixed, entries_of, from_core
@@ -73,7 +73,7 @@ class Candidate:
 def candidate_of(problem: _core.Problem, end: _core.Candidate) -> Candidate:
     """Return the candidate of the core with its robot and poses."""
     x = end.variables.tolist()
-    return from_core(Candidate, end, variables=dict(zip(problem.names, x, strict=True)), **_robot(problem, x))
+    return from_core(Candidate, end, variables=dict(zip(problem.names, x, strict=True)), **robot_at(problem, x))
 
 
 def candidate_at(point: DesignPoint, residual: float) -> Candidate:
@@ -91,24 +91,4 @@ def candidate_from(problem: _core.Problem, data: Mapping[str, Any], where: str) 
     if missing:
         raise ValueError(f"{where}.variables: got none of the name {missing[0]}, expected all of the study")
     x = [finite(f"{where}.variables.{name}", values[name]) for name in problem.names]
-    return Candidate(**entries, **_robot(problem, x))
-
-
-def _robot(problem: _core.Problem, x: Sequence[float]) -> dict[str, Any]:
-    configurations = Configuration(*problem.configurations(x))
-    return dict(zip(ROBOT, (problem.geometry(x), configurations[0], configurations), strict=True))
-
-
-def plain_fields(record: Any) -> dict[str, Any]:
-    """Return the fields of a dataclass as plain values, but for those that follow from others."""
-    return {one.name: _plain(getattr(record, one.name)) for one in fields(record) if not one.metadata.get("derived")}
-
-
-def _plain(value: Any) -> Any:
-    if hasattr(value, "to_dict"):
-        return value.to_dict()
-    if isinstance(value, tuple):
-        return [_plain(one) for one in value]
-    if isinstance(value, Fixed):
-        return dict(value)
-    return str(value) if isinstance(value, StrEnum) else value
+    return Candidate(**entries, **robot_at(problem, x))

@@ -134,8 +134,9 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0, *, certify: 
         result = replace(result, study=result.reserve.study(result.study), reserve=None)
     steps = whole("perturbations", perturbations, 0, MOST_PERTURBATIONS)
     findings = [*_of_design(result), *_of_claims(result, steps, whole("seed", seed, 0))]
-    if flag("certify", certify):
-        findings += _proofs(result)
+    for limit in result.certify().limits if flag("certify", certify) else ():
+        sentence = f"{limit.side} {limit.shown(limit.limit):g}: {limit.answer}, the worst value is {limit.worded()}"
+        findings.append(Finding(f"proof: {limit.name}", limit.answer == PROVED, limit.margin, sentence))
     return Check(tuple([*findings, *_bounds(result)]), f"check of a design of the {result.study.family} family")
 
 
@@ -144,7 +145,8 @@ def _of_design(result: Result) -> Iterator[Finding]:
     best: Any = result.best
     point = result.solved.evaluate(best.variables)
     yield _robot(result, point)
-    conditions = _conditions(point)
+    every = condition_number(point.geometry, point.configurations, point.characteristic_length)
+    conditions = np.append(every[1:] if len(every) > 1 else every, every[0])
     claims = np.append(np.asarray(best.conditions, dtype=np.float64), best.neutral_condition_number)
     figure = _difference(conditions, claims) if conditions.shape == claims.shape else math.inf
     ends = f"{conditions.min():.6f} to {conditions.max():.6f}"
@@ -227,12 +229,6 @@ def _region(result: Result, problem: _core.Problem, x: list[float], seed: int) -
     return Finding("region", holds, worst.excess, sentence)
 
 
-def _proofs(result: Result) -> Iterator[Finding]:
-    for limit in result.certify().limits:
-        sentence = f"{limit.side} {limit.shown(limit.limit):g}: {limit.answer}, the worst value is {limit.worded()}"
-        yield Finding(f"proof: {limit.name}", limit.answer == PROVED, limit.margin, sentence)
-
-
 def _bounds(result: Result) -> Iterator[Finding]:
     if result.proof is not None and result.proof.certificate:
         verdict = _core.check_certificate(result.proof.certificate, None)
@@ -243,12 +239,6 @@ def _bounds(result: Result) -> Iterator[Finding]:
         above = neutral / bound.value - 1.0
         proof = "proved" if bound.proved else "searched"
         yield Finding(f"bound: {bound.name}", above >= -BOUND, above, f"{above:.2%} above; {bound.sentence} ({proof})")
-
-
-def _conditions(point: DesignPoint) -> Floats:
-    """Return the condition numbers at the poses of the objective, then that at the neutral pose."""
-    every = condition_number(point.geometry, point.configurations, point.characteristic_length)
-    return np.append(every[1:] if len(every) > 1 else every, every[0])
 
 
 def _difference(ours: Floats, theirs: Floats) -> float:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
-from ninedof.design.duty import Tolerances
-from ninedof.design.region_poses import Placing, places_o
+from ninedof.design.duty import Tolerances, tolerances_like
+from ninedof.design.region_poses import Placing, o_is_placed
 from ninedof.proof.machine import certify, open_limits
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.point_rule import PointRule, rule_of
-from ninedof.proof.tolerance import largest_tolerance
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite, known_keys
@@ -55,8 +55,41 @@ def machine_of(result: Any) -> tuple[Geometry, Configuration, float]:
 
 def placing_of(result: Any) -> Placing | None:
     """Return how O is placed in the region, where the study places it anew at every pose."""
-    region, best = result.study.objective.region, result.best
-    if region is None or places_o(region) or best is None:
+    best = result.best
+    if best is None or not o_is_placed(result.study):
         return None
     ranges = () if result.region is None else result.region.leg_ranges
     return Placing(result.study, best.configuration, best.variables, best.objective, ranges)
+
+
+FIRST, LEAST, MOST = 1e-4, 1e-6, 0.05  # of the machine's height
+STEP, HALVINGS = 4.0, 5
+
+
+def largest_tolerance(proved: Callable[[Tolerances], bool], shape: Tolerances, height: float) -> Tolerances:
+    """Return the largest tolerances that are proved, to 5 %; none at all where not even the least ones are.
+
+    They have the ratio of `shape`, and are looked for from a millionth to a twentieth of the machine's height. A
+    KeyboardInterrupt has the largest ones proved so far.
+    """
+
+    def of(size: float) -> Tolerances:
+        return tolerances_like(shape, size * height)
+
+    low, high = 0.0, FIRST
+    try:
+        while high <= MOST and proved(of(high)):
+            low, high = high, STEP * high
+        while low == 0.0 and high >= LEAST:
+            if proved(of(high / STEP)):
+                low = high / STEP
+            else:
+                high /= STEP
+        if low == 0.0:
+            return Tolerances()
+        for _ in range(HALVINGS):
+            middle = (low * high) ** 0.5
+            low, high = (middle, high) if proved(of(middle)) else (low, middle)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(of(low) if low > 0.0 else Tolerances()) from None
+    return of(low)

@@ -13,6 +13,7 @@ from time import perf_counter
 from typing import Any
 
 from ninedof import _core
+from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.optimize.actuators import ActuatorSearch, SearchEnded
 from ninedof.optimize.candidate import Candidate, candidate_of
@@ -20,8 +21,8 @@ from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.reserve import with_reserve
 from ninedof.optimize.result import Result, Status
+from ninedof.optimize.tables import axis_hint
 from ninedof.optimize.warm import Warm, warm_starts, warm_variables
-from ninedof.optimize.words import axis_hint
 from ninedof.proof.optimum import gap_of, left_out_of, prove_optimum
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
@@ -183,7 +184,7 @@ def _anew(study: Study, settings: _core.Settings, progress: Progress | None) -> 
     else:
         end, over = _core.optimize_region(problem, region.for_core(), settings, progress, partial(phase, progress))
         report = RegionReport.from_core(over) if end.candidates else None
-        problem = (study if report is None else report.posed(study)).problem()
+        problem = (study if report is None else posed(study, report.poses)).problem()
     reason = end.reason
     if end.status == Status.INFEASIBLE:
         reason += (f" (lengths in {study.unit})" if study.unit else "") + axis_hint(study)

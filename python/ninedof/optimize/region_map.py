@@ -11,10 +11,9 @@ from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.limit_numbers import SPREADS, compared
 from ninedof.design.limits import kind_of
-from ninedof.design.pose import Pose
-from ninedof.design.region import Region
-from ninedof.design.region_outline import circle, section_outline
-from ninedof.design.region_poses import configurations_at, places_o
+from ninedof.design.poses import Pose
+from ninedof.design.region import Region, circle, section_outline
+from ninedof.design.region_poses import configurations_at, o_is_placed
 from ninedof.design.study import Study
 from ninedof.motion.rotations import from_vectors
 from ninedof.optimize.machine_proofs import placing_of
@@ -144,7 +143,7 @@ def _compared(study: Study, g: Geometry, neutral: Configuration, length: float) 
     """Return the least margin over the region of each limit that compares poses."""
     region, out = study.objective.region, dict[str, float]()
     assert region is not None
-    if not places_o(region):
+    if o_is_placed(study):
         return dict.fromkeys(compared(study), math.nan)
     if not compared(study):
         return {}

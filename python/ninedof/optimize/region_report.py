@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from ninedof import _core
-from ninedof.design.pose import Pose
-from ninedof.design.study import Study
+from ninedof.design.poses import Pose
+from ninedof.sheet.plain_values import plain_fields
 from ninedof.support.arguments import items
 from ninedof.support.schema import read
 from ninedof.support.short import short_repr
@@ -81,10 +81,6 @@ class RegionReport:
         """Whether no limit is passed by more than 1e-7 of it, as far as a dense search of the region shows."""
         return self.looked_at >= DENSE and self.margin >= -PASSED
 
-    def posed(self, study: Study) -> Study:
-        """Return a region study with its poses and these in the place of the region."""
-        return posed(study, self.poses)
-
     @property
     def words(self) -> str:
         """The report in a sentence."""
@@ -116,12 +112,7 @@ class RegionReport:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values."""
-        return self.__dict__ | {
-            "poses": [pose.to_dict() for pose in self.poses],
-            "objective_at": self.objective_at.to_dict(),
-            "mean": None if self.mean is None else dict(self.mean.__dict__),
-            "leg_ranges": [list(pair) for pair in self.leg_ranges],
-        }
+        return plain_fields(self)
 
     @classmethod
     def from_core(cls, report: _core.RegionReport) -> RegionReport:
@@ -149,9 +140,3 @@ def _posed(pose: Any) -> Pose:
     """Return a pose of the core."""
     point = "best" if pose.best_internal else pose.internal
     return Pose(pose.position, pose.rotation, point, "zp" if pose.in_zp else "length", pose.weight)
-
-
-def posed(study: Study, poses: tuple[Pose, ...]) -> Study:
-    """Return a region study with further listed poses in the place of its region."""
-    objective = study.objective
-    return replace(study, objective=replace(objective, poses=(*objective.poses, *poses), region=None))

@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninedof.design.changes import with_scaled_limits
 from ninedof.design.duty import Tolerances
-from ninedof.design.region_poses import places_o
+from ninedof.design.limit_numbers import with_scaled_limits
+from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
+from ninedof.optimize.machine_proofs import machine_of
 from ninedof.proof.machine import NEUTRAL_LIMIT, open_limits
-from ninedof.sheet.limit_rows import limit_rows
+from ninedof.sheet.rows import limit_rows
 from ninedof.support.arguments import finite, flag, table, text
 from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr
@@ -61,21 +62,11 @@ class Reserve(Table):
 def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) -> Any:
     """Return the result whose limits are proved of every machine within the study's tolerances, if one is found.
 
-    What the proof of a design lacks is taken from its limits, and the study solved anew from there, until the proof
-    succeeds.
-
-    Parameters
-    ----------
-    result : Result
-        Of the study without a reserve.
-    solve : callable
-        Solves a study, from a result.
-    threads : int
-
+    What the proof of a design lacks is taken from its limits, and `solve` solves the study anew from there, until the
+    proof succeeds. The result given is of the study without a reserve.
     """
     study, shares, first, lacking = result.study, dict[str, float](), result, dict[str, float]()
-    region = study.objective.region
-    if region is not None and not places_o(region):
+    if o_is_placed(study):
         return replace(result, reserve=Reserve(note="no reserve for tolerances: O is placed anew at every pose"))
     for left in reversed(range(ROUNDS + 1)):
         if result.best is None or result.interrupted:
@@ -98,8 +89,7 @@ def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) 
 def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
     """Return the limits that are not proved of every machine within the tolerances, and the part to be kept of each."""
     best, out = result.best, dict[str, float]()
-    poses = best.configurations[: 1 + len(study.objective.poses)]
-    design = best.geometry, poses, best.characteristic_length, None
+    design = (*machine_of(result), None)
     # Where the design lies within a limit, the reserve begins at its own value: else it would change nothing.
     own = {
         f"{row.name} {row.side}": row.value / row.limit

@@ -11,25 +11,24 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-import numpy as np
-
-from ninedof.design.changes import changed_variables
 from ninedof.design.design_point import design_point
 from ninedof.design.duty import Tolerances
 from ninedof.design.limit_numbers import leg_limits_of
+from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
+from ninedof.design.variables import changed_variables
 from ninedof.optimize.actuator_choice import ActuatorChoice
-from ninedof.optimize.candidate import DERIVED, Candidate, candidate_at, candidate_from, plain_fields
+from ninedof.optimize.candidate import DERIVED, Candidate, candidate_at, candidate_from
 from ninedof.optimize.machine_proofs import certified, largest, machine_of, placing_of
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.reserve import Reserve
-from ninedof.optimize.tables import candidates_table, internal_point_words, summary_lines
-from ninedof.optimize.words import agreement_sentence
+from ninedof.optimize.tables import agreement_sentence, candidates_table, internal_point_words, summary_lines
 from ninedof.proof.machine import machine_digest
 from ninedof.proof.machine_file import machine_file
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.robot.configuration import Configuration
+from ninedof.sheet.plain_values import plain_fields
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arguments import choice, instance, items, path_argument
 from ninedof.support.arrays import Floats
@@ -101,7 +100,7 @@ class Result:
     @property
     def solved(self) -> Study:
         """The study with the poses that were solved for: those listed and, of a region, those that ruled."""
-        return self.study if self.region is None else self.region.posed(self.study)
+        return self.study if self.region is None else posed(self.study, self.region.poses)
 
     @property
     def best(self) -> Candidate | None:
@@ -189,11 +188,7 @@ class Result:
         """
         if self.best is None:
             return None
-        low, high = leg_limits_of(self.study, self.best.configuration)
-        if self.region is not None and self.region.leg_ranges:
-            least, most = np.transpose(self.region.leg_ranges)
-            low, high = np.maximum(low, least), np.minimum(high, most)
-        return low, high
+        return leg_limits_of(self.study, self.best.configuration, self.region.leg_ranges if self.region else ())
 
     def sheet(self, poses: Configuration | None = None, **options: Any) -> Sheet:
         """Return the engineering sheet of the best candidate: `ninedof.sheet` with its arguments."""
@@ -236,7 +231,7 @@ class Result:
         study = self.study
         if region is not None:
             region = replace(region, poses=region.poses if placing_of(self) is None else ())  # O is placed anew
-            study = region.posed(study)
+            study = posed(study, region.poses)
         problem = study.problem()
         try:
             point = design_point(problem, [values[name] for name in problem.names])
@@ -365,7 +360,7 @@ def result_from(study: Study, data: Mapping[str, Any]) -> Result:
     }
     entries = entries_of(Result, data, skipped=["status", "candidates", "study", *kinds])
     parts: dict[str, Any] = {n: kind.from_dict(data[n]) for n, kind in kinds.items() if data.get(n) is not None}
-    problem = (parts["region"].posed(study) if "region" in parts else study).problem()
+    problem = (posed(study, parts["region"].poses) if "region" in parts else study).problem()
     rows = items("candidates", data.get("candidates"), "a list of candidates")
     return Result(
         **entries,

@@ -10,10 +10,10 @@ from typing import Any
 from ninedof.design.duty import tolerances_like
 from ninedof.design.indices import objectives
 from ninedof.design.limits import AT, ROWS, Limit, label, names_with_max, split_label
-from ninedof.design.region_poses import places_o
+from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
-from ninedof.sheet.limit_rows import limit_rows
+from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.sheet import sheet
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import did_you_mean, shown
@@ -67,8 +67,7 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
     if name in labels:
         return study, name
     if name == TOLERANCE:
-        region = study.objective.region
-        if region is not None and not places_o(region):
+        if o_is_placed(study):
             raise ValueError(
                 'against: got "tolerance" for a study that places O anew at every pose, where the search leaves no '
                 "reserve for it, expected O shifted or held"

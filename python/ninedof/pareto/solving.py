@@ -39,17 +39,10 @@ class FrontSolver:
         self._solved, self.planned = 0, 0
 
     def solve(self, limit: float | None, warm: Iterable[Result | None] = (), few: bool = False) -> Result:
-        """Solve for one limit (None: no limit) and store the best result.
+        """Solve for one limit (None: none), with designs of results as additional starts, and store the best result.
 
-        Parameters
-        ----------
-        limit : float or None
-        warm : results
-            Their designs are additional starts.
-        few : bool
-            Whether the starts are others and fewer: the limit was solved before, or is only looked at. Over a region,
-            where a start is dear, one is enough besides the warm ones where all were tried before.
-
+        With `few` the starts are others and fewer: the limit was solved before, or is only looked at. Over a region,
+        where a start is dear, one is enough besides the warm ones where all were tried before.
         """
         study = with_limit(self.study, self.against, limit)
         if few:

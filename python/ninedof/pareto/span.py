@@ -6,11 +6,11 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
+from ninedof.optimize.machine_proofs import FIRST, MOST, STEP
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import Front, limit_text, objective_of
 from ninedof.pareto.limits import CONDITION_LIMIT, floor_of, own_value, value_of
 from ninedof.pareto.solving import FrontSolver
-from ninedof.proof.tolerance import FIRST, MOST, STEP
 
 MOST_OBJECTIVE = 3.0  # times the best objective: designs above it are ignored
 WIDE = 4.0  # times the study's own limit: the loosest where the study is unbounded without it
@@ -24,12 +24,6 @@ def of_a_limit(solver: FrontSolver) -> tuple[float, float] | None:
 
     The loosest limit is the value of the best design without the limit. The tightest is, to a few per cent, the least
     limit that allows a design with an objective of at most three times the best.
-
-    Raises
-    ------
-    ValueError
-        If the study is unbounded without the limit and has no value for it: the limits then have no scale.
-
     """
     without = solver.solve(None)
     if without.status == Status.INFEASIBLE:
@@ -51,15 +45,11 @@ def range_words(front: Front) -> str:
         beyond = "Larger tolerances" if front.of_tolerances else f"Limits below {first}"
         end = f"no design was found, or only some of {MOST_OBJECTIVE:g} times the least objective and more"
         words.append(f"{beyond} may have designs too: the rows end, roughly, where {end}.")
-    if not (front.of_tolerances or front.study.tolerances or _is_unbounded(front)):
+    own = None if front.of_tolerances else own_value(front.study, front.limit_name)
+    is_multiple = own is not None and math.isclose(front.limits[-1], WIDE * _scale(front) * own)  # and of no design
+    if not (front.of_tolerances or front.study.tolerances or is_multiple):
         words.append(f"From {last} on nothing changes: the best design without this limit keeps it.")
     return " ".join(words)
-
-
-def _is_unbounded(front: Front) -> bool:
-    """Return whether the loosest limit is a multiple of the study's own, and not that of a design."""
-    own = own_value(front.study, front.limit_name)
-    return own is not None and math.isclose(front.limits[-1], WIDE * _scale(front) * own)
 
 
 def _scale(front: Front) -> float:

@@ -19,7 +19,6 @@ if "matplotlib" not in _sys.modules and (_backend := _os.environ.pop("MPLBACKEND
         _matplotlib.rcParams["backend"] = _backend
 
 from ninedof.plot.admissible import admissible
-from ninedof.plot.atlas import atlas
 from ninedof.plot.compare import compare
 from ninedof.plot.convergence import convergence
 from ninedof.plot.drawing import drawing
@@ -32,7 +31,7 @@ from ninedof.plot.region_map import region_map
 from ninedof.plot.space.body import workspace_body
 from ninedof.plot.space.ellipsoid import ellipsoids
 from ninedof.plot.space.mechanism import Robot, mechanism, mechanisms
-from ninedof.plot.sweep import sweep
+from ninedof.plot.sweep import atlas, sweep
 from ninedof.plot.workspace import Section, certified_workspace, workspace
 
 __all__ = [

@@ -54,7 +54,7 @@ TWO_COLUMNS = 178.0 / 25.4
 TITLE_SIZE = 8.5  # points
 TEXT_SIZE = 8.0
 SMALL_SIZE = 7.0
-THICK, CURVE, THIN = 2.0, 1.4, 0.7  # points, of lines
+CURVE = 1.4  # points, of a line
 
 DPI = 200
 
@@ -113,18 +113,14 @@ def settings() -> AbstractContextManager[None]:
     return rc_context(_SETTINGS)
 
 
-def new_figure(width: float, height: float, layout: Any = None) -> Figure:
-    """Return an empty figure of a size in inches, with its own Agg canvas."""
-    figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
-    FigureCanvasAgg(figure)
-    return figure
-
-
 @contextmanager
 def page(figure: Figure | None, width: float, height: float, layout: Any = None) -> Iterator[Figure]:
     """Yield what to draw into, in the settings of all figures: the figure given, or a new one of a size in inches."""
     with settings():
-        yield new_figure(width, height, layout) if figure is None else figure
+        if figure is None:
+            figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
+            FigureCanvasAgg(figure)  # of its own
+        yield figure
 
 
 @contextmanager

@@ -9,8 +9,7 @@ from typing import Any
 
 from ninedof.design.actuators import LEG_KINDS, Actuator
 from ninedof.design.study import Study
-from ninedof.proof.design_range import LONGEST, design_range
-from ninedof.proof.existence import existence
+from ninedof.proof.design_range import LONGEST, design_range, existence
 from ninedof.support.arguments import finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS
 from ninedof.support.progress import Progress, part_of, progress_argument

@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof import _core
 from ninedof.design.study import Study
-from ninedof.proof.admissible_roots import for_core
 from ninedof.proof.design_range import DesignRange, HasDesign, design_values
 from ninedof.proof.machine_record import ProofPose
 from ninedof.support.arguments import finite, path_argument, shown, table
@@ -24,6 +23,7 @@ from ninedof.support.files import write_whole
 
 INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
 STATES = (INSIDE, OUTSIDE, UNDECIDED)
+PIECES = ("low", "high", "state", "demand", "poses")
 AROUND_SECONDS = 20.0
 ON_LIMIT, EASED_SECONDS = 1e-6, 5.0  # of a limit: what the optimizer's designs on it may pass it by
 
@@ -219,3 +219,8 @@ def _pose(row: list[float]) -> ProofPose:
     if listed >= 0:
         return ProofPose(listed=int(listed))
     return ProofPose((x, y, z), (tilt_x, tilt_y, 0.0), yaw)
+
+
+def for_core(pieces: Mapping[str, Any]) -> dict[str, Any]:
+    """Return pieces as the core takes them, for a run that goes on."""
+    return {name: pieces[name].tolist() if name in ("state", "demand") else pieces[name] for name in PIECES}

@@ -1,4 +1,4 @@
-"""A range of designs: which variables of a study vary, between which ends, and what the others are."""
+"""A range of designs: which variables of a study vary, between which ends; whether any of them keeps every limit."""
 
 from __future__ import annotations
 
@@ -6,23 +6,26 @@ import math
 from collections.abc import Collection, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.changes import angles_in_radians, given_values, with_scaled_limits
-from ninedof.design.region_poses import configurations_at, places_o
+from ninedof.design.limit_numbers import with_scaled_limits
+from ninedof.design.region_poses import configurations_at, o_is_placed
 from ninedof.design.study import Study
+from ninedof.design.variables import angles_in_radians, given_values
 from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import plain_name
 from ninedof.support.arguments import finite, items, shown, table, text
 from ninedof.support.arrays import Floats
 from ninedof.support.files import sha256
+from ninedof.support.progress import Progress
 from ninedof.support.structs import Fixed
 from ninedof.support.units import amount
 
+EXISTS, NONE, UNDECIDED = "exists", "none", "undecided"
 MOST_VARIED = 4
 LONGEST = 1e9  # seconds
 METHOD = 3  # of the proofs: sets that another one proved are not gone on with
@@ -138,11 +141,8 @@ def design_range(
     """Return what `admissible` is asked for, checked; it says what the arguments mean. `most` variables may vary."""
     study, values = _asked(of, at)
     expected = f"names of one to {most} variables"
-    given = (
-        {_name(name): ends for name, ends in vary.items()}
-        if isinstance(vary, Mapping)
-        else dict.fromkeys(map(_name, items("vary", vary, expected)))
-    )
+    pairs = vary.items() if isinstance(vary, Mapping) else [(name, None) for name in items("vary", vary, expected)]
+    given = {text("vary", name): ends for name, ends in pairs}
     if not 1 <= len(given) <= most:
         raise ValueError(f"vary: got {shown(vary)}, expected {expected}")
     ends = angles_in_radians(study, {name: two for name, two in given.items() if two is not None}, _ends)
@@ -179,14 +179,9 @@ def _asked(of: Study | HasDesign, at: Mapping[str, float | str] | None) -> tuple
     if of is not study:
         values |= {name: x for name, x in design_values(of).items() if name in study.variables}  # type: ignore[arg-type]
     values |= given_values(study, values, {} if at is None else table("at", at), "at")
-    region = study.objective.region
-    if region is not None and not places_o(region):
+    if o_is_placed(study):
         raise ValueError('internal_point: got "best", expected a region that says where O is: "shifted" or "held"')
     return study, values
-
-
-def _name(name: object) -> str:
-    return text("vary", name)
 
 
 def _ends(name: str, ends: object) -> tuple[float, float]:
@@ -204,3 +199,40 @@ def _range(study: Study, name: str, ends: tuple[float, float] | None) -> tuple[f
     if not low < high:
         raise ValueError(f"vary.{name}: got ({low:g}, {high:g}), expected low < high")
     return low, high
+
+
+class Existence(NamedTuple):
+    """An answer, proved but for "undecided"."""
+
+    state: str
+    design: dict[str, float] | None
+    """One that exists: the variables that vary."""
+    designs: int
+    """Boxes of designs that were looked at."""
+    left: int
+    """Boxes that are not decided."""
+    interrupted: bool
+    certificate: bytes
+    """Of "none", where it is asked for: a file that ninedof_check replays."""
+
+
+def existence(
+    of: DesignRange,
+    *,
+    seconds: float = LONGEST,
+    resolution: float = 0.0,
+    threads: int = 0,
+    certificate: bool = False,
+    progress: Progress | None = None,
+) -> Existence:
+    """Say whether any design of the range keeps every limit at every pose."""
+    state, x, designs, left, interrupted, written = _core.any_admissible(
+        of.for_core(),
+        threads=threads,
+        seconds=min(seconds, LONGEST),
+        resolution=resolution,
+        certificate=certificate,
+        progress=progress,
+    )
+    design = dict(zip(of.vary, x, strict=True)) if state == EXISTS else None
+    return Existence(state, design, designs, left, interrupted, written)

@@ -14,7 +14,7 @@ from ninedof.design.duty import Tolerances
 from ninedof.design.limits import label
 from ninedof.design.objective import Objective
 from ninedof.design.region import Region
-from ninedof.design.region_poses import places_o
+from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate, ProofPose
 from ninedof.proof.point_rule import PointRule
@@ -60,49 +60,9 @@ def certify(
 ) -> MachineCertificate:
     """Prove the limits of a study for one design, and enclose its worst condition number.
 
-    The limits are those of the constraints and, of the objective, condition_limit and neutral_condition_limit.
-
-    Parameters
-    ----------
-    study : Study
-    geometry : Geometry
-    configurations : Configuration, shape (n,)
-        The neutral one, then the poses listed in the study.
-    characteristic_length : float
-    condition_number : float, optional
-        A bound of the condition number to be proved: one more limit.
-    gap : float
-        Relative width of the enclosure of the worst condition number, twice that of the errors of a machine as built.
-    time_limit : float
-        Seconds for the condition number; each limit has five at least.
-    slack : float
-        Relative: a limit that is passed by no more counts as kept. Designs of the optimizer lie on their limits.
-    tolerance : float or Tolerances, optional
-        As built: all is proved of every machine whose joint centres and leg lengths are within the tolerances of the
-        drawing, the error of its pose to the lengths of the drawing too. A number is that of joints and legs. Those of
-        the study by default; 0 for the machine of the drawing alone.
-    threads : int
-        0: one per processor.
-    rule : PointRule or callable, optional
-        Where O is in the region; needed where the study places it anew at every pose, unless `resume` has it. A
-        function without arguments is called for it once all else is known to fit.
-    resume : MachineCertificate, optional
-        An earlier one of the same design, whose boxes left are to be gone on with.
-    progress : callable, optional
-        Called with boxes done, 0, and the worst condition number met; one with a method `phase` is told what begins.
-    keep : callable, optional
-        Called every 20 seconds with the certificate so far, as that of a run that is interrupted: another run goes on
-        with it by `resume`.
-
-    Returns
-    -------
-    MachineCertificate
-
-    Raises
-    ------
-    ValueError
-        For a bad argument.
-
+    The limits are those of the constraints and, of the objective, condition_limit and neutral_condition_limit. The
+    configurations are the neutral one, then the poses listed in the study. `Result.certify` says what the options mean;
+    a `rule` that is a function without arguments is called for it once all else is known to fit.
     """
     values = options_of("certify", CertifyArguments, options, gap=0.05, time_limit=300.0, slack=1e-6, threads=0)
     region = study.objective.region
@@ -131,7 +91,7 @@ def certify(
     if resume is not None and resume.machine != digest:
         raise ValueError("resume: got a certificate of another machine, expected one of this machine")
     begin = perf_counter()
-    rule = _rule(region, configurations[0], values["rule"], resume)
+    rule = _rule(study, configurations[0], values["rule"], resume)
     end = perf_counter() + seconds  # finding a rule does not count for the time limit
 
     def settings(bounds: list[float]) -> _core.ConditionSettings:
@@ -292,13 +252,13 @@ def _state_of(earlier: MachineCertificate | None) -> _core.ConditionState:
 
 
 def _rule(
-    region: Region | None,
+    study: Study,
     neutral: Configuration,
     option: PointRule | Callable[[], PointRule] | None,
     resume: MachineCertificate | None,
 ) -> PointRule | None:
     """Return the rule that O follows, if it follows one."""
-    if region is None or places_o(region):
+    if not o_is_placed(study):
         if option is not None:
             raise ValueError(
                 'rule: got one, expected none: O follows a rule where internal_point is "best" in a region'

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from ninedof import _core
 from ninedof.design.duty import Tolerances
-from ninedof.design.region_poses import places_o
+from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.proof.design_range import DesignRange
 from ninedof.proof.machine_record import PROVED, MachineCertificate
@@ -37,5 +37,5 @@ def require_replayable(study: Study, tolerances: Tolerances) -> None:
             f"tolerance: got {max(tolerances.joints, tolerances.legs):g}, expected 0 (--tolerance 0, tolerance=0) for "
             "a file that is replayed: it is of the machine as it is drawn"
         )
-    if study.objective.region is not None and not places_o(study.objective.region):
+    if o_is_placed(study):
         raise ValueError('internal_point: got "best", expected "shifted" or "held" for a file that is replayed')

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ninedof.sheet.plain_values import plain_fields
 from ninedof.support.arguments import finite, path_argument
 from ninedof.support.files import write_whole
 from ninedof.support.short import short_repr
 from ninedof.support.structs import entries_of
 
 FILE = "optimum.certificate"
-PLAIN = ("lower_bound", "target", "complete", "boxes", "open", "seconds", "better", "interrupted", "where")
 
 
 @short_repr
@@ -78,7 +78,7 @@ class OptimumProof:
 
     def to_dict(self) -> dict[str, Any]:
         """Return every field but the certificate as plain values."""
-        return {name: getattr(self, name) for name in PLAIN} | {"left_out": list(self.left_out)}
+        return plain_fields(self, "certificate")
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> OptimumProof:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.design.region_poses import Placing
 from ninedof.motion.rotations import from_vectors
-from ninedof.robot.configuration import Configuration
+from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
 from ninedof.support.progress import Progress, phase
@@ -46,22 +46,13 @@ class PointRule:
     @classmethod
     def of(cls, neutral: Configuration, rule: _core.PointRule) -> PointRule:
         """Make a rule about a neutral configuration."""
-        return cls(
-            tuple(neutral.position.tolist()),
-            tuple(map(tuple, neutral.rotation.tolist())),
-            tuple(neutral.internal_point.tolist()),
-            tuple(map(float, rule.scale)),
-            tuple(tuple(map(int, row)) for row in rule.powers),
-            tuple((float(x), float(y), float(z)) for x, y, z in rule.coefficients),
-        )
+        c = neutral
+        parts = (c.position, c.rotation, c.internal_point, rule.scale, rule.powers, rule.coefficients)
+        return cls(*(_tuples(np.asarray(part).tolist()) for part in parts))
 
     def about(self, neutral: Configuration) -> bool:
         """Whether the rule begins at a neutral configuration."""
-        return (
-            np.array_equal(neutral.position, self.position)
-            and np.array_equal(neutral.rotation, self.rotation)
-            and np.array_equal(neutral.internal_point, self.internal_point)
-        )
+        return all(np.array_equal(array, getattr(self, name)) for name, array in arrays_of(neutral).items())
 
     @property
     def degree(self) -> int:
@@ -121,6 +112,10 @@ class PointRule:
 
         """
         return made(cls, data, "rule")
+
+
+def _tuples(value: Any) -> Any:
+    return tuple(map(_tuples, value)) if isinstance(value, list) else value
 
 
 def rule_of(

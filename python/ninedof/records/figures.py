@@ -17,8 +17,8 @@ from ninedof import plot
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.design_point import DesignPoint
 from ninedof.design.duty import Tool
-from ninedof.design.pose import Pose
-from ninedof.design.region_outline import region_lines
+from ninedof.design.poses import Pose
+from ninedof.design.region import region_lines
 from ninedof.optimize.optimize import trace
 from ninedof.optimize.region_map import region_map
 from ninedof.optimize.result import Result

@@ -6,8 +6,7 @@ import os
 from pathlib import Path
 
 from ninedof.design.study import Study
-from ninedof.proof.admissible_roots import PIECES
-from ninedof.proof.admissible_set import STATES, AdmissibleSet
+from ninedof.proof.admissible_set import PIECES, STATES, AdmissibleSet
 from ninedof.proof.design_range import DesignRange
 from ninedof.proof.machine_record import FORMAT, MachineCertificate
 from ninedof.records.load import split

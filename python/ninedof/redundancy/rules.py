@@ -7,8 +7,6 @@ from typing import Any
 
 from ninedof.support.units import amount
 
-RULES = ("carried", "shifted", "held", "best")
-
 WORDS = {
     "carried": "carried as a point of the platform",
     "shifted": "shifted with the platform's origin",
@@ -16,6 +14,7 @@ WORDS = {
     "best": "placed at its best",
 }
 """The words after "O is"."""
+RULES = tuple(WORDS)
 
 MEANING = {
     "carried": "Qᵀ (s - p) stays as at the neutral pose",
@@ -35,9 +34,10 @@ def where_o(rule: Any, unit: str = "") -> str:
     if isinstance(rule, int | float):
         return f"at {rule:.4g} of the way from the lower to the upper internal joints"
     if isinstance(rule, Mapping):
-        return f"{WORDS['carried']}, at {amount(_point(rule['platform']), unit)} of its frame"
-    return f"{WORDS['held']}, at {amount(_point(rule), unit)}"
+        return f"{WORDS['carried']}, at {amount(point_words(rule['platform']), unit)} of its frame"
+    return f"{WORDS['held']}, at {amount(point_words(rule), unit)}"
 
 
-def _point(values: Iterable[float]) -> str:
+def point_words(values: Iterable[float]) -> str:
+    """Return a point in brackets."""
     return "(" + ", ".join(f"{value + 0.0:.6g}" for value in values) + ")"

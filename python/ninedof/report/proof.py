@@ -23,7 +23,7 @@ STATUS = {
 }
 
 
-def of_result(result: Result, certificate: MachineCertificate | None = None) -> Html:
+def of_result(result: Result, certificate: MachineCertificate | None) -> Html:
     """Return what is established of an optimization and what is not; `certificate`: what `ninedof certify` proved."""
     proofs = [*(certificate.sentences() if certificate else ()), *_checked(result)]
     kept = result.reserve is not None and result.reserve.proved  # of every machine within the tolerances
@@ -89,14 +89,10 @@ def _checked(result: Result) -> Iterator[str]:
             yield f"Proved: {bound.sentence}."
 
 
-def _best_of_all(result: Result) -> bool:
-    """Whether it is proved that no design is better by more than rounding shows."""
-    return result.proof is not None and result.proof.gap(float(result.condition_number or 0.0)) < ROUNDING
-
-
 def _searched(result: Result, between: bool) -> Iterator[str]:
-    best, region = result.best, result.region
-    if best is not None and result.status == Status.OPTIMAL and not _best_of_all(result):
+    best, region, proof = result.best, result.region, result.proof
+    is_best = best is not None and proof is not None and proof.gap(best.condition_number) < ROUNDING
+    if best is not None and result.status == Status.OPTIMAL and not is_best:
         yield "That no other design is better. The starts are evidence only: see their agreement above."
     if region is not None and not between:
         pass  # proved

@@ -18,12 +18,9 @@ from ninedof.records.load import load
 from ninedof.records.proofs import certificate_file, load_certificate
 from ninedof.records.record import Record, load_record
 from ninedof.report import origin
-from ninedof.report.figures import OWN, figure, figures, image, stems
-from ninedof.report.front import of_front
-from ninedof.report.optimization import of_result
-from ninedof.report.page import Page, page
-from ninedof.report.recorded import FROM_RECORD, of_recorded
-from ninedof.report.workspace import of_workspace
+from ninedof.report.optimization import of_front, of_result
+from ninedof.report.page import OWN, Page, figure, figures, image, page, stems
+from ninedof.report.recorded import FROM_RECORD, of_recorded, of_workspace
 from ninedof.tables.html import Html, html_of, joined
 from ninedof.workspace import WorkspaceMap
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ninedof.design.study import LENGTH
-from ninedof.sheet.limit_rows import LimitRow, limit_amount
 from ninedof.sheet.plain_values import plain as plain_values
+from ninedof.sheet.rows import LimitRow, limit_amount
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.sheet.tables import over, pose_of
 from ninedof.support.arguments import shown

@@ -11,9 +11,8 @@ from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.duty import duty_of, masses_of
 from ninedof.sheet.region_look import SAMPLES, RegionSearch, look_over, robot_of
-from ninedof.sheet.request import load_rows
+from ninedof.sheet.request import duty_of, load_rows, masses_of
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.statics.masses import masses_for_core

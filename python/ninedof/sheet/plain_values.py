@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
+from enum import StrEnum
 from typing import Any
 
 from ninedof.robot.configuration import Configuration, arrays_of
@@ -13,8 +14,9 @@ OPTIONAL = ("unit", "tool", "masses")
 
 
 def plain_fields(result: Any, *skipped: str) -> dict[str, Any]:
-    """Return the fields of a dataclass as plain values, but for some."""
-    values = {one.name: getattr(result, one.name) for one in fields(result) if one.name not in skipped}
+    """Return the fields of a dataclass as plain values, but for some, and for those that follow from others."""
+    names = [one.name for one in fields(result) if one.name not in skipped and not one.metadata.get("derived")]
+    values = {name: getattr(result, name) for name in names}
     return {name: plain(value) for name, value in values.items() if name not in OPTIONAL or value}
 
 
@@ -24,6 +26,10 @@ def plain(value: Any) -> Any:
         return value.to_dict()
     if hasattr(value, "_asdict"):
         value = value._asdict()
+    if is_dataclass(value):
+        return plain_fields(value)
+    if isinstance(value, StrEnum):
+        return str(value)
     if isinstance(value, dict):
         return {key: plain(one) for key, one in value.items()}
     return [plain(one) for one in value] if isinstance(value, tuple) else value

@@ -8,8 +8,8 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length, length_argument
-from ninedof.design.pose import Pose
-from ninedof.design.region_poses import Placing, configurations_at, places_o, poses_at
+from ninedof.design.poses import Pose
+from ninedof.design.region_poses import Placing, configurations_at, o_is_placed, poses_at
 from ninedof.robot.configuration import Configuration, flat
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import shown
@@ -59,9 +59,9 @@ def look_over(design: Any, c: Configuration, question: _core.SheetQuestion, coun
     study: Any = getattr(design, "study", None)
     region = None if study is None else study.objective.region
     ranges: Any = getattr(getattr(design, "region", None), "leg_ranges", None)
-    if region is None or not (places_o(region) or ranges is not None):
+    if region is None or (o_is_placed(study) and ranges is None):
         return Looked(c)
-    place = None if places_o(region) else Placing(study, c[0], design.variables, design.objective, ranges)
+    place = None if not o_is_placed(study) else Placing(study, c[0], design.variables, design.objective, ranges)
     samples = 2 * (count if place is None else min(count, PLACED))
     end = _core.sheet_over_region(question, region.for_core(), samples, None if place is None else place.for_core())
     search, at = from_core(RegionSearch, end, region=region.worded(study.unit)), end.worst

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Unpack
 
 import numpy as np
@@ -13,18 +13,25 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_limits
-from ninedof.design.pose import Pose
-from ninedof.design.study import Study
+from ninedof.design.region_poses import posed
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.sheet.duty import duty_of, masses_besides_platform, weight_of, with_duty
-from ninedof.sheet.legs import LegRow, leg_rows
-from ninedof.sheet.limit_rows import LimitRow, limit_rows
-from ninedof.sheet.near_singularity import NearSingularity, near_singularities
 from ninedof.sheet.plain_values import plain_fields, rows_of
 from ninedof.sheet.pose_words import turn_deg
 from ninedof.sheet.region_look import SAMPLES, Looked, RegionSearch, look_over, robot_of
-from ninedof.sheet.request import Motion, SheetArguments, Weight, load_rows, motion_of, question_of
+from ninedof.sheet.request import (
+    Motion,
+    SheetArguments,
+    Weight,
+    duty_of,
+    load_rows,
+    masses_besides_platform,
+    motion_of,
+    question_of,
+    weight_of,
+    with_duty,
+)
+from ninedof.sheet.rows import LegRow, LimitRow, NearSingularity, leg_rows, limit_rows, near_singularities
 from ninedof.sheet.tables import lengths_table, limits_table, summary_parts, worst_table
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import MOST_SAMPLES
@@ -343,7 +350,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         stiffness=Stiffness(*(extreme(x, np.argmin) for x in numbers["stiffness"].T))
         if "stiffness" in numbers
         else None,
-        limits=limit_rows(_with_poses(duty, looked.worst), design.variables) if hasattr(design, "solved") else (),
+        limits=limit_rows(posed(duty, looked.worst), design.variables) if hasattr(design, "solved") else (),
         region=region,
         unit=duty.unit if values["unit"] is None else unit_argument(values["unit"]),
         cone_axes={name: () if one is None else one.axis for name, one in cone_limits(duty).items()},
@@ -352,10 +359,6 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         stated=stated,
         tool=duty.tool,
     )
-
-
-def _with_poses(study: Study, poses: Sequence[Pose]) -> Study:
-    return replace(study, objective=replace(study.objective, poses=(*study.objective.poses, *poses)))
 
 
 def _tolerances(legs: ArrayLike | None, joints: ArrayLike | None) -> _core.Tolerances | None:

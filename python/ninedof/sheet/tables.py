@@ -10,8 +10,8 @@ import numpy as np
 
 from ninedof.redundancy.rules import WORDS
 from ninedof.robot.idle import NEVER_CARRY, NEVER_MOVE, unloaded_names
-from ninedof.sheet.limit_rows import limit_amount
 from ninedof.sheet.pose_words import pose_words, vector_words
+from ninedof.sheet.rows import limit_amount
 from ninedof.support.margins import is_violated, margin_words
 from ninedof.support.units import amount, per, times
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table, grouped

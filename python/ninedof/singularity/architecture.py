@@ -95,7 +95,7 @@ def architecture_singularity(geometry: Geometry) -> ArchitectureSingularity:
     return ArchitectureSingularity(nearest, legs, distance, relative, *_core.similar_triangles(geometry))
 
 
-def architecture_sentences(design: HasRobot, unit: str = "") -> list[str]:
+def architecture_sentences(design: HasRobot, unit: str) -> list[str]:
     """Return what is said of a design near one that is singular at every pose, or at every position as it is turned."""
     out, geometry = [], robot_of(design)
     near = architecture_singularity(geometry)

@@ -20,9 +20,8 @@ from ninedof.support.units import amount
 from ninedof.viewer.machine import Variant
 from ninedof.viewer.numbers import limits_at
 from ninedof.viewer.shapes import Mesh
-from ninedof.workspace.region_share import EASE
 from ninedof.workspace.search import workspace
-from ninedof.workspace.study_question import study_limits
+from ninedof.workspace.study_question import EASE, study_limits
 
 COARSE = {"tolerance": 0.01, "resolution": 16, "points": 1000, "most_evaluations": 400_000}
 COARSE_SEARCHED = {"tolerance": 0.05, "resolution": 6, "points": 64, "most_evaluations": 20_000}
@@ -110,12 +109,7 @@ def body_of(variant: Variant, question: dict[str, Any], unit: str, progress: Any
 class BodySearch:
     """The search for a workspace in a thread of its own; it is given up when another one begins.
 
-    Parameters
-    ----------
-    show : callable
-        Called with the number of a search and what it found, from its thread. The search may be given up before that
-        is shown: see `counts`.
-
+    From there `show` is called with the number of the search and what it found; `counts` says whether to show that.
     """
 
     def __init__(self, show: Callable[[int, Body], None]) -> None:

@@ -10,7 +10,6 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from ninedof.design.limit_numbers import compared
-from ninedof.design.region_poses import places_o
 from ninedof.export.export import export, formats
 from ninedof.motion.follow import follow
 from ninedof.motion.trajectory import Trajectory
@@ -81,7 +80,7 @@ def spread_words(machine: Machine) -> str:
         return ""
     over = "the poses of the study"
     if machine.region is not None:
-        over = "the region" if places_o(machine.region) else "the region (q and r: the poses of the study)"
+        over = "the region" + " (q and r: the poses of the study)" * (machine.region.internal_point == "best")
     verb = "compares" if len(names) == 1 else "compare"
     what = " and ".join(names).replace("_", " ").capitalize()
     return f"{what} {verb} the lengths of the legs over {over} and at the pose shown."
@@ -268,16 +267,7 @@ def send(viewer: Any, kind: str, client: Any) -> str:
 
 
 def files_of(viewer: Any, kind: str) -> dict[str, bytes]:
-    """Return the files of a kind, by name; the picture alone needs a browser.
-
-    Raises
-    ------
-    ValueError
-        If what is shown cannot be written so.
-    MissingExtra
-        If that needs a package that is not installed.
-
-    """
+    """Return the files of a kind, by name; the picture alone needs a browser."""
     with viewer.lock:
         state = viewer.state
         design, rule, player, variant = state.design, state.rule, state.player, state.variant

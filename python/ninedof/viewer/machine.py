@@ -12,11 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof.conditioning.characteristic_length import characteristic_length
-from ninedof.design.family_variables import variables_of
 from ninedof.design.limit_numbers import compared, leg_limits_of
 from ninedof.design.region import Region
-from ninedof.design.region_poses import places_o
-from ninedof.design.study import FAMILIES, Study, variable_kinds
+from ninedof.design.study import FAMILIES, LENGTH, Study, variable_kinds
+from ninedof.design.variables import variables_of
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables
@@ -26,9 +25,7 @@ from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.plates import points_of
 from ninedof.support.arrays import Floats
-from ninedof.workspace.region_share import leg_ranges_over
-
-LENGTH = "characteristic_length"
+from ninedof.workspace.study_question import leg_ranges_over
 
 
 class Variable(NamedTuple):
@@ -138,14 +135,7 @@ class Machine:
         return sliders
 
     def variant(self, variables: Mapping[str, float], length: float | None = None) -> Variant:
-        """Return the design of variables; a length of a kind is taken at its neutral pose unless one is given.
-
-        Raises
-        ------
-        ValueError
-            If there is no such design.
-
-        """
+        """Return the design of variables; a length of a kind is taken at its neutral pose unless one is given."""
         g, home, study = self.design.geometry, self.design.configuration, self.study
         lengths, margins = None, None
         if self.problem is not None:
@@ -167,7 +157,7 @@ class Machine:
         if region is None or study is None or not compared(study):
             return lengths
         ends = np.array(leg_ranges_over(region, g, home))
-        if not places_o(region):
+        if region.internal_point == "best":
             ends[:, 3:] = lengths[0, 3:]  # nothing beyond the poses
         return np.concatenate([lengths, ends])
 
@@ -180,25 +170,14 @@ class Machine:
         return float(characteristic_length(g, home, length)) if isinstance(length, str) else float(length)
 
     def _leg_limits(self, home: Configuration) -> tuple[Floats, Floats]:
-        low, high = np.zeros(9), np.full(9, math.inf)
-        if self.study is not None:
-            low, high = leg_limits_of(self.study, home)
-        region = None if self.result is None else self.result.region
-        if region is not None and region.leg_ranges:
-            least, most = np.transpose(region.leg_ranges)
-            low, high = np.maximum(low, least), np.minimum(high, most)
-        return low, high
+        if self.result is None:
+            return np.zeros(9), np.full(9, math.inf)
+        region = self.result.region
+        return leg_limits_of(self.result.study, home, () if region is None else region.leg_ranges)
 
 
 def machine_of(design: Any = None) -> Machine:
-    """Return the machine that an argument `design` names: the published design without one.
-
-    Raises
-    ------
-    ValueError
-        If it is no design: neither a Design, nor a Result with one, nor a path that `ninedof.load` reads as one.
-
-    """
+    """Return the machine that an argument `design` names: the published design without one."""
     name = "design"
     if design is None:
         design = hexagonal_design(published_variables())

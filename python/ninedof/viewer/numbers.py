@@ -11,12 +11,12 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number, singular_values
 from ninedof.design.limit_numbers import CONES, SPREADS
 from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
-from ninedof.design.limits import ROWS, split_label
+from ninedof.design.limits import kind_of, split_label
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.limit_rows import LimitRow
 from ninedof.sheet.pose_limits import PoseLimit, pose_limits
+from ninedof.sheet.rows import LimitRow
 from ninedof.singularity.singularity import SingularityMargins, singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import is_violated, margin_of
@@ -116,4 +116,4 @@ def _of_design(variant: Variant, limits: Sequence[PoseLimit]) -> list[LimitRow]:
 
 def _kind(label: str) -> str:
     name = split_label(label)[0]
-    return "length" if name == RANGE else ROWS[name].kind if name in ROWS else "ratio"
+    return "length" if name == RANGE else kind_of(name)

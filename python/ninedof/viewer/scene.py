@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.region_outline import region_lines
+from ninedof.design.region import region_lines
 from ninedof.motion.rotations import to_quaternions
 from ninedof.plot import style
 from ninedof.robot.configuration import Configuration

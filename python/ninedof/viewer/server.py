@@ -25,16 +25,7 @@ _patching = threading.Lock()
 
 
 def start(host: str, port: int) -> Any:
-    """Return a server of viser at a port; 0 takes any free one.
-
-    Raises
-    ------
-    MissingExtra
-        Without viser.
-    ValueError
-        If the port is in use, the host is no address of this machine, or viser lets nobody look at its requests.
-
-    """
+    """Return a server of viser at a port; 0 takes any free one. ValueError names a port or host that cannot be used."""
     viser = optional("viser", "viewer", "the viewer")
     _require_free(host, whole("port", port, 0, 65535))
     logging.getLogger("websockets.server").addFilter(_no_handshake)  # only once, however often it is added

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.study import LENGTH
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.rotations import from_vectors, to_quaternions, vectors_between
 from ninedof.motion.trajectory import Trajectory
@@ -22,7 +23,7 @@ from ninedof.statics.statics import Ellipsoid, force_ellipsoid, velocity_ellipso
 from ninedof.support.arguments import choice, known_keys
 from ninedof.support.arrays import Floats
 from ninedof.viewer.body import Body
-from ninedof.viewer.machine import LENGTH, Machine
+from ninedof.viewer.machine import Machine
 
 ELLIPSOIDS = {
     "none": None,

@@ -17,6 +17,7 @@ from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import Saved
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount
+from ninedof.workspace.question import SETS
 
 AXES = ("x", "y", "z")
 ENDS = {
@@ -28,7 +29,6 @@ ENDS = {
 }
 
 OF_ALL = "the gap asked for is reached by all allowed poses together"
-SETS = ("reachable", "inclusive", "dexterous")
 
 States = NDArray[np.int8]
 

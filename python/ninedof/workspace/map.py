@@ -17,9 +17,8 @@ from ninedof.support.arrays import Floats
 from ninedof.support.files import Saved
 from ninedof.support.structs import from_core
 from ninedof.tables.html import notebook
-from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of
+from ninedof.workspace.cells import LIMITS, IndexStatistics, WorkspaceCells, WorkspaceSlice, group_of
 from ninedof.workspace.certified_record import CertifiedWorkspace
-from ninedof.workspace.statistics import IndexStatistics
 from ninedof.workspace.tables import workspace_table
 
 MOST_VOXELS = 1_300_000

@@ -20,10 +20,9 @@ from ninedof.support.arrays import as_number, thread_argument
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.structs import from_core
 from ninedof.support.units import unit_argument
-from ninedof.workspace.cells import WorkspaceCells
+from ninedof.workspace.cells import WorkspaceCells, statistics_of
 from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
 from ninedof.workspace.question import question_of
-from ninedof.workspace.statistics import statistics_of
 from ninedof.workspace.study_question import design_question
 
 METHODS = ("octree", "grid", "sample")

@@ -1,10 +1,10 @@
-"""The workspace that the result of a study asks for: its limits at a pose, the lengths its legs are built for, O."""
+"""The workspace that a result asks for: limits at a pose, lengths of its legs, O, and a box about its region."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,8 +12,8 @@ from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, LEGS, PARTS, SPREADS
-from ninedof.design.region import Region
-from ninedof.design.region_poses import places_o
+from ninedof.design.region import Region, extent
+from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
@@ -21,8 +21,49 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.designs import HasRobot, robot_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
-from ninedof.workspace.question import ROWS
-from ninedof.workspace.region_share import EASE, box_about, leg_ranges_over
+from ninedof.support.structs import from_core
+from ninedof.workspace.question import ROWS, criteria_of
+
+EASE = 1e-9
+"""Share by which limits are eased: an optimum lies on some of them, and rounding would put its home pose outside."""
+COUNT = 10_000  # even poses, and as many toward the boundary
+ROOM = 2.0  # about the region in the box of a map, in its largest half edge
+
+
+class RegionShare(NamedTuple):
+    """The share of a region that keeps the criteria of a workspace."""
+
+    share: float
+    """Of the even poses of the region that keep all criteria, 0 to 1."""
+    looked_at: int
+    """Even poses, and as many drawn toward the boundary."""
+    passed: tuple[str, ...]
+    """Criteria that some pose passes, on the boundary or inside."""
+
+
+def region_share(
+    region: Region, g: Geometry, home: Configuration, criteria: Mapping[str, Any], characteristic_length: float
+) -> RegionShare:
+    """Return how much of a region keeps the criteria of a workspace, with its tilts, O as the region has it."""
+    question = _core.WorkspaceQuestion(g, home=home, criteria=criteria_of(criteria, characteristic_length))
+    return from_core(RegionShare, _core.region_share(question, region.for_core(), COUNT))
+
+
+def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[Floats, Floats]:
+    """Return the shortest and longest length of each leg over a region, shapes (9,): of the legs that are built for it.
+
+    Eased by `EASE` of themselves.
+    """
+    shortest, longest = _core.leg_lengths_over(g, home, region.for_core(), 2 * COUNT)
+    return shortest * (1.0 - EASE), longest * (1.0 + EASE)
+
+
+def box_about(region: Region, home: Configuration) -> tuple[Floats, Floats]:
+    """Return the low and high corner of a box about the positions of a region, with room on every side."""
+    low, high = extent(region, home)
+    room = ROOM * 0.5 * float((high - low).max())
+    return low - room, high + room
+
 
 ACTUATOR_WORDS = {
     "permitted": "workspace of the actuators that the study permits: ranges about the lengths its poses need",
@@ -31,7 +72,7 @@ ACTUATOR_WORDS = {
 ACTUATORS = tuple(ACTUATOR_WORDS)
 
 
-def study_question(result: Result, actuators: str = ACTUATORS[0]) -> tuple[dict[str, Any], list[str]]:
+def study_question(result: Result) -> tuple[dict[str, Any], list[str]]:
     """Return arguments of `workspace` for a result: its positions in the neutral orientation within its study's limits.
 
     The same limits and the same rule for O as `ninedof workspace RUN` has; the box holds all that a home height
@@ -42,7 +83,7 @@ def study_question(result: Result, actuators: str = ACTUATORS[0]) -> tuple[dict[
     g, home = best.geometry, best.configuration
     limits, left = study_limits(result.study, g, home)
     criteria = with_leg_limits(limits)
-    if any(name in SPREADS for name in left) and (built := built_ranges(result, actuators)) is not None:
+    if any(name in SPREADS for name in left) and (built := built_ranges(result, ACTUATORS[0])) is not None:
         criteria, left = narrowed(criteria, *built), [name for name in left if name not in SPREADS]
     own = _own_arguments(g, home, region, result.study.tool, best.characteristic_length, result.study.unit)
     return own | {"criteria": criteria}, left
@@ -136,14 +177,7 @@ def with_leg_limits(limits: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def leg_ranges(ranges: Mapping[str, tuple[float, float]]) -> tuple[Any, Any] | None:
-    """Return the leg limits that all given ranges leave: two numbers where they are those of all nine legs.
-
-    Raises
-    ------
-    ValueError
-        If a range is empty by itself.
-
-    """
+    """Return the leg limits that all given ranges leave: two numbers where they are those of all nine legs."""
     low, high = np.zeros(9), np.full(9, np.inf)
     for name, (least, most) in ranges.items():
         if not 0.0 <= least < most:
@@ -156,7 +190,7 @@ def leg_ranges(ranges: Mapping[str, tuple[float, float]]) -> tuple[Any, Any] | N
     return (float(low[0]), float(high[0])) if alike else (low, high)
 
 
-def built_ranges(result: Result, actuators: str = ACTUATORS[0]) -> tuple[Floats, Floats] | None:
+def built_ranges(result: Result, actuators: str) -> tuple[Floats, Floats] | None:
     """Return the lengths for which the legs are built, where a study compares those of several poses; None if unknown.
 
     "needed": the lengths that the poses of the study need, over its region all of it. "permitted": the ranges about
@@ -164,7 +198,7 @@ def built_ranges(result: Result, actuators: str = ACTUATORS[0]) -> tuple[Floats,
     """
     best, region = result.best, result.study.objective.region
     assert best is not None
-    if region is not None and not places_o(region):
+    if o_is_placed(result.study):
         ranges = () if result.region is None else result.region.leg_ranges
         if actuators == "needed":
             ranges = tuple((leg.shortest, leg.longest) for leg in result.sheet().legs)

@@ -5,7 +5,7 @@ from sizes import size
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.design.family_variables import variables_of
+from ninedof.design.variables import variables_of
 
 WIDER = {
     "hexagonal": {"hexagonal", "general"},

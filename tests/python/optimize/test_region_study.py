@@ -14,7 +14,7 @@ from region_oracle import random_poses, worst_at_random
 from sizes import size
 
 import ninedof as nd
-from ninedof.optimize.region_report import posed
+from ninedof.design.region_poses import posed
 
 UPRIGHT = {"axis": [0.0, 0.0, 1.0]}
 STUDIES = {

@@ -10,8 +10,8 @@ import pytest
 
 import ninedof as nd
 from ninedof import poses
-from ninedof.design.pose import rule_words
-from ninedof.optimize.words import least_share, price_words
+from ninedof.design.poses import rule_words
+from ninedof.optimize.tables import least_share, price_words
 from ninedof.redundancy.rules import WORDS
 from ninedof.support.json import encode
 

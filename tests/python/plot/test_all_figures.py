@@ -48,7 +48,8 @@ def test_formulas_are_our_own_symbols_alone(name):
 
 
 def test_texts_that_intersect_are_found():
-    figure = style.new_figure(3.0, 3.0)
+    with style.page(None, 3.0, 3.0) as figure:
+        pass
     figure.text(0.3, 0.5, "one word", rotation=45.0)
     figure.text(0.35, 0.55, "another", rotation=45.0)
     figure.text(0.5, 0.3, "apart, though the upright boxes meet", rotation=45.0, size=5)

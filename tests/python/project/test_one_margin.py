@@ -17,8 +17,8 @@ from ninedof.design.limits import ROWS, split_label
 from ninedof.export.latex import _limits as latex_limits
 from ninedof.motion.follow import stretches
 from ninedof.proof.machine import certify
-from ninedof.sheet.limit_rows import limit_rows
 from ninedof.sheet.pose_limits import pose_limits
+from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.tables import limits_table
 from ninedof.support.margins import is_violated, margin_of, margin_words, tolerance_of
 from ninedof.tables.plain import plain

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
-from ninedof.optimize.region_report import posed
+from ninedof.design.region_poses import posed
 
 ROUNDING = 1e-9
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": (2.0, 8.0), "zs": (1.0, 6.0)}

@@ -13,7 +13,7 @@ from region_oracle import random_poses
 from sizes import size
 
 import ninedof as nd
-from ninedof.optimize.region_report import posed
+from ninedof.design.region_poses import posed
 
 FIRST = "ninedof certificate of designs 1\nchecksum "
 STUDY = nd.Study(

@@ -12,7 +12,7 @@ from region_oracle import index_at, random_poses
 from robots import NONPLANAR
 
 import ninedof as nd
-from ninedof.optimize.region_report import posed
+from ninedof.design.region_poses import posed
 from ninedof.proof.optimum import left_out_of
 
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0}

@@ -8,7 +8,7 @@ import pytest
 import ninedof as nd
 from ninedof.motion import Followed
 from ninedof.records.load import split
-from ninedof.workspace.statistics import IndexStatistics
+from ninedof.workspace.cells import IndexStatistics
 
 STUDY = nd.Study(starts=3, constraints={"radius_ratio": (None, 2.0)}, characteristic_length="mean_leg")
 HOME = nd.Configuration.neutral(3.9828, 2.4432, 0.1)

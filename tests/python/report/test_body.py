@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from body_volume import body_volume
 
-from ninedof.report import body as quick
-from ninedof.report.body import quick_body
+from ninedof.report import scene as quick
+from ninedof.report.scene import quick_body
 
 
 def test_the_body_has_the_volume_where_the_limits_of_the_study_hold(result):

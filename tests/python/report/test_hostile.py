@@ -12,7 +12,7 @@ from changed_files import entries_of, write_sealed
 
 import ninedof as nd
 from ninedof.cli.app import main
-from ninedof.report import figures
+from ninedof.report import page
 from ninedof.tables.html import tag
 
 HOSTILE = (
@@ -156,8 +156,8 @@ def test_a_figure_is_a_file_of_its_folder(runs, tmp_path, monkeypatch):
     (folder / "folder.svg").mkdir()
     (folder / "large.svg").write_text("<svg>" + 200 * " " + "</svg>")
     (folder / "own.svg").write_text("<svg></svg>")
-    monkeypatch.setattr(figures, "LARGEST", 100)
-    assert figures.stems(folder) == ["own"]
+    monkeypatch.setattr(page, "LARGEST", 100)
+    assert page.stems(folder) == ["own"]
     text = nd.report(folder).read_text()
     assert text.count("data:image/svg+xml") == 1
 

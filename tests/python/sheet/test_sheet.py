@@ -19,10 +19,10 @@ from ninedof import _core
 from ninedof.cli.app import main
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.posed import PoseOptions
-from ninedof.design.limit_numbers import PARTS, apart, limit_numbers
+from ninedof.design.limit_numbers import PARTS, apart
 from ninedof.report.optimization import sheet_html
-from ninedof.sheet.limit_rows import limit_rows
 from ninedof.sheet.pose_words import pose_words
+from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.sheet import Extreme
 from ninedof.sheet.tables import sheet_parts
 
@@ -167,7 +167,7 @@ def test_joints_that_coincide_in_one_design_collide_where_a_study_limits_the_dis
     for limits in ({}, {"leg_clearance": {"min": 0.1}}):
         free, fixed = (nd.Study(variables=sides | {"a1": a1}, constraints=limits) for a1 in ((0.0, 1.0), 0.0))
         g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0), nd.Configuration.neutral([4.0], 2.4)
-        distances = limit_numbers(_core.Limit(name="leg_clearance"), g, home, home[0])
+        distances = _core.limit_numbers(_core.Limit(name="leg_clearance"), g, home[0], home, 1.0)
         assert (distances[:, apart(g, free)].min() > 0.5) == (not limits)
         assert distances[:, apart(g, fixed)].min() > 0.5
 

@@ -12,10 +12,9 @@ from sizes import size
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.design.region_poses import configurations_at, poses_at
+from ninedof.design.region_poses import configurations_at, posed, poses_at
 from ninedof.export.model import model_of
 from ninedof.optimize.machine_proofs import placing_of
-from ninedof.optimize.region_report import posed
 
 
 def cone_angles(g, c):

@@ -13,7 +13,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.cli.app import main
-from ninedof.design.region_outline import region_lines
+from ninedof.design.region import region_lines
 from ninedof.plot import style
 from ninedof.support.extras import MissingExtra
 from ninedof.viewer import shapes

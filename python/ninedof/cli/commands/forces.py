@@ -13,7 +13,7 @@ from ninedof.cli.posed import PosesOptions, loads_option
 from ninedof.cli.screen import bold
 from ninedof.robot.idle import NEVER_CARRY, unloaded_names
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.duty import masses_of, weight_of
+from ninedof.sheet.request import masses_of, weight_of
 from ninedof.sheet.tables import load_words, weight_words
 from ninedof.tables import Table, columns, grouped
 from ninedof.tables.numbers import spread

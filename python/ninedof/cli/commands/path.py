@@ -33,7 +33,7 @@ from ninedof.records.motion import plain
 from ninedof.records.record import write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.sheet.duty import masses_of
+from ninedof.sheet.request import masses_of
 from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
 

@@ -13,9 +13,9 @@ from ninedof.cli.options import LOAD, ONE_DESIGN, Options, Three, argument, opti
 from ninedof.cli.posed import loads_option
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.duty import masses_of
 from ninedof.sheet.payload import Payload, largest_payload
 from ninedof.sheet.pose_words import vector_words
+from ninedof.sheet.request import masses_of
 from ninedof.sheet.tables import load_words
 from ninedof.support.arguments import Vector
 from ninedof.support.units import amount

@@ -14,9 +14,9 @@ import ninedof as nd
 from ninedof.cli.chosen_design import Chosen, chosen_design, length_option, named_design, with_length
 from ninedof.cli.options import DESIGN, HEXAGON, THREADS, HexagonalOptions, argument, option, struct
 from ninedof.cli.sweep_job import Job, describe, json_data
-from ninedof.design.family_variables import variables_of
 from ninedof.design.indices import computed
 from ninedof.design.study import FAMILIES as FAMILY_NAMES
+from ninedof.design.variables import variables_of
 from ninedof.paper.published import published_variables
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice

@@ -12,7 +12,6 @@ from ninedof.cli.answer import Answer, finish_job, write_job
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
-from ninedof.design.region_poses import places_o
 from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
 from ninedof.robot.configuration import arrays_of
@@ -20,9 +19,8 @@ from ninedof.robot.geometry import triples
 from ninedof.support.store import Store
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap, certified_workspace
 from ninedof.workspace import workspace as find_workspace
-from ninedof.workspace.question_words import asked_lines
-from ninedof.workspace.region_share import region_share
-from ninedof.workspace.tables import share_words, workspace_table, workspace_words
+from ninedof.workspace.study_question import region_share
+from ninedof.workspace.tables import asked_lines, share_words, workspace_table, workspace_words
 
 PLACE = 6
 S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)
@@ -74,7 +72,7 @@ def workspace(options: WorkspaceOptions) -> None:
         keep = Answer(proved.sentences(), {"workspace": result.to_dict()})
         write_job(screen, keep, lambda _: write_run(result, directory, None, record))
     data: dict[str, Any] = {"workspace": result.to_dict()}
-    if region is not None and places_o(region) and not result.interrupted:
+    if region is not None and region.internal_point != "best" and not result.interrupted:
         keywords = question.keywords
         share = region_share(region, chosen.geometry, home, keywords["criteria"], keywords["characteristic_length"])
         screen.print(share_words(region, share, chosen.unit))

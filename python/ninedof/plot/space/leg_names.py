@@ -24,7 +24,7 @@ Leg = tuple[str, Floats, Floats]
 
 
 def write_names(
-    axes: Any, legs: Sequence[Leg], o: Floats, away: float, dark: Sequence[Floats] = (), clear_of: Sequence[Floats] = ()
+    axes: Any, legs: Sequence[Leg], o: Floats, away: float, dark: Sequence[Floats], clear_of: Sequence[Floats]
 ) -> None:
     """Write the name of each leg, `away` to one side, and O beside its point.
 

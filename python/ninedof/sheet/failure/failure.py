@@ -16,10 +16,9 @@ from ninedof.kinematics.velocity import forward_velocity
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.duty import duty_of, masses_of
 from ninedof.sheet.failure.result import Failure, FreeLeg, LegLoad, LockedLegs
 from ninedof.sheet.region_look import SAMPLES, Looked, even_poses, look_over, robot_of
-from ninedof.sheet.request import load_rows
+from ninedof.sheet.request import duty_of, load_rows, masses_of
 from ninedof.sheet.sheet import Extreme, extreme
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import inverse_dynamics

@@ -1,21 +1,116 @@
-"""The rows of the nine legs: lengths, speeds, forces and angles at their joints."""
+"""The rows of a sheet: the nine legs, the limits of the study, the nearest singularities."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.design.limit_numbers import JOINTS
+from ninedof.design.limits import kind_unit
+from ninedof.design.objective import CONDITION_LIMITS
+from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.idle import idle_legs
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.plain_values import rows_of
+from ninedof.singularity.singularity import mechanism_of
 from ninedof.support.arrays import Floats
+from ninedof.support.units import amount
+
+MOTIONS = ("shift", "turn", "internal")
+
+
+class NearSingularity(NamedTuple):
+    """The nearest singularity for one way of moving."""
+
+    motion: str
+    """"shift": of the platform, O with it, or held where O is held over the poses. "turn": of the platform about its
+    origin, O at rest. "internal": O alone."""
+    distance: float
+    """Length, or radians for a turn; infinite where none was found within four times the longest leg or half a turn."""
+    mechanism: str
+    """"n", "b" or "c": the determinant that is zero there; "" if none was found."""
+    pose: int
+    """The pose it is nearest to."""
+    direction: tuple[float, ...]
+    """Unit vector of the shift or axis of the turn, base axes."""
+    position: tuple[float, ...]
+    """p, Q and O where it is."""
+    rotation: tuple[tuple[float, ...], ...]
+    internal_point: tuple[float, ...]
+
+
+def near_singularities(g: Geometry, c: Configuration, internal: str) -> dict[str, NearSingularity]:
+    """Return the nearest singularity of a stack of poses, `nearest_singularity`, for each of MOTIONS."""
+    out = {}
+    for name, near in zip(MOTIONS, _core.nearest_singularities(g, c, internal == "held"), strict=True):
+        there = near.configuration
+        out[name] = NearSingularity(
+            name,
+            near.distance,
+            str(mechanism_of(near.mechanism)),
+            near.pose,
+            tuple(near.direction.tolist()),
+            tuple(there.position.tolist()),
+            tuple(map(tuple, there.rotation.tolist())),
+            tuple(there.internal_point.tolist()),
+        )
+    return out
+
+
+class LimitRow(NamedTuple):
+    """One side of a limit beside the worst value of the design at the study's own poses."""
+
+    name: str
+    """As margins call it: "base_cone", "base_cone at neutral"."""
+    side: str
+    """"min" or "max"."""
+    limit: float
+    """Angles in radians."""
+    value: float
+    """In the unit of the limit."""
+    margin: float
+    """As `margin_of`, negative if violated: `DesignPoint.margins`."""
+    part: str
+    """The leg, the pair of legs ("l1-q2") or the determinant that reaches it; "" for a limit without parts."""
+    unit: str
+    """"ratio", "length", "angle", "sign", "number" or "rate" as in the table of constraints; "ratio" for a length over
+    zp or a radius."""
+
+
+def limit_amount(row: LimitRow, value: float, number: Callable[[float], str], unit: str) -> str:
+    """Return a value of a limit with its unit, as `number` writes it; an angle in degrees."""
+    if row.unit == "angle":
+        return f"{math.degrees(value):.2f}°"
+    return amount(number(value), kind_unit(row.unit, unit))
+
+
+def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, ...]:
+    """Return a row for each side of each limit, in the order of the study."""
+    problem, x, rows = study.problem(), study.vector(variables), []
+    for limit in study.limits:
+        for side, bound in limit.sides.items():
+            low, high = (bound, math.inf) if side == "min" else (0.0, bound)
+            alone = problem.with_limits([study.limit_for_core(replace(limit, low=low, high=high))], math.inf, math.inf)
+            rows.append(_row(side, bound, limit.kind, alone.evaluate(x)))
+    for name in CONDITION_LIMITS:
+        if (bound := getattr(study.objective, name)) is not None:
+            alone = problem.with_limits([], *(bound if name == other else math.inf for other in CONDITION_LIMITS))
+            rows.append(_row("max", bound, "ratio", alone.evaluate(x)))
+    return tuple(rows)
+
+
+def _row(side: str, bound: float, kind: str, point: Mapping[str, Any]) -> LimitRow:
+    ((label, margin, _),) = point["margins"]
+    return LimitRow(label, side, bound, point["limited"][label], margin, point["parts"][label], kind)
+
 
 OF_EVERY_LEG = ("shortest", "longest", "neutral", "stroke", "stroke_ratio", "idle", "speed", "acceleration")
 CONES = ("base_cone", "platform_cone")
