@@ -78,9 +78,9 @@ from ninedof.proof.bounds import (
 from ninedof.proof.machine_record import LimitProof, MachineCertificate
 from ninedof.proof.optimum import check_certificate, prove_optimum
 from ninedof.proof.optimum_proof import OptimumProof
-from ninedof.records.certificate import load_certificate
 from ninedof.records.design_file import Design
 from ninedof.records.load import load, save
+from ninedof.records.proofs import load_certificate
 from ninedof.redundancy.redundancy import InternalPoint, InternalPointStatus, best_internal_path, best_internal_point
 from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_internal_map
 from ninedof.report.report import report

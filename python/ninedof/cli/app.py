@@ -31,14 +31,6 @@ app = typer.Typer(
 )
 
 
-def _register() -> None:
-    """Add the function of each module in `commands`: it has the name of the module."""
-    names = [module.name for module in iter_modules(commands.__path__)]
-    modules = {name: import_module(f"{commands.__name__}.{name}") for name in names}
-    for name in sorted(names, key=lambda name: int(modules[name].PLACE)):
-        app.command(epilog=modules[name].EXAMPLES)(command(getattr(modules[name], name)))
-
-
 def _version(value: bool) -> None:
     if value:
         from ninedof import __version__
@@ -56,7 +48,10 @@ def _root(
     pass
 
 
-_register()
+MODULES = {one.name: import_module(f"{commands.__name__}.{one.name}") for one in iter_modules(commands.__path__)}
+for _name, _module in sorted(MODULES.items(), key=lambda item: int(item[1].PLACE)):
+    _examples = _module.EXAMPLES.replace("\n", "\n\n")  # a paragraph each
+    app.command(epilog=f"[bold]Examples[/bold]{_examples}")(command(getattr(_module, _name)))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

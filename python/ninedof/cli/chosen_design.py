@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import ninedof as nd
-from ninedof.cli.options import HEXAGON, SIDES, HexagonalOptions
+from ninedof.cli.options import HEXAGON, SIDES, HexagonalOptions, word_or_number
 from ninedof.conditioning.characteristic_length import KINDS
-from ninedof.optimize.result import with_fixed_design
 from ninedof.paper.published import published_variables
 from ninedof.records.design_file import hexagonal_design
+from ninedof.records.load import design_and_result
 from ninedof.sheet.pose_words import pose_words
 from ninedof.support.arrays import Floats
 
@@ -70,19 +70,8 @@ def named_design(name: str | None) -> Chosen:
     """Return the design that an argument DESIGN names; the published design at its best zs without one."""
     if name is None:
         return Chosen(*hexagonal_design(published_variables()))
-    run = nd.load(name)
-    if isinstance(run, nd.Design):
-        return Chosen(*run)
-    if isinstance(run, nd.Front):
-        raise ValueError(f"{name}: got a front, expected one of its points: {name}#1 to {name}#{len(run)}")
-    if not isinstance(run, nd.Result):
-        raise ValueError(f"{name}: got a run without a design, expected one of `ninedof optimize` or `ninedof pareto`")
-    run = with_fixed_design(run)
-    best = run.best
-    if best is None:
-        raise ValueError(f"{name}: the record holds no design: {run.reason}")
-    study = run.study
-    return Chosen(best.geometry, best.configuration, best.characteristic_length, study.unit, study.tool, run)
+    design, result = design_and_result(nd.load(name), name)
+    return Chosen(*design, result)
 
 
 def chosen_design(name: str | None, options: HexagonalOptions) -> Chosen:
@@ -107,9 +96,4 @@ def with_length(chosen: C, lc: str | None) -> C:
 
 def length_option(text: str) -> float | str:
     """Return the characteristic length given by --lc."""
-    try:
-        return float(text)
-    except ValueError:
-        if text not in KINDS:
-            raise ValueError(f"--lc: got {text!r}, expected a number or one of {', '.join(KINDS)}") from None
-        return text
+    return word_or_number("--lc", text, KINDS, f"a number or one of {', '.join(KINDS)}")

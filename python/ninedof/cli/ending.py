@@ -17,6 +17,7 @@ from traceback import walk_tb
 
 from typer import Abort, BadParameter
 
+from ninedof.cli.options import typed
 from ninedof.cli.screen import BAD_INPUT, FAILED, INTERRUPTED, REFUSED, status_of
 from ninedof.support.command import how_to_go_on
 from ninedof.support.extras import MissingExtra
@@ -133,6 +134,6 @@ def _is_ours(error: Exception) -> bool:
 def as_typed(message: str, arguments: Sequence[str]) -> str:
     """Return a message on an argument that begins with its name, "leg_mass: got 0", with the option as it was typed."""
     name, _, rest = message.partition(": ")
-    option = f"--{OPTIONS.get(name, name).replace('_', '-')}"
-    typed = name in OPTIONS or any(word == option or word.startswith(f"{option}=") for word in arguments)
-    return f"{option}: {rest}" if typed else message
+    option = typed(OPTIONS.get(name, name))
+    is_typed = name in OPTIONS or any(word == option or word.startswith(f"{option}=") for word in arguments)
+    return f"{option}: {rest}" if is_typed else message

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -37,6 +38,33 @@ LEG_LIMITS = "Limits of all nine legs; those of the run's study by default."
 def option(words: str | None, default: Any = None, *names: str, metavar: str | None = None) -> Any:
     """Return a field of a struct that is an option, with its words in --help; `...` as the default: it is required."""
     return field(default=default, metadata={"typer": typer.Option(default, *names, help=words, metavar=metavar)})
+
+
+def typed(name: str) -> str:
+    """Return an option as it is typed: --leg-mass for leg_mass."""
+    return f"--{name.replace('_', '-')}"
+
+
+def word_or_number(option: str, text: str, words: Collection[str], expected: str) -> str | float:
+    """Return one of some words as it is, all else as a number."""
+    try:
+        return text if text in words else float(text)
+    except ValueError:
+        raise ValueError(f"{option}: got {text!r}, expected {expected}") from None
+
+
+def changes_option(texts: Sequence[str]) -> dict[str, float | str]:
+    """Return the values of --set NAME=VALUE, and the texts of NAME=+10%."""
+    changes: dict[str, float | str] = {}
+    for text in texts:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not equals or name in changes:
+            raise ValueError(f"--set: got {text!r}, expected NAME=VALUE or NAME=+10%, each name once")
+        try:
+            changes[name] = value if value.endswith("%") else float("" if value.startswith("+") else value)
+        except ValueError:
+            raise ValueError(f"--set: got {text!r}, expected NAME=VALUE without a plus, or NAME=+10%") from None
+    return changes
 
 
 def triple(words: str) -> Any:
@@ -80,7 +108,7 @@ class Options:
         for name, value in self.given(*names).items():
             if value is not False:
                 got = "it" if value is True else " ".join(value) if isinstance(value, list) else value
-                raise ValueError(f"--{name.replace('_', '-')}: got {got}, expected none {where}")
+                raise ValueError(f"{typed(name)}: got {got}, expected none {where}")
 
 
 @struct

@@ -12,7 +12,7 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.options import ONE_DESIGN, Options, Three, argument, option, struct, triple
+from ninedof.cli.options import ONE_DESIGN, Options, Three, argument, option, struct, triple, typed, word_or_number
 from ninedof.cli.screen import DONE, bold
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
@@ -37,7 +37,7 @@ class PoseOptions(Options):
 
     def named(self) -> list[str]:
         """Return the options that say where to look."""
-        return [f"--{name.replace('_', '-')}" for name in self.given("position", "rotation_deg", "internal_point")]
+        return list(map(typed, self.given("position", "rotation_deg", "internal_point")))
 
     def at(self) -> DesignAtPoses:
         """Return the design at the poses of the options."""
@@ -81,7 +81,7 @@ class DesignAtPoses(Chosen):
 
     def first(self, k: int) -> int:
         """Return the first pose that coincides with one: poses of a study may, and are named and printed once."""
-        rows = np.concatenate([np.reshape(x, (len(self.c), -1)) for x in arrays_of(self.c).values()], axis=1)
+        rows = np.hstack([x.reshape(len(self.c), -1) for x in arrays_of(self.c).values()])
         return int(np.argmax(np.abs(rows - rows[k]).max(axis=1) <= SAME * np.abs(rows[k]).max()))
 
     def where(self, k: int) -> str:
@@ -125,6 +125,11 @@ def length_at_home(chosen: Chosen) -> float:
     if isinstance(length, str):
         return float(nd.characteristic_length(chosen.geometry, chosen.configuration, length))
     return length
+
+
+def xyz(name: str) -> tuple[str, str, str]:
+    """Return the heads of three columns of numbers, the coordinates of a point."""
+    return f">{name}\nx", ">\ny", ">\nz"
 
 
 def poses_data(c: nd.Configuration) -> list[dict[str, Floats]]:
@@ -173,12 +178,7 @@ def several(option: str, text: str, expected: str) -> list[float]:
 
 def rule_option(text: str) -> str | float:
     """Return the rule for O given by --internal-point, or a fraction."""
-    if text in RULES:
-        return text
-    try:
-        return float(text)
-    except ValueError:
-        raise ValueError(f"--internal-point: got {text!r}, expected {', '.join(RULES)} or a fraction") from None
+    return word_or_number("--internal-point", text, RULES, f"{', '.join(RULES)} or a fraction")
 
 
 def loads_option(texts: Iterable[str] | None) -> list[list[float]]:

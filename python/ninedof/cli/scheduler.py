@@ -1,17 +1,19 @@
-"""The option --scheduler: a Dask cluster, and what is said when it is lost."""
+"""The option --scheduler: a Dask cluster by its address, and what is said when it is lost."""
 
 from __future__ import annotations
 
-from asyncio import CancelledError
+import asyncio
+import logging
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
-from typing import TYPE_CHECKING
+from concurrent.futures import Executor
+from contextlib import contextmanager, nullcontext, suppress
 
-from ninedof.support.arguments import LONGEST
-from ninedof.support.cluster import dask_executor, is_of_cluster
+from ninedof.support.arguments import LONGEST, cleaned, shown
+from ninedof.support.extras import optional
 
-if TYPE_CHECKING:
-    from concurrent.futures import Executor
+TIMEOUT = 10.0  # seconds for a scheduler to answer
+CLOSING = 2.0  # seconds to take leave
+OF_CLUSTER = ("distributed", "dask", "tornado", "asyncio", "concurrent")  # modules of its errors
 
 
 @contextmanager
@@ -20,9 +22,49 @@ def executor_at(scheduler: str | None) -> Iterator[Executor | None]:
     try:
         with nullcontext() if scheduler is None else dask_executor(scheduler) as executor:
             yield executor
-    except (Exception, CancelledError) as error:
-        if scheduler is None or not is_of_cluster(error):
+    except (Exception, asyncio.CancelledError) as error:
+        lost = type(error).__module__.partition(".")[0] in OF_CLUSTER
+        if scheduler is None or not (lost or isinstance(error, TimeoutError | ConnectionError)):
             raise
         reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
         notes = "".join(f". {note}" for note in getattr(error, "__notes__", ()))
         raise RuntimeError(f"--scheduler: lost {scheduler} ({reason[:LONGEST]}){notes}") from None
+
+
+@contextmanager
+def dask_executor(scheduler: str) -> Iterator[Executor]:
+    """Connect to a Dask scheduler; inside the `with` block its workers compute the tasks of the executor.
+
+    ImportError says how to install dask where it is missing, ValueError that no scheduler answers at the address.
+    """
+    distributed = optional("distributed", "cluster", "a Dask cluster")
+
+    async def handshake() -> None:
+        (await asyncio.wait_for(distributed.comm.connect(scheduler, timeout=TIMEOUT), TIMEOUT)).abort()
+
+    with _silent():
+        try:
+            asyncio.run(handshake())  # a client that finds no scheduler goes on looking for it
+            client = distributed.Client(scheduler, timeout=TIMEOUT, set_as_default=False)
+        except Exception as error:  # of any kind: what listens there may send anything
+            reason = str(error) or "timed out"
+            raise ValueError(
+                f"scheduler: got {shown(scheduler)}, where no scheduler answers ({cleaned(reason)}), "
+                "expected that of one, as tcp://host:8786"
+            ) from None
+        try:
+            yield client.get_executor()
+        finally:
+            with suppress(Exception):  # a scheduler that is lost cannot take leave
+                client.close(timeout=CLOSING)
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Log nothing: of a lost connection dask writes ninety lines, and each is one of an error that we raise."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logging.disable(before)

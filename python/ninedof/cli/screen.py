@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from functools import partial
 from typing import Any
 
 from rich.console import Console
@@ -135,23 +136,20 @@ class _Boxes(ProgressColumn):
         return Text(f"{task.completed:,.0f} boxes" if task.completed else "")
 
 
-def _narrow() -> BarColumn:
-    return BarColumn(bar_width=12)
-
-
 FIRST_LINE, LONGEST_SILENCE = 10.0, 300.0  # seconds: in a log lines at 10, 20, 40 ... s, then every five minutes
+NARROW = partial(BarColumn, bar_width=12)
 VALUE, TO_GO = "{task.fields[value]}", (TimeRemainingColumn, "to go")
 # What a bar shows behind its title, the words for the value of a report, and whether it is shown at once.
 BARS: dict[str, tuple[Sequence[Callable[[], ProgressColumn] | str], Callable[[float | None], str], bool]] = {
-    "starts": ((_narrow, MofNCompleteColumn, VALUE, TimeElapsedColumn), best_words, True),
+    "starts": ((NARROW, MofNCompleteColumn, VALUE, TimeElapsedColumn), best_words, True),
     "limits": (
-        (_narrow, MofNCompleteColumn, VALUE, *TO_GO),
+        (NARROW, MofNCompleteColumn, VALUE, *TO_GO),
         lambda last: "no design" if last is None else f"{last:.6f}",
         True,
     ),
-    "points": ((_narrow, "{task.percentage:>3.0f} %", *TO_GO, TimeElapsedColumn), lambda _: "", False),
+    "points": ((NARROW, "{task.percentage:>3.0f} %", *TO_GO, TimeElapsedColumn), lambda _: "", False),
     "poses": (
-        (_narrow, "{task.completed:,.0f} poses" + VALUE, *TO_GO),
+        (NARROW, "{task.completed:,.0f} poses" + VALUE, *TO_GO),
         lambda volume: "" if volume is None else f", volume {volume:.4g}",
         False,
     ),

@@ -1,21 +1,20 @@
-"""The figures of a workspace."""
+"""The figures of a workspace. They are drawn with matplotlib, so this module is loaded where one is drawn."""
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ninedof import plot
 from ninedof.cli.screen import Screen
 from ninedof.design.region import Region, region_lines, section_outline
+from ninedof.plot import Section
+from ninedof.plot.style import round_to
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
-
-if TYPE_CHECKING:
-    from ninedof.plot import Section
 
 NEAR = 10.0  # home is marked in a section within this part of the size of the workspace
 
@@ -29,8 +28,6 @@ def draw(
     of the region of a study, which is outlined. The horizontal one goes through home, which is marked near its plane.
     """
     screen.say("drawing the workspace")
-    from ninedof import plot
-
     middle = workspace.ball_centre if workspace.ball_radius > 0.0 else workspace.worst_at
     if region is not None:
         middle = home.position
@@ -54,15 +51,13 @@ def _draw_certified(
     workspace: WorkspaceMap, proved: CertifiedWorkspace, home: Configuration, region: Region | None, directory: Path
 ) -> list[Path]:
     """Draw a vertical and the horizontal section of what is proved."""
-    from ninedof import plot
-
     middle = workspace.ball_centre if workspace.ball_radius > 0.0 and region is None else home.position
     panels = []
     for fixed, at in _planes(workspace, home, middle)[::2]:
         place = float(np.clip(at, proved.low[fixed], proved.high[fixed]))
         section = _section(workspace, home, region, middle, fixed, place)
         plane = proved.section(workspace.coordinates[fixed], place)
-        panels.append(plot.Section(plane, region=section.region, home=section.home, estimate=section.plane))
+        panels.append(Section(plane, region=section.region, home=section.home, estimate=section.plane))
     return plot.save(plot.certified_workspace(panels, workspace.unit), directory, "certified_workspace")
 
 
@@ -81,8 +76,6 @@ def _section(
     workspace: WorkspaceMap, home: Configuration, region: Region | None, middle: Floats, fixed: int, at: float
 ) -> Section:
     """Return one section with what is marked in it: home, and the region or else the largest ball and box."""
-    from ninedof.plot import Section
-
     axes = [k for k in range(3) if k != fixed]
     plane = workspace.slice(workspace.coordinates[fixed], at, smooth=True)
     near = abs(float(home.position[fixed]) - at) <= float(np.ptp(workspace.field.axes[fixed])) / NEAR
@@ -98,8 +91,6 @@ def _section(
 
 def _round(value: float, workspace: WorkspaceMap, fixed: int) -> float:
     """Return a round value near a coordinate of a map, of angles round in degrees."""
-    from ninedof.plot.style import round_to
-
     scale = 180.0 / math.pi if workspace.of_angles else 1.0
     span = float(np.ptp(workspace.field.axes[fixed]))
     return float(np.clip(round_to(scale * value, scale * span) / scale, workspace.low[fixed], workspace.high[fixed]))

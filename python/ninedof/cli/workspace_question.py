@@ -21,6 +21,7 @@ from ninedof.cli.options import (
     option,
     struct,
     triple,
+    typed,
 )
 from ninedof.cli.posed import length_at_home, rule_option
 from ninedof.design.indices import computed
@@ -178,7 +179,7 @@ def criteria_of(
         axis = values.get(f"{cone}_axis", _axis(from_study.get(cone)))
         if cone not in criteria:
             if axis is not None:
-                raise ValueError(f"--{cone.replace('_', '-')}-axis: got an axis alone, expected the angle too")
+                raise ValueError(f"{typed(cone)}-axis: got an axis alone, expected the angle too")
         elif axis is not None:
             angle = criteria[cone]["max"] if isinstance(criteria[cone], Mapping) else criteria[cone]
             criteria[cone] = {"max": angle, "axis": axis}
@@ -237,7 +238,7 @@ def _proof(options: WorkspaceOptions, rule: Any) -> dict[str, Any] | None:
 
 
 def _radians(name: str, degrees: float) -> float:
-    return math.radians(finite(f"--{name.replace('_', '-')}", degrees, 0.0, 180.0))
+    return math.radians(finite(typed(name), degrees, 0.0, 180.0))
 
 
 def _axis(cone: Any) -> Any:

@@ -13,7 +13,7 @@ from typing import Any
 from ninedof.design.duty import duty
 from ninedof.support.arguments import cleaned, finite, instance, items, number, path_argument, shown, text
 from ninedof.support.files import csv_table, finite_or_nan, read_text, require_entries
-from ninedof.support.schema import Table, entries, entry
+from ninedof.support.schema import Table, entries, entry, within
 from ninedof.support.short import short_repr
 
 LEG_KINDS = ("external", "upper", "lower")
@@ -110,8 +110,9 @@ def catalogue(path: str | os.PathLike[str], unit: str) -> tuple[Actuator, ...]:
     a file that names another one is refused.
     """
     file = path_argument("actuators", path)
-    try:
-        line, heads, body = csv_table(read_text(file))
+    text = read_text(file)
+    with within(file, ": "):
+        line, heads, body = csv_table(text)
         names = [name for name, _ in heads]
         for column in COLUMNS:
             if column not in names:
@@ -124,8 +125,6 @@ def catalogue(path: str | os.PathLike[str], unit: str) -> tuple[Actuator, ...]:
             raise ValueError("got no rows, expected at least one actuator")
         require_entries(body, names)
         return _distinct("name", [_row(at, dict(zip(names, row, strict=True))) for at, row in body])
-    except ValueError as error:
-        raise ValueError(str(error) if str(error).startswith(str(file)) else f"{file}: {error}") from None
 
 
 def _row(line: int, entries: Mapping[str, str]) -> Actuator:

@@ -26,10 +26,7 @@ positive_or_zero = partial(finite, least=0.0)
 
 
 def _six(name: str, value: Any, expected: str) -> Six:
-    six = items(name, value, expected)
-    if len(six) != 6:
-        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
-    return tuple(finite(f"{name}[{k}]", x) for k, x in enumerate(six))
+    return tuple(finite(f"{name}[{k}]", x) for k, x in enumerate(items(name, value, expected, 6)))
 
 
 def _wrenches(name: str, value: Any) -> tuple[Six, ...]:

@@ -13,7 +13,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.design.duty import Tool
 from ninedof.support.angles import angle_entry, degrees_of, half_turn, in_radians
-from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
+from ninedof.support.arguments import Vector, choice, items, known_keys, number, shown, vector, whole
 from ninedof.support.schema import Check, plain, within
 from ninedof.support.structs import Fixed
 from ninedof.support.units import per
@@ -173,7 +173,7 @@ def _parse(where: str, row: Row, value: Any) -> Limit:
     if isinstance(value, Limit):
         value = value.entries
     if not isinstance(value, Mapping):
-        low, high = pair(where, value, "(low, high), None for an open side, or a table")
+        low, high = items(where, value, "(low, high), None for an open side, or a table", 2)
         value = {"min": low, "max": high}
     table = {key: one for key, one in value.items() if one is not None}
     checks: dict[str, Check] = dict.fromkeys(row.sides, number)

@@ -13,7 +13,7 @@ from ninedof import _core
 from ninedof.redundancy.rules import STUDY_RULES
 from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import exact_degrees, half_turn
-from ninedof.support.arguments import Vector, choice, finite, instance, pair, text, vector, vectors
+from ninedof.support.arguments import Vector, choice, finite, instance, items, text, vector, vectors
 from ninedof.support.arrays import Floats
 from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr
@@ -23,7 +23,7 @@ SHAPES = ("box", "ball", "cylinder", "path")
 
 
 def _cylinder(name: str, value: Any) -> tuple[float, float]:
-    radius, height = pair(name, value, "(radius, half height)")
+    radius, height = items(name, value, "(radius, half height)", 2)
     return finite(name, radius, least=0.0), finite(name, height, least=0.0)
 
 

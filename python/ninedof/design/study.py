@@ -32,14 +32,13 @@ from ninedof.support.arguments import (
     items,
     known_keys,
     number,
-    pair,
     shown,
     table,
     text,
     whole,
 )
 from ninedof.support.files import read_toml, write_toml
-from ninedof.support.schema import Check, check_entries, entry, plain
+from ninedof.support.schema import Check, check_entries, entry, plain, within
 from ninedof.support.short import short_repr
 from ninedof.support.structs import Fixed
 from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
@@ -83,7 +82,7 @@ def _constraints(name: str, value: Any) -> Mapping[str, Any]:
 def _length(name: str, value: Any) -> float | str | tuple[float, float]:
     if isinstance(value, str) or is_number(value):
         return length_argument(value)
-    low, high = (finite(name, x) for x in pair(name, value, "a number, a kind, or (low, high)"))
+    low, high = (finite(name, x) for x in items(name, value, "a number, a kind, or (low, high)", 2))
     if not 0.0 < low <= high:
         raise ValueError(f"{name}: got {shown(value)}, expected 0 < low <= high")
     return low if low == high else (low, high)
@@ -243,12 +242,10 @@ class Study:
 
         """
         data = read_toml(path)
-        try:
+        with within(os.fspath(path), ": "):
             if isinstance(name := data.get("actuators"), str):
                 data["actuators"] = bought.beside_study(path, name, _unit("unit", data.get("unit", "")))
             return cls.from_dict(data)
-        except ValueError as error:
-            raise ValueError(f"{os.fspath(path)}: {error}") from None
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Study:

@@ -21,6 +21,7 @@ from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.support.arguments import cleaned, did_you_mean, shown
 from ninedof.support.arrays import Floats
 from ninedof.support.files import csv_rows, finite_or_nan
+from ninedof.support.schema import within
 from ninedof.support.units import unit_argument, with_unit
 
 AXES = ("x", "y", "z")
@@ -115,10 +116,8 @@ def _unit(*blocks: Block) -> str:
     for where, unit in units:
         if unit != first:
             raise ValueError(f"{where}: got {unit or 'no unit'}, expected {first or 'none'}")
-        try:
+        with within(where, ": "):
             unit_argument(unit)
-        except ValueError as error:
-            raise ValueError(f"{where}: {error}") from None
     return first
 
 

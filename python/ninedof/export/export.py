@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ninedof.support.arguments import choice, known_keys, path_argument
 from ninedof.support.files import read_text, write_whole
+from ninedof.support.schema import within
 
 if TYPE_CHECKING:
     from ninedof.export.model import Fields, Format
@@ -97,7 +98,5 @@ def read_design(path: Path) -> Fields:
     """Return the design in a file; ValueError naming the file and what is wrong with it."""
     (read,) = (one.read for one in formats().values() if one.suffix == path.suffix.lower() and one.read is not None)
     text = read_text(path)
-    try:
+    with within(path, ": "):
         return read(text)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None

@@ -17,6 +17,7 @@ from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
+from ninedof.robot.designs import robot_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arrays import Floats
@@ -171,12 +172,7 @@ def model_of(design: Any, name: str = "ninedof", unit: str | None = None) -> Mod
     unit is that of the study or of the design file. A Candidate or a DesignPoint names none, so it must be given, ""
     for none: a simulator would take millimetres for metres. ValueError says what is missing or differs.
     """
-    try:
-        g, c, length = design.geometry, design.configuration, design.characteristic_length
-    except AttributeError:
-        raise ValueError(f"design: got {type(design).__name__}, expected a result or a design") from None
-    if g is None or c is None:
-        raise ValueError("design: got a result without a design, expected one")
+    g, c, length = robot_of(design, "design"), design.configuration, design.characteristic_length
     if np.shape(c.position) != (3,):
         raise ValueError(f"design: got a stack of configurations of shape {c.shape}, expected a single one")
     study = getattr(design, "study", None)

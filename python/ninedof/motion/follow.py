@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -14,23 +14,24 @@ from ninedof.conditioning.characteristic_length import characteristic_length as 
 from ninedof.motion.trajectory import Trajectory
 from ninedof.redundancy.redundancy import leg_limits
 from ninedof.redundancy.rules import RULES
-from ninedof.robot.configuration import Configuration, broadcast_flat, single
+from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.designs import HasRobot, robot_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.robot.idle import idle_names, unloaded_names
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.statics.dynamics import inverse_dynamics
-from ninedof.statics.masses import GRAVITY, gravity_for_core, masses_for_core
-from ninedof.support.arguments import choice, finite, instance, pair
-from ninedof.support.arrays import Floats, as_number
-from ninedof.support.files import Arrays, Saved, from_json_array, json_array
+from ninedof.statics.masses import GRAVITY
+from ninedof.support.arguments import choice, finite, instance, items
+from ninedof.support.arrays import Floats, as_floats, as_number, broadcast_leading
+from ninedof.support.files import Saved
 from ninedof.support.margins import TOLERANCE
 from ninedof.support.short import short_repr
 from ninedof.support.units import metres, unit_entry
 
 FORCES = ("push", "pull", "rms")
 """The entries of `Followed.drives` that are forces."""
+PATH = ("time", "position", "rotation")
 DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
 
 
@@ -201,28 +202,20 @@ class Followed(Saved):
         limits = ", ".join(sorted({entry.limit for entry in self.breaks}))
         return f"<Followed: {len(self.time)} poses, {'breaks ' + limits if limits else 'within limits'}>"
 
-    def _contents(self) -> dict[str, Any]:
-        words = {one.name: getattr(self, one.name) for one in fields(self)}
-        arrays = triples(words.pop("geometry")) | {"o": words.pop("configurations").internal_point}
-        path = words.pop("trajectory")
-        arrays |= {"time": path.time, "position": path.position, "rotation": path.rotation}
-        for name, value in list(words.items()):
-            if isinstance(value, np.ndarray | tuple):
-                arrays[name] = np.array(words.pop(name))
-        return {"words": json_array({"format": self.FORMAT, **words}), **arrays}
+    def _saved(self) -> dict[str, Any]:
+        entries = super()._saved()
+        path, c, g = (entries.pop(name) for name in ("trajectory", "configurations", "geometry"))
+        entries |= {name: np.array(entries[name]) for name in ("limits", "singularity_margins")}
+        return {**triples(g), "o": c.internal_point, **{name: getattr(path, name) for name in PATH}, **entries}
 
     @classmethod
-    def _made(cls, contents: Arrays) -> Followed:
-        data = contents | from_json_array(contents.pop("words"))
-        if data.pop("format") != cls.FORMAT:
-            raise ValueError
-        data["geometry"] = Geometry(**{name: data.pop(name) for name in TRIPLES})
-        path = Trajectory(data.pop("time"), data.pop("position"), data.pop("rotation"), data["unit"])
-        data["trajectory"] = path
-        data["configurations"] = Configuration(path.position, path.rotation, data.pop("o"))
-        data["limits"] = tuple(data["limits"])
-        data["singularity_margins"] = SingularityMargins(*data["singularity_margins"])
-        return cls(**data)
+    def _restored(cls, entries: dict[str, Any]) -> Followed:
+        g = Geometry(**{name: entries.pop(name) for name in TRIPLES})
+        path = Trajectory(**{name: entries.pop(name) for name in PATH}, unit=entries["unit"])
+        c = Configuration(path.position, path.rotation, entries.pop("o"))
+        entries["limits"] = tuple(entries["limits"])
+        entries["singularity_margins"] = SingularityMargins(*entries["singularity_margins"])
+        return cls(geometry=g, trajectory=path, configurations=c, **entries)
 
 
 def stretches(
@@ -317,17 +310,14 @@ def follow(
     single(g, home, "home")
     rule = choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
     lc = float(length_of(geometry, home, lc)) if isinstance(lc, str) else as_number("characteristic_length", lc)
-    path = trajectory
-    bounds, loads = leg_limits(limits), _loads(path, *pair("load", load, "force and moment"))
-    bodies = None if masses is None else masses_for_core(masses, path.unit)
-    down, first = gravity_for_core(gravity, path.unit), loads[0] if loads.ndim == 3 else loads
-    motion = _core.follow(g, home, path.time, path.position, path.rotation, rule, bounds, lc, first, bodies, down)
-    poses, margins, forces = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
+    path, bounds, ends, forces = trajectory, leg_limits(limits), items("load", load, "force and moment", 2), None
+    without_loads = np.empty((0, 6)), None, np.zeros(3)
+    motion = _core.follow(g, home, path.time, path.position, path.rotation, rule, bounds, lc, *without_loads)
+    poses, margins, _ = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
     c = Configuration(path.position, path.rotation, motion.pop("internal_point"))
-    if loads.ndim == 3:
+    if masses is not None or any(end is not None for end in ends):
         v, a = motion["velocity"], motion["acceleration"]
-        others = [inverse_dynamics(g, c, v, a, masses, gravity, one, path.unit).forces for one in loads[1:]]
-        forces = np.stack([forces, *others])
+        forces = inverse_dynamics(g, c, v, a, masses, gravity, _loads(*ends), path.unit).forces
     return Followed(
         geometry=g,
         trajectory=path,
@@ -336,7 +326,7 @@ def follow(
         characteristic_length=lc,
         singularity_margins=SingularityMargins(*margins),
         limits=bounds,
-        leg_forces=forces if len(forces) else None,
+        leg_forces=forces,
         tracked=poses == len(path),
         tracked_until=float(path.time[poses - 1]),
         unit=path.unit,
@@ -345,13 +335,11 @@ def follow(
     )
 
 
-def _loads(path: Trajectory, force: Any, moment: Any) -> Floats:
-    """Return moment and force at each pose, shape (n, 6), of k loads (k, n, 6); no rows without a load."""
-    if force is None and moment is None:
-        return np.empty((0, 6))
-    moment, force = (np.zeros(3) if value is None else value for value in (moment, force))
-    poses = Configuration(path.position, path.rotation, path.position)
-    shape, _, load = broadcast_flat(poses, moment=(moment, 3), force=(force, 3))
-    if shape[-1:] != poses.shape or not 1 <= len(shape) <= 2 or 0 in shape:
-        raise ValueError(f"load: got stacks of shape {shape}, expected one load for each of {len(poses)} poses")
-    return load.reshape(*shape, 6)
+def _loads(force: Any, moment: Any) -> Floats:
+    """Return moment and force, shape (6,) or (n, 6), of k loads (k, 1, 6) or (k, n, 6)."""
+    parts = {"moment": moment, "force": force}
+    arrays = {name: (as_floats(name, np.zeros(3) if x is None else x, (3,)), 1) for name, x in parts.items()}
+    shape, rows = broadcast_leading(arrays)
+    if len(shape) > 2 or 0 in shape:
+        raise ValueError(f"load: got stacks of shape {shape}, expected one load, or one for each pose")
+    return np.concatenate(rows, axis=-1)

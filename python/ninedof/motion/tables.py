@@ -14,7 +14,7 @@ from ninedof.robot.idle import NEVER_CARRY
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, per
-from ninedof.tables import RIGHT, Column, Table, grouped
+from ninedof.tables import RIGHT, Column, Table, columns, grouped
 
 POWERS, WORKS = ("power", "braking"), ("work", "returned")
 OF_LENGTHS = ("leg_clearance", "stroke")
@@ -69,7 +69,7 @@ def drives_table(motion: Mapping[str, Any]) -> Table | None:
 
 def limits_table(motion: Mapping[str, Any]) -> Table:
     """Return the other limits of the study: where each has its least margin."""
-    heads = [Column("limit"), Column(), *(Column(name, "", RIGHT) for name in ("allowed", "worst", "margin", "at t"))]
+    heads = columns("limit", "", ">allowed", ">worst", ">margin", ">at t")
     rows = []
     for row in motion.get("limits", ()):
         if "limit_deg" in row:

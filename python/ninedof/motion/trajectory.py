@@ -16,6 +16,7 @@ from ninedof.support.angles import DEG
 from ninedof.support.arguments import cleaned, finite, path_argument, shown, vector, whole
 from ninedof.support.arrays import Floats, as_floats, frozen
 from ninedof.support.files import csv_table, finite_or_nan, read_text, require_entries
+from ninedof.support.schema import within
 from ninedof.support.units import unit_argument
 
 PLACE = ("x", "y", "z")
@@ -120,11 +121,9 @@ class Trajectory:
         require_single("home", home)
         file = path_argument("path", path)
         text = read_text(file)
-        try:
+        with within(file, ": "):
             time, position, rotation = _poses(text, home.position, unit)
             return cls(time, position, home.rotation if rotation is None else rotation, unit)
-        except ValueError as error:
-            raise ValueError(f"{file}: {error}") from None
 
     @classmethod
     def circle(

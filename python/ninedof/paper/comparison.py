@@ -11,6 +11,7 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number, singular_values
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.optimize.candidate import Candidate
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result
 from ninedof.paper import published
@@ -72,7 +73,7 @@ class Comparison:
     """Both such zs."""
     best_zs: Row
     """The same plates and height at the best zs."""
-    same_base_and_height: Row | None
+    same_base_and_height: Row
     same_class: Row | None
     """Base at most twice the platform: the answer to the paper's problem."""
     as_printed: float
@@ -84,8 +85,8 @@ class Comparison:
 
     def rows(self) -> tuple[Row, ...]:
         """Return the designs that there are, from the published to the best."""
-        rows = (self.reproduced, self.best_zs, self.same_base_and_height, self.same_class)
-        return tuple(row for row in rows if row is not None)
+        published = (self.reproduced, self.best_zs, self.same_base_and_height)
+        return published if self.same_class is None else (*published, self.same_class)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as plain values."""
@@ -111,16 +112,16 @@ def compare(
     Parameters as in `optimize`; all but `threads` are those of the largest of the studies.
     """
     below, above, best_zs = published_zs()
-    printed = solved("as printed", threads)
-    same = solved("same base and height", threads)
+    printed, same = (solved(name, threads).candidates[0] for name in ("as printed", "same base and height"))
     result = optimize(Study.paper(), starts=starts, seed=seed, threads=threads, progress=progress, **others)
+    best = result.best
     return Comparison(
         reproduced=_published_row("published, read so that it gives 3.9110", below),
         crossings=(below, above),
         best_zs=_published_row("the same at the best zs", best_zs),
-        same_base_and_height=_optimum_row("best with the same base and height", same),
-        same_class=_optimum_row("best with the base at most twice the platform", result),
-        as_printed=printed.condition_number or float("inf"),
+        same_base_and_height=_row("best with the same base and height", same.variables, same.active),
+        same_class=_row("best with the base at most twice the platform", best.variables, best.active) if best else None,
+        as_printed=printed.condition_number,
         result=result,
         why=_why(best_zs, same),
     )
@@ -130,32 +131,23 @@ def _published_row(title: str, zs: float) -> Row:
     return _row(title, published_variables(zs) | {"theta_z": 0.0}, ("a1", "b2", "radius_ratio"))
 
 
-def _optimum_row(title: str, result: Result) -> Row | None:
-    return _row(title, result.best.variables, result.best.active) if result.best else None
-
-
-def _row(title: str, variables: dict[str, float], active: tuple[str, ...]) -> Row:
+def _row(title: str, variables: Mapping[str, float], active: tuple[str, ...]) -> Row:
     point = Study.paper().evaluate(variables)
     g, c = point.geometry, point.configuration
     kappa = float(condition_number(g, c))
     legs = dict(zip("lqr", leg_lengths(g, c)[[0, 3, 6]].tolist(), strict=True))
     ratio = 2.0 * (1.0 - point.margins["radius_ratio"])  # the margin is 1 - ratio / 2
-    return Row(title, variables, kappa, legs, ratio, 100.0 * (1.0 - kappa / KAPPA), active, g, c)
+    return Row(title, dict(variables), kappa, legs, ratio, 100.0 * (1.0 - kappa / KAPPA), active, g, c)
 
 
-def _why(best_zs: float, same: Result) -> str:
+def _why(best_zs: float, same: Candidate) -> str:
     slope = Study.paper().evaluate(published_variables(best_zs)).gradient["zp"]
-    smaller = (
-        f", and a platform of side {same.best.variables['b1']:.4f} instead of {published.PLATFORM_SIDE:.4f} "
-        f"on the same base at the same height gives {same.best.condition_number:.4f}"
-        if same.best
-        else ""
-    )
     sigma = np.unique(singular_values(published_geometry(), Configuration.neutral(published.ZP, best_zs)).round(6))
     ends = f"{sigma[0]:.3f} and {sigma[1]:.3f} below, {sigma[-2]:.3f} and {sigma[-1]:.3f} above"
     return (
         f"The published point is not a minimum: at zs = {best_zs:.4f} raising the platform changes the condition "
-        f"number by {slope:+.3f} per l_c{smaller}. "
+        f"number by {slope:+.3f} per l_c, and a platform of side {same.variables['b1']:.4f} instead of "
+        f"{published.PLATFORM_SIDE:.4f} on the same base at the same height gives {same.condition_number:.4f}. "
         f"Nor is it a kink, where a descent could jam: the singular values of J' are apart there ({ends})."
     )
 
@@ -173,6 +165,7 @@ def comparison_table(designs: Iterable[Mapping[str, Any]]) -> Table:
 def _texts(row: Mapping[str, Any]) -> list[str]:
     """Return the column of a design, a text for each name in PRINTED."""
     values, legs, gain = row["variables"], row["leg_lengths"], row["gain_percent"]
+    active = [f"{name} = {_short(values[name])}" if name in values else name for name in row["active"]]
     return [
         f"{_short(values['a1'])}, {_short(values['a2'])}",
         f"{_short(values['b1'])}, {_short(values['b2'])}",
@@ -182,13 +175,8 @@ def _texts(row: Mapping[str, Any]) -> list[str]:
         *(f"{legs[leg]:.4f}" for leg in "lqr"),
         f"{row['condition_number']:.6f}",
         "-" if abs(gain) < 0.005 else f"{gain:.2f} %",
-        "\n".join(_active(row)) or "nothing",
+        "\n".join(active) or "nothing",
     ]
-
-
-def _active(row: Mapping[str, Any]) -> list[str]:
-    values = row["variables"]
-    return [f"{name} = {_short(values[name])}" if name in values else name for name in row["active"]]
 
 
 def _short(value: float) -> str:

@@ -110,10 +110,10 @@ class _Displaced:
     geometry: Geometry
     home: Configuration
 
-    def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
+    def values(self, at: dict[str, Floats], indices: tuple[Index, ...], threads: int | None) -> Arrays:
         columns = np.array([COORDINATES.index(name) for name in SHOWN])
-        tangent = np.zeros((count, 9))
-        tangent[np.arange(count), columns[at["coordinate"].round().astype(np.intp)]] = at["displacement"]
+        tangent = np.zeros((len(at["displacement"]), 9))
+        tangent[np.arange(len(tangent)), columns[at["coordinate"].round().astype(np.intp)]] = at["displacement"]
         c = self.home.moved(tangent)
         return {i.name: i.values(self.geometry, c, 1.0, threads) for i in indices}
 
@@ -140,8 +140,9 @@ def _figure_7(points: int) -> GridWork:
 class _Ratios:
     """The best design with a ratio of two sides."""
 
-    def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
-        kappa, design = np.full(count, np.nan), np.full((count, len(HEXAGONAL)), np.nan)
+    def values(self, at: dict[str, Floats], indices: tuple[Index, ...], threads: int | None) -> Arrays:
+        kappa = np.full(len(at["ratio"]), np.nan)
+        design = np.full((len(kappa), len(HEXAGONAL)), np.nan)
         for k, (side, ratio) in enumerate(zip(at["sides"].round().astype(int), at["ratio"].tolist(), strict=True)):
             result = optimize(ratio_study(SIDES[side], ratio))
             if result.interrupted:

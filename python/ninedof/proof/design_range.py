@@ -18,7 +18,7 @@ from ninedof.design.study import Study
 from ninedof.design.variables import angles_in_radians, given_values
 from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import plain_name
-from ninedof.support.arguments import finite, items, pair, shown, table, text
+from ninedof.support.arguments import finite, items, shown, table, text
 from ninedof.support.arrays import Floats
 from ninedof.support.files import sha256
 from ninedof.support.progress import Progress
@@ -185,7 +185,7 @@ def _asked(of: Study | HasDesign, at: Mapping[str, float | str] | None) -> tuple
 
 
 def _ends(name: str, ends: object) -> tuple[float, float]:
-    low, high = (finite(f"vary.{name}", end) for end in pair(f"vary.{name}", ends, "(low, high)"))
+    low, high = (finite(f"vary.{name}", end) for end in items(f"vary.{name}", ends, "(low, high)", 2))
     return low, high
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -17,9 +17,9 @@ from ninedof.design.indices import computed
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.angles import in_radians
-from ninedof.support.arguments import finite, is_number, known_keys, number, path_argument, table
+from ninedof.support.arguments import finite, is_number, known_keys, number, table
 from ninedof.support.files import read_toml, write_toml
-from ninedof.support.schema import read
+from ninedof.support.schema import read, within
 from ninedof.support.short import short_repr
 from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
 
@@ -82,12 +82,9 @@ def load_design(path: str | os.PathLike[str]) -> Design:
         Naming the file and the entry.
 
     """
-    file = path_argument("path", path)
-    try:
-        return _from_tables(read_toml(file))
-    except ValueError as error:
-        text = str(error)
-        raise ValueError(text if text.startswith(str(file)) else f"{file}: {text}") from None
+    data = read_toml(path)
+    with within(os.fspath(path), ": "):
+        return _from_tables(data)
 
 
 def save_design(design: Design, path: str | os.PathLike[str]) -> Path:
@@ -110,42 +107,34 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
         raise ValueError(
             "design: got a study, expected a design with [geometry] and [configuration]; see `ninedof optimize`"
         )
-    known_keys("design", data, ("unit", "geometry", "configuration", "characteristic_length", "tool"))
-    tool = read(Tool, data.get("tool", {}), "tool")
-    names = ("geometry", "configuration")
-    geometry, configuration = (table(name, _present("", data, [name])[name]) for name in names)
+    names = ("geometry", "configuration", "unit", "characteristic_length", "tool")
+    geometry, configuration = (table(name, _entries("", data, [name], names)[name]) for name in names[:2])
     require_unit_at_top({"geometry": geometry, "configuration": configuration})
     if "zp" in configuration or "zs" in configuration:
-        known_keys("configuration", configuration, ("zp", "zs", "theta_z", "theta_z_deg"))
         configuration = in_radians(configuration, {"theta_z": finite})
-        heights = _present("configuration.", configuration, ("zp", "zs"))
-        c = Configuration.neutral(**heights, theta_z=configuration.get("theta_z", 0.0))
+        c = Configuration.neutral(**_entries("configuration", configuration, ("zp", "zs"), ("theta_z",)))
         if c.shape:
             raise ValueError("configuration: got lists, expected one number for each of zp, zs and theta_z")
     else:
-        known_keys("configuration", configuration, ("position", "rotation", "internal_point"))
-        _present("configuration.", configuration, ("position", "internal_point"))
-        c = Configuration(**configuration)
-    hexagonal = any(name in geometry for name in HEXAGON)
-    joints = HEXAGON if hexagonal else TRIPLES
-    known_keys("geometry", geometry, joints)
-    values = _present("geometry.", geometry, joints)
-    if hexagonal:
-        g = Geometry.hexagonal(**{name: number(f"geometry.{name}", value) for name, value in values.items()})
+        c = Configuration(**_entries("configuration", configuration, ("position", "internal_point"), ("rotation",)))
+    if any(name in geometry for name in HEXAGON):
+        sides = _entries("geometry", geometry, HEXAGON)
+        g = Geometry.hexagonal(**{name: number(f"geometry.{name}", value) for name, value in sides.items()})
     else:
-        g = Geometry(**values)
-    length = data.get("characteristic_length", 1.0)
+        g = Geometry(**_entries("geometry", geometry, TRIPLES))
+    length, tool = data.get("characteristic_length", 1.0), read(Tool, data.get("tool", {}), "tool")
     if not isinstance(length, str) and not is_number(length):
         raise ValueError(f"characteristic_length: got {length!r}, expected a number or a kind")
     return Design(*tool.robot(g, c), length, unit_argument(data.get("unit")), tool)
 
 
-def _present(where: str, data: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
-    """Return the values of names that a table must have."""
-    for name in names:
+def _entries(where: str, data: Mapping[str, Any], needed: Sequence[str], others: Sequence[str] = ()) -> dict[str, Any]:
+    """Return the entries of a table that has all that are needed, and no unknown ones."""
+    known_keys(where or "design", data, (*needed, *others))
+    for name in needed:
         if name not in data:
-            raise ValueError(f"{where}{name}: got nothing, expected a value")
-    return {name: data[name] for name in names}
+            raise ValueError(f"{where}.{name}: got nothing, expected a value".removeprefix("."))
+    return dict(data)
 
 
 def indices(design: Design) -> dict[str, Any]:

@@ -1,4 +1,7 @@
-"""The figures of a study's run: mechanisms, condition number about it and over its region; convergence if asked."""
+"""The figures of a study's run: mechanisms, condition number about it and over its region; convergence if asked.
+
+They are drawn with matplotlib, so this module is loaded where they are.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +9,11 @@ from collections.abc import Callable
 from itertools import pairwise
 from operator import itemgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ninedof import plot
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.design_point import DesignPoint
 from ninedof.design.duty import Tool
@@ -20,14 +24,12 @@ from ninedof.optimize.region_map import region_map
 from ninedof.optimize.result import Result
 from ninedof.paper import published
 from ninedof.paper.comparison import Comparison
+from ninedof.plot import DesignCurves
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import is_violated
 from ninedof.support.units import amount
-
-if TYPE_CHECKING:
-    from ninedof.plot import DesignCurves
 
 Say = Callable[[str], object]
 """Called with a few words about what is being drawn."""
@@ -73,8 +75,6 @@ def _figures(
 ) -> list[Path]:
     """Draw the designs in space, their condition number along zs and theta_z and over poses, and the convergence."""
     say("drawing the mechanisms")
-    from ninedof import plot
-
     unit = "l_c" if compared else result.study.unit  # the paper's unit; a study keeps its own
     note = "" if compared else unit
     region, tool = None if compared else result.study.objective.region, result.study.tool
@@ -83,7 +83,9 @@ def _figures(
     panels = []
     for name, g, c, kappa, _ in designs:
         lines = () if region is None else region_lines(region, c)
-        panels.append(plot.Robot(name, g, c, kappa, worst + _heights(tool.plate(c), note), lines))
+        plate = tool.plate(c)
+        zp, zs = (amount(f"{point[2]:.4f}", note) for point in (plate.position, plate.internal_point))
+        panels.append(plot.Robot(name, g, c, kappa, f"{worst}zp = {zp}, zs = {zs}", lines))
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
     files += plot.save(plot.drawing(*designs[-1][1:3], note, tool), directory, "drawing")
     say("drawing the condition number along zs and theta_z")
@@ -109,11 +111,6 @@ def _figures(
     return files
 
 
-def _heights(c: Configuration, unit: str) -> str:
-    zp, zs = (amount(f"{point[2]:.4f}", unit) for point in (c.position, c.internal_point))
-    return f"zp = {zp}, zs = {zs}"
-
-
 def _pose_names(result: Result, count: int) -> list[str]:
     """Return names of the poses at which a study was solved by their shifts from the neutral pose.
 
@@ -131,8 +128,6 @@ def _pose_name(pose: Pose) -> str:
 
 
 def _curves(tool: Tool, design: Named, level: float | None = None, crossings: tuple[float, ...] = ()) -> DesignCurves:
-    from ninedof.plot import DesignCurves
-
     name, g, c, kappa, lc = design
     plate = tool.plate(c)
     zp, zs = float(plate.position[2]), float(plate.internal_point[2])
@@ -163,8 +158,6 @@ def _curves(tool: Tool, design: Named, level: float | None = None, crossings: tu
 
 def _over_poses(result: Result) -> list[DesignCurves]:
     """Return the objective of a study over its poses, or those that ruled its region, and its limits."""
-    from ninedof.plot import DesignCurves
-
     best, study = result.best, result.solved
     assert best is not None
     home = study.tool.plate(best.configuration)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ninedof.motion import Followed
-from ninedof.optimize.result import Result
+from ninedof.optimize.result import Result, with_fixed_design
 from ninedof.pareto import Front
 from ninedof.records.design_file import Design, load_design, save_design
 from ninedof.support.arguments import path_argument, shown
@@ -96,8 +96,7 @@ def save(run: Loaded, path: str | os.PathLike[str]) -> Path:
     load : the reverse, with an example.
 
     """
-    from ninedof.records.motion import write_motion  # with all kinds of runs, when they are needed
-    from ninedof.records.record import write_run
+    from ninedof.records.record import write_run  # with all kinds of runs, when they are needed
 
     path_argument("path", path)
     if isinstance(run, Design):
@@ -114,7 +113,22 @@ def save(run: Loaded, path: str | os.PathLike[str]) -> Path:
     except OSError as error:
         expected = "expected a writeable place"
         raise ValueError(f"path: got {folder}, which cannot be created ({error.strerror}), {expected}") from None
-    return write_motion(run, folder) if isinstance(run, Followed) else write_run(run, folder)
+    return write_run(run, folder)
+
+
+def design_and_result(run: object, name: str) -> tuple[Design, Result | None]:
+    """Return the design of what `load` returned for a name, and the result that it is the best of."""
+    if isinstance(run, Design):
+        return run, None
+    if isinstance(run, Front):
+        raise ValueError(f"{name}: got a front, expected one of its points: {name}#1 to {name}#{len(run)}")
+    if not isinstance(run, Result):
+        raise ValueError(f"{name}: got {shown(run)}, expected a design file, a Design or a run with a design")
+    result, study = with_fixed_design(run), run.study
+    if (best := result.best) is None:
+        raise ValueError(f"{name}: the record holds no design: {run.reason}")
+    length = best.characteristic_length
+    return Design(best.geometry, best.configuration, length, study.unit, study.tool), result
 
 
 def split(name: str) -> tuple[Path, str]:

@@ -1,4 +1,4 @@
-"""The run folder of a motion: record, motion.npz, legs.csv in the order of controllers, poses.csv.
+"""The tables in the run folder of a motion: legs.csv in the order of controllers, poses.csv.
 
 Where the motion names its length unit, the names of columns have it in brackets: "l1 (mm)", "l1_rate (mm/s)".
 """
@@ -6,7 +6,6 @@ Where the motion names its length unit, the names of columns have it in brackets
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -15,46 +14,21 @@ import numpy as np
 
 from ninedof.design.limit_numbers import CONES
 from ninedof.motion import Followed
-from ninedof.records.record import ARRAYS, Draw, Record, write_drawn
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.pose_limits import PathLimits
 from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
 from ninedof.support.units import per, with_unit
 
-LEGS_FILE, POSES_FILE, ARRAYS_FILE = "legs.csv", "poses.csv", ARRAYS["motion"][1]
+LEGS_FILE, POSES_FILE = "legs.csv", "poses.csv"
 LENGTHS = ("x", "y", "z", "o_x", "o_y", "o_z")  # columns of poses.csv
 RATE, ACCELERATION, FORCE, POWER = "_rate", "_acceleration", "_force", "_power"
 
 
-def write_motion(
-    motion: Followed,
-    directory: str | os.PathLike[str],
-    draw: Draw | None = None,
-    question: Mapping[str, Any] | None = None,
-    limits: PathLimits | None = None,
-) -> Path:
-    """Write a motion into an existing directory; return the path of its record.
-
-    Parameters
-    ----------
-    motion : Followed
-    directory : path
-    draw : callable, optional
-        Called with the directory after the record was written; draws figures there and returns their paths.
-    question : mapping, optional
-        What was asked, for the record.
-    limits : PathLimits, optional
-        Those of a study: their worst values and breaks join the record, their margins poses.csv.
-
-    """
-    folder = Path(directory)
-    write_whole(folder / LEGS_FILE, legs_csv(motion))
-    write_whole(folder / POSES_FILE, _csv(_poses(motion, {} if limits is None else limits.margins)))
-    motion.save(folder / ARRAYS_FILE)
-    files = (LEGS_FILE, POSES_FILE, ARRAYS_FILE)
-    record = Record("motion", question or {}, {"motion": plain(motion, limits)}, files=files)
-    return write_drawn(record, folder, draw)
+def write_tables(motion: Followed, folder: Path, limits: PathLimits | None) -> list[Path]:
+    """Write both tables, in poses.csv the margins of the limits of a study too; return their paths."""
+    poses = _csv(_poses(motion, {} if limits is None else limits.margins))
+    return [write_whole(folder / LEGS_FILE, legs_csv(motion)), write_whole(folder / POSES_FILE, poses)]
 
 
 def legs_csv(motion: Followed) -> bytes:

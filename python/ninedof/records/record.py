@@ -22,6 +22,8 @@ from ninedof.paper.comparison import Comparison
 from ninedof.pareto import Front
 from ninedof.pareto.limits import with_limit, without_degrees
 from ninedof.proof.optimum_proof import FILE as CERTIFICATE
+from ninedof.records.motion import write_tables
+from ninedof.sheet.pose_limits import PathLimits
 from ninedof.support.command import command_line
 from ninedof.support.extras import versions
 from ninedof.support.files import json_bytes, read_json, write_whole
@@ -32,7 +34,7 @@ from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 FORMAT = "ninedof-record-4"
 FILE = "record.json"
 
-Run = Result | Comparison | Front | WorkspaceMap | SweepResult
+Run = Result | Comparison | Front | WorkspaceMap | SweepResult | Followed
 Draw = Callable[[Path], Sequence[Path]]
 """Called with the directory after the record was written; draws figures there and returns their paths."""
 
@@ -66,14 +68,7 @@ class Record:
 
     @property
     def study(self) -> Study:
-        """The study.
-
-        Raises
-        ------
-        ValueError
-            If the run was none of a study.
-
-        """
+        """The study; ValueError if the run was none of one."""
         if not isinstance(self.question, Study):
             raise ValueError(f"got the record of a run of kind {self.kind}, expected one with a study")
         return self.question
@@ -85,21 +80,13 @@ def write_run(
     draw: Draw | None = None,
     question: Mapping[str, Any] | None = None,
     results: Mapping[str, Any] | None = None,
+    limits: PathLimits | None = None,
 ) -> Path:
     """Write a run into an existing directory; return the path of its record.
 
-    Parameters
-    ----------
-    run : Result, Comparison, Front, WorkspaceMap or SweepResult
-        One that was interrupted leaves the record of an earlier run as it is.
-    directory : path
-    draw : callable, optional
-        Called with the directory after the record was written; draws figures there and returns their paths.
-    question : mapping, optional
-        What was asked, where the run does not hold it itself: of a workspace, and of a sweep besides what it holds.
-    results : mapping, optional
-        What the record says of a sweep or an atlas; the arrays lie beside it.
-
+    One that was interrupted leaves the record of an earlier run as it is. `question` is what was asked where the run
+    does not hold it: of a workspace or a motion, and of a sweep besides what it holds. `results` are what the record
+    says of a sweep, an atlas or a motion, whose arrays lie beside it; `limits` those of a study along a motion.
     """
     folder = Path(directory)
     result = run.result if isinstance(run, Comparison) else run
@@ -108,7 +95,9 @@ def write_run(
             draw(folder)
         return folder / FILE
     record, files = _record_of(run, question or {}, results or {}), []
-    if isinstance(run, WorkspaceMap | SweepResult):
+    if isinstance(run, Followed):
+        files += write_tables(run, folder, limits)
+    if isinstance(run, WorkspaceMap | SweepResult | Followed):
         files.append(run.save(folder / ARRAYS[record.kind][1]))
     if isinstance(run, WorkspaceMap) and run.certified is not None:
         files.append(run.certified.save(folder / CERTIFIED))
@@ -135,6 +124,8 @@ def _record_of(run: Run, question: Mapping[str, Any], results: Mapping[str, Any]
         return Record("front", run.study, {"front": front})
     if isinstance(run, WorkspaceMap):
         return Record("workspace", question, {"workspace": run.to_dict()})
+    if isinstance(run, Followed):
+        return Record("motion", question, results or {"motion": run.to_dict()})
     own = {name: value for name, value in run.attributes.items() if name not in versions()}
     question = {**question, **own}
     return Record("atlas" if run.attributes.get("kind") == "atlas" else "sweep", question, results)
@@ -154,14 +145,7 @@ def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
 
 
 def load_record(path: str | os.PathLike[str]) -> Record:
-    """Read a record from its file or its directory.
-
-    Raises
-    ------
-    ValueError
-        If there is no record, or it was changed; the message names the file.
-
-    """
+    """Read a record from its file or its directory; ValueError names a file that is missing or was changed."""
     data = read_json(folder_of(path) / FILE if Path(path).is_dir() else Path(path), FORMAT)
     question = Study.from_dict(data.pop("study")) if "study" in data else data.pop("question")
     return Record(**{"command": "", **data, "files": tuple(data["files"])}, question=question)
@@ -171,12 +155,6 @@ def load_run(path: str | os.PathLike[str]) -> Result | Front | WorkspaceMap | Sw
     """Read what a run folder, or the record there, holds.
 
     Robots are made anew from their variables; all other numbers are those written.
-
-    Raises
-    ------
-    ValueError
-        If there is no such record, or it was changed; the message names the file.
-
     """
     record, folder = load_record(path), folder_of(path)
     if record.kind in ARRAYS:

@@ -14,7 +14,7 @@ from ninedof import _core
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import choice, instance, pair
+from ninedof.support.arguments import choice, instance, items
 from ninedof.support.arrays import Floats, as_floats, as_number, one_or_each, thread_argument
 from ninedof.support.short import short_repr
 from ninedof.support.structs import options_of
@@ -269,7 +269,7 @@ def leg_limits(limits: Any, name: str = "limits") -> tuple[Floats, Floats]:
     """Return least and greatest lengths of the nine legs from (low, high), each a number or nine."""
     if limits is None:
         return np.zeros(9), np.full(9, np.inf)
-    least, greatest = pair(name, limits, "(low, high), each a number or nine")
+    least, greatest = items(name, limits, "(low, high), each a number or nine", 2)
     low, high = one_or_each(f"{name} (low)", least, 9), one_or_each(f"{name} (high)", greatest, 9)
     if low.ndim + high.ndim > 2:
         raise ValueError(f"{name}: got shapes {low.shape} and {high.shape}, expected numbers or shape (9,)")

@@ -14,8 +14,8 @@ from ninedof.optimize.result import Result
 from ninedof.paper.comparison import comparison_table
 from ninedof.pareto import Front
 from ninedof.proof.machine_record import MachineCertificate
-from ninedof.records.certificate import certificate_file, load_certificate
 from ninedof.records.load import load
+from ninedof.records.proofs import certificate_file, load_certificate
 from ninedof.records.record import Record, load_record
 from ninedof.report import origin
 from ninedof.report.optimization import of_front, of_result

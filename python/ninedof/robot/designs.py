@@ -66,18 +66,11 @@ def takes_designs(function: Callable[P, R_co]) -> TakesDesigns[P, R_co]:
     return call  # type: ignore[return-value]  # one function with both signatures
 
 
-def robot_of(design: HasRobot) -> Geometry:
-    """Return the geometry of a design.
-
-    Raises
-    ------
-    ValueError
-        For a result without a design, and for what is no design.
-
-    """
+def robot_of(design: HasRobot, name: str = "geometry") -> Geometry:
+    """Return the geometry of a design; ValueError for a result without one, and for what is no design."""
     if not hasattr(design, "geometry"):
-        raise ValueError(f"geometry: got {shown(design)}, expected a Geometry or a design")
+        raise ValueError(f"{name}: got {shown(design)}, expected a Geometry or a design")
     if design.geometry is None:
-        raise ValueError(f"geometry: got a result without a design, expected one: {getattr(design, 'reason', '')}")
+        raise ValueError(f"{name}: got a result without a design, expected one: {getattr(design, 'reason', '')}")
     geometry: Geometry = design.geometry
     return geometry

@@ -64,14 +64,12 @@ def _outline(points: Floats, normal: Floats) -> Floats:
     def chain(indices: list[int]) -> list[int]:
         out: list[int] = []
         for index in indices:
-            while len(out) > 1 and _turn(flat[out[-2]], flat[out[-1]], flat[index]) <= slack:
+            while len(out) > 1:
+                (ax, ay), (bx, by) = flat[out[-1]] - flat[out[-2]], flat[index] - flat[out[-2]]
+                if ax * by - ay * bx > slack:  # a turn to the left
+                    break
                 out.pop()
             out.append(index)
         return out[:-1]
 
     return points[chain(order) + chain(order[::-1])]
-
-
-def _turn(a: Floats, b: Floats, c: Floats) -> float:
-    """Return twice the area of a triangle in the plane, positive if it turns to the left."""
-    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))

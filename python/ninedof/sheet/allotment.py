@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.design.duty import Tolerances
 from ninedof.sheet.sheet import sheet
-from ninedof.support.arguments import finite, pair, shown
+from ninedof.support.arguments import finite, items, shown
 
 
 def tolerances_for(
@@ -64,7 +64,9 @@ def tolerances_for(
     }
     if not allowed:
         raise ValueError("position, rotation: got neither, expected an error that is allowed")
-    parts = [finite("weights", weight, least=0.0) for weight in pair("weights", weights, "those of joints and legs")]
+    parts = [
+        finite("weights", weight, least=0.0) for weight in items("weights", weights, "those of joints and legs", 2)
+    ]
     if not sum(parts) > 0.0:
         raise ValueError(f"weights: got {shown(weights)}, expected one above 0")
     out = []

@@ -21,19 +21,9 @@ def exact_degrees(*radians: float) -> tuple[float, ...] | None:
 
 
 def in_radians(given: Mapping[str, Any], checks: Mapping[str, Callable[[str, Any], Any]]) -> dict[str, Any]:
-    """Return a mapping with the entries `angle`_deg in radians, under their own names.
+    """Return a mapping with the entries `angle`_deg in radians, under their own names; ValueError if both are given.
 
-    Parameters
-    ----------
-    given : mapping
-    checks : mapping
-        For each angle by name the check of its value: numbers in any nesting of lists.
-
-    Raises
-    ------
-    ValueError
-        If an angle is given both ways; the message names both.
-
+    `checks` has for each angle by name the check of its value: numbers in any nesting of tuples.
     """
     out = dict(given)
     for name, check in checks.items():

@@ -150,26 +150,19 @@ def executor_argument(executor: Any) -> None:
         raise ValueError(f"executor: got {shown(executor)}, expected a concurrent.futures.Executor")
 
 
-def items(name: str, value: Any, expected: str) -> tuple[Any, ...]:
-    """Return the entries of a list, a tuple or an array, of whatever kind they are."""
-    if not isinstance(value, list | tuple | np.ndarray) or (isinstance(value, np.ndarray) and value.ndim == 0):
+def items(name: str, value: Any, expected: str, count: int | None = None) -> tuple[Any, ...]:
+    """Return the entries of a list, a tuple or an array, of whatever kind they are, `count` of them if it is given."""
+    several = isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim > 0)
+    if not several or count not in (None, len(value)):
         raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
     return tuple(value)
-
-
-def pair(name: str, value: Any, expected: str) -> tuple[Any, Any]:
-    """Return two things of whatever kind."""
-    both = items(name, value, expected)
-    if len(both) != 2:
-        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
-    return both[0], both[1]
 
 
 def bound(name: str, value: Any) -> float | tuple[float, float]:
     """Return a finite number, or the bounds (low, high), which may be infinite."""
     if is_number(value):
         return finite(name, value)
-    low, high = (number(name, end) for end in pair(name, value, "a number, or (low, high)"))
+    low, high = (number(name, end) for end in items(name, value, "a number, or (low, high)", 2))
     if not low <= high:
         raise ValueError(f"{name}: got {shown(value)}, expected low <= high")
     return low, high
@@ -178,8 +171,8 @@ def bound(name: str, value: Any) -> float | tuple[float, float]:
 def vector(name: str, value: Any, least: float = -math.inf) -> Vector:
     """Return three finite numbers."""
     expected = "three finite numbers [x, y, z]"
-    three = items(name, value, expected)
-    if len(three) != 3 or not all(map(is_number, three)):
+    three = items(name, value, expected, 3)
+    if not all(map(is_number, three)):
         raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
     x, y, z = (finite(name, x, least) for x in three)
     return x, y, z

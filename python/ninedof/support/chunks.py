@@ -63,17 +63,8 @@ def computed(
 ) -> Iterator[tuple[Store | None, Computed]]:
     """Check the arguments; yield the folder, and every chunk with its values: those kept there, then the others.
 
-    Parameters
-    ----------
-    work : Work
-    out : path, optional
-        Folder that keeps what is finished; a run that began there goes on in chunks of its size.
-    executor : concurrent.futures.Executor, optional
-        Where chunks are computed, in this process by default. Retries and lost workers are left to it: its exceptions
-        end the run.
-    progress : callable, optional
-        Called as progress(points done, points in all, None), first with the points found in the folder.
-
+    A run that began in the folder `out` goes on in chunks of its size. Retries and lost workers are left to the
+    executor: its exceptions end the run. Progress begins with the points found in the folder.
     """
     executor_argument(executor)
     progress_argument(progress)
@@ -99,7 +90,8 @@ def _computed(work: Work, store: Store | None, executor: Executor | None, progre
         done += chunk.last - chunk.first
     if progress is not None:
         progress(done, work.points, None)
-    with closing(_here(work, missing) if executor is None else _by(executor, work, missing)) as new:
+    here = ((chunk, work.values(*chunk)) for chunk in missing)
+    with closing(here if executor is None else _by(executor, work, missing)) as new:
         for chunk, values in new:
             if store is not None:
                 store.keep(chunk.first // work.chunk, values)
@@ -107,11 +99,6 @@ def _computed(work: Work, store: Store | None, executor: Executor | None, progre
             done += chunk.last - chunk.first
             if progress is not None:
                 progress(done, work.points, None)
-
-
-def _here(work: Work, chunks: list[Chunk]) -> Computed:
-    for chunk in chunks:
-        yield chunk, work.values(*chunk)
 
 
 def _by(executor: Executor, work: Work, chunks: list[Chunk]) -> Computed:

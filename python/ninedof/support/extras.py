@@ -16,22 +16,9 @@ class MissingExtra(ImportError):
 
 
 def optional(module: str, extra: str, purpose: str) -> Any:
-    """Return an optional package, or raise with the command that installs it.
+    """Return an optional module, or raise MissingExtra with the extra of ninedof that installs it.
 
-    Parameters
-    ----------
-    module : str
-        Name of the module, such as "xarray".
-    extra : str
-        The extra of ninedof that installs it.
-    purpose : str
-        What needs it, as the subject of a sentence.
-
-    Raises
-    ------
-    MissingExtra
-        Naming the package, what needs it and what to install.
-
+    `purpose` is what needs it, as the subject of a sentence.
     """
     try:
         return importlib.import_module(module)

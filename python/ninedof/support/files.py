@@ -7,6 +7,7 @@ import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import fields
 from functools import partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, ClassVar, Self
@@ -40,13 +41,8 @@ def part_name(name: str) -> str:
 def write_whole(path: Path, data: bytes | Callable[[IO[bytes]], object]) -> Path:
     """Write a file that appears whole or not at all, even if the power fails; return its path.
 
-    In the place of its bytes there may be a function that writes them to a file that is open.
-
-    Raises
-    ------
-    OSError
-        With the name of the file: the disk is full, or the folder gone.
-
+    In the place of its bytes there may be a function that writes them to a file that is open. OSError, of a full disk
+    too, has the name of the file.
     """
     part = path.with_name(part_name(path.name))  # in the same folder: renaming is atomic there
     try:
@@ -72,14 +68,7 @@ def naming(error: OSError, path: Path) -> OSError:
 
 
 def read_text(path: str | os.PathLike[str]) -> str:
-    """Return the text of a file, without a byte order mark; line ends are those of Python.
-
-    Raises
-    ------
-    ValueError
-        Naming the file, if it cannot be read.
-
-    """
+    """Return the text of a file, without a byte order mark; ValueError names one that cannot be read."""
     try:
         return Path(path).read_text(encoding="utf-8-sig")
     except OSError as error:
@@ -175,11 +164,7 @@ def json_bytes(entries: Mapping[str, Any]) -> bytes:
 def read_json(path: Path, form: str) -> dict[str, Any]:
     """Read a file of `json_bytes`, without the format and the digest.
 
-    Raises
-    ------
-    ValueError
-        Naming the file, if it cannot be read, was changed, or has another format.
-
+    ValueError names a file that cannot be read, was changed, or has another format.
     """
     try:
         data = path.read_bytes()
@@ -213,14 +198,7 @@ def write_npz(path: Path, arrays: Mapping[str, Any], *, compressed: bool = False
 
 
 def read_npz(path: Path, salt: str = "") -> Arrays:
-    """Read what `write_npz` wrote.
-
-    Raises
-    ------
-    ValueError
-        Naming the file, if it cannot be read or was changed.
-
-    """
+    """Read what `write_npz` wrote; ValueError names a file that cannot be read or was changed."""
     try:
         with path.open("rb") as file:
             digest = _digest(file, salt)
@@ -258,9 +236,10 @@ def _digest(file: IO[bytes], salt: str) -> bytes:
 
 
 class Saved(ABC):
-    """A result that one .npz file holds."""
+    """A dataclass that one .npz file holds: its arrays, and one entry of JSON, the head, for all else."""
 
     FORMAT: ClassVar[str]
+    HEAD: ClassVar[str] = "words"
     COMPRESSED: ClassVar[bool] = False
 
     def save(self, path: str | os.PathLike[str]) -> Path:
@@ -296,25 +275,34 @@ class Saved(ABC):
         except (KeyError, ValueError):
             raise ValueError(f"{os.fspath(path)}: got no {cls.FORMAT!r} file, expected what `save` wrote") from None
 
-    @abstractmethod
     def _contents(self) -> dict[str, Any]:
         """Return the arrays of the file."""
+        entries = self._saved()
+        arrays = {name: value for name, value in entries.items() if isinstance(value, np.ndarray)}
+        words = {name: value for name, value in entries.items() if name not in arrays}
+        return {self.HEAD: json_array({"format": self.FORMAT, **words}), **arrays}
+
+    @classmethod
+    def _made(cls, contents: Arrays) -> Self:
+        """Return the result that has these arrays; raise KeyError or ValueError for those of another format."""
+        words = from_json_array(contents.pop(cls.HEAD))
+        if words.pop("format") != cls.FORMAT:
+            raise ValueError
+        return cls._restored(contents | words)
+
+    def _saved(self) -> dict[str, Any]:
+        """Return the entries of the file: arrays, and plain values."""
+        this: Any = self
+        return {one.name: getattr(self, one.name) for one in fields(this)}
 
     @classmethod
     @abstractmethod
-    def _made(cls, contents: Arrays) -> Self:
-        """Return the result that has these arrays; raise KeyError or ValueError for those of another format."""
+    def _restored(cls, entries: dict[str, Any]) -> Self:
+        """Return the result of the entries that `_saved` returned, as JSON leaves them."""
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Read a TOML file, with or without a byte order mark.
-
-    Raises
-    ------
-    ValueError
-        Naming the file, if it cannot be read or is not TOML.
-
-    """
+    """Read a TOML file; ValueError names one that cannot be read or is not TOML."""
     import tomllib  # when it is needed, as it takes time to load
 
     text = read_text(file := path_argument("path", path))

@@ -20,17 +20,7 @@ def margin_of(kind: str, side: str, limit: ArrayLike, value: ArrayLike) -> Any:
     """Return what a value leaves of a limit, negative where the limit is violated.
 
     A ratio, a length or an angle leaves a share of the limit: (limit - value) / limit of a max, (value - limit) / limit
-    of a min. A determinant has no scale and its limit may be 0: it leaves value - limit.
-
-    Parameters
-    ----------
-    kind : str
-        As in the table of constraints: "ratio", "length", "angle" or "sign".
-    side : str
-        "min" or "max".
-    limit, value : array_like
-        In the same unit.
-
+    of a min. A determinant, of the kind "sign", has no scale and its limit may be 0: it leaves value - limit.
     """
     above = np.subtract(value, limit)
     room = above if side == "min" else -above

@@ -49,19 +49,7 @@ class Table:
 
 
 def read(kind: type[T], data: Any, where: str = "", **defaults: Any) -> T:
-    """Return a table made of the mapping of a file.
-
-    Parameters
-    ----------
-    kind : type
-        The class of the table.
-    data : mapping
-    where : str
-        Where it stands in the file, for messages. "" by default.
-    **defaults
-        Values of entries that it does not have.
-
-    """
+    """Return a table made of the mapping of a file, which stands `where` in it; entries it lacks have the defaults."""
     name = where or kind.__name__.lower()
     known_keys(name, data, keys(kind))
     needed = [one.name for one in entries(kind) if one.default is MISSING and one.default_factory is MISSING]
@@ -98,9 +86,9 @@ def plain(value: Any) -> Any:
 
 
 @contextmanager
-def within(where: str) -> Iterator[None]:
-    """Put the place of a table before the names of its entries in messages."""
+def within(where: object, mark: str = ".") -> Iterator[None]:
+    """Put the place of a table, or with the mark ": " the name of a file, before messages on its entries."""
     try:
         yield
     except ValueError as error:
-        raise ValueError(f"{where}.{error}" if where else str(error)) from None
+        raise ValueError(f"{where}{mark}{error}" if where else str(error)) from None

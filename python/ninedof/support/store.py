@@ -35,20 +35,8 @@ class Store:
     covers the question and the number too: one that is damaged, renamed or left by another question is computed again.
     The version of the package is part of the question.
 
-    Parameters
-    ----------
-    folder : path
-        Made if it is missing. It must be empty or hold a run with the same question.
-    question : mapping
-        All that the pieces depend on, as plain values.
-    chunk : int
-        Points of a piece, where a run cuts its work. In a folder that has a run the number there is used.
-
-    Raises
-    ------
-    ValueError
-        If the folder holds something else; for another question the message names both.
-
+    The folder is made if it is missing; it must be empty or hold a run with the same question, all that the pieces
+    depend on as plain values: ValueError names both. The chunk, the points of a piece, is that of the run there.
     """
 
     def __init__(self, folder: str | os.PathLike[str], question: Mapping[str, Any], chunk: int = 1) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any, NoReturn, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from ninedof.support.arguments import LARGEST, flag, items, known_keys, number, shown, shown_key, table, text, whole
+from ninedof.support.arguments import LARGEST, flag, items, known_keys, number, shown_key, table, text, whole
 
 K = TypeVar("K")
 T = TypeVar("T")
@@ -22,14 +22,7 @@ def from_core(kind: type[T], struct: Any, **others: Any) -> T:
 
 
 def options_of(where: str, kind: type, options: Mapping[str, Any], **defaults: Any) -> Mapping[str, Any]:
-    """Return options of a declared kind; those that are left out have their default, or None.
-
-    Raises
-    ------
-    ValueError
-        For an unknown name.
-
-    """
+    """Return options of a declared kind; those that are left out have their default, or None."""
     names = kind.__annotations__
     known_keys(where, options, names)
     return {**dict.fromkeys(names), **defaults, **options}
@@ -55,21 +48,8 @@ _hints = functools.cache(get_type_hints)
 def entries_of(kind: type, data: Any, where: str = "", skipped: Collection[str] = ()) -> dict[str, Any]:
     """Return the entries of a table that are fields of a dataclass, lists as tuples; other entries are left out.
 
-    Parameters
-    ----------
-    kind : type
-        The dataclass.
-    data : mapping
-    where : str
-        What the table is called in messages; "" for the whole file.
-    skipped : collection of str
-        Fields that the caller sees to.
-
-    Raises
-    ------
-    ValueError
-        Naming an entry that is missing or of another kind.
-
+    The caller sees to the fields that are skipped. ValueError names an entry that is missing or of another kind, and
+    where it stands: "" for the whole file.
     """
     entries = table(where or kind.__name__, data)
     out: dict[str, Any] = {}
@@ -110,14 +90,10 @@ def value_of(name: str, value: Any, kind: Any) -> Any:
 
 
 def _tuple(name: str, value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
-    entries = items(name, value, "a list")
     if inner[-1] is Ellipsis:
-        return tuple(value_of(f"{name}[{k}]", entry, inner[0]) for k, entry in enumerate(entries))
-    if len(entries) != len(inner):
-        raise ValueError(f"{name}: got {shown(value)}, expected a list of {len(inner)}")
-    return tuple(
-        value_of(f"{name}[{k}]", entry, one) for k, (entry, one) in enumerate(zip(entries, inner, strict=True))
-    )
+        return tuple(value_of(f"{name}[{k}]", entry, inner[0]) for k, entry in enumerate(items(name, value, "a list")))
+    entries = zip(items(name, value, f"a list of {len(inner)}", len(inner)), inner, strict=True)
+    return tuple(value_of(f"{name}[{k}]", entry, one) for k, (entry, one) in enumerate(entries))
 
 
 def _whole(name: str, value: Any) -> int:

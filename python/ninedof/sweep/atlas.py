@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,15 +11,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ninedof.conditioning.hexagonal import HEXAGONAL
-from ninedof.support.arguments import finite, known_keys, pair, shown, whole
+from ninedof.support.arguments import finite, items, known_keys, shown, whole
 from ninedof.support.chunks import MOST_CHUNK, chunk_argument, computed
 from ninedof.support.extras import versions
 from ninedof.support.files import Arrays
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
 from ninedof.sweep.result import SweepResult
-from ninedof.sweep.sample import BOUNDS, Sample, closed_form, squared_radius_ratio
-from ninedof.sweep.tally import Tally, condition_edges, ratio_edges
+from ninedof.sweep.survey import BOUNDS, Sample, Tally, closed_form, condition_edges, ratio_edges, squared_radius_ratio
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -146,12 +146,11 @@ def _bounds(bounds: Mapping[str, tuple[float, float]] | None) -> tuple[tuple[flo
     """Return the bounds of all six variables, the usual ones where there are no others."""
     own = {} if bounds is None else bounds
     known_keys("bounds", own, BOUNDS)
-    return tuple(_bound(name, own.get(name, usual)) for name, usual in BOUNDS.items())
-
-
-def _bound(name: str, value: Any) -> tuple[float, float]:
-    where = f"bounds[{name!r}]"
-    low, high = (finite(where, end, 0.0) for end in pair(where, value, "(low, high)"))
-    if low > high or (name == "zs_fraction" and high > 1.0):
-        raise ValueError(f"{where}: got {shown(value)}, expected 0 <= low <= high" + " <= 1" * (name == "zs_fraction"))
-    return low, high
+    out = []
+    for name, usual in BOUNDS.items():
+        where, value, most = f"bounds[{name!r}]", own.get(name, usual), 1.0 if name == "zs_fraction" else math.inf
+        low, high = (finite(where, end, 0.0) for end in items(where, value, "(low, high)", 2))
+        if not low <= high <= most:
+            raise ValueError(f"{where}: got {shown(value)}, expected 0 <= low <= high" + " <= 1" * math.isfinite(most))
+        out.append((low, high))
+    return tuple(out)

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 class Subject(Protocol):
     """The robots at the points of a grid."""
 
-    def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
+    def values(self, at: dict[str, Floats], indices: tuple[Index, ...], threads: int | None) -> Arrays:
         """Return the indices at n points, given by the value of each swept variable."""
 
     def question(self) -> dict[str, Any]:
@@ -60,7 +60,7 @@ class GridWork:
 
     def values(self, first: int, last: int) -> Arrays:
         """Return the indices at points first ... last - 1."""
-        return self.subject.values(self.grid.in_radians(first, last), last - first, self.indices, self.threads)
+        return self.subject.values(self.grid.in_radians(first, last), self.indices, self.threads)
 
     def question(self) -> dict[str, Any]:
         """Return what the values depend on."""

@@ -41,9 +41,9 @@ class Poses:
     block: tuple[int, ...] = (1,)
     """With "best": the sides of the blocks of the grid in which O is placed. A chunk consists of whole blocks."""
 
-    def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
+    def values(self, at: dict[str, Floats], indices: tuple[Index, ...], threads: int | None) -> Arrays:
         """Return the indices at n points."""
-        c = self.configurations(at, count, threads)
+        c = self.configurations(at, threads)
         return {i.name: i.values(self.geometry, c, self.length, threads) for i in indices}
 
     def question(self) -> dict[str, Any]:
@@ -59,19 +59,20 @@ class Poses:
             **block,
         }
 
-    def configurations(self, values: dict[str, Floats], count: int, threads: int | None = None) -> Configuration:
+    def configurations(self, values: dict[str, Floats], threads: int | None = None) -> Configuration:
         """Return n configurations for n values of each swept coordinate."""
+        count = len(next(iter(values.values())))
         p, q, s = self.home.position, self.home.rotation, self.home.internal_point
         turned = any(name in values for name in ROTATION)
         if not self.relative:  # what is swept begins at zero
             p, s = (np.where([name in values for name in names], 0.0, x) for names, x in ((POSITION, p), (INTERNAL, s)))
             q = np.eye(3) if turned else q
         s = np.zeros(3) if self.rule in FOLLOWING else s
-        p, s = (_shifted(names, x, values, count) for names, x in ((POSITION, p), (INTERNAL, s)))
+        p, s = (_shifted(names, x, values) for names, x in ((POSITION, p), (INTERNAL, s)))
         c = Configuration._of(p, np.broadcast_to(q, (count, 3, 3)), s)
         if turned:
             tangent = np.zeros((count, len(COORDINATES)))
-            tangent[:, :3] = _shifted(ROTATION, np.zeros(3), values, count)
+            tangent[:, :3] = _shifted(ROTATION, np.zeros(3), values)
             c = c.moved(tangent)
         if self.rule == "held":
             return c
@@ -109,12 +110,10 @@ def rule_of_study(design: Any, over: Iterable[str]) -> str:
     return str(study.objective.region.internal_point)
 
 
-def _shifted(names: tuple[str, ...], start: Floats, values: dict[str, Floats], count: int) -> Floats:
+def _shifted(names: tuple[str, ...], start: Floats, values: dict[str, Floats]) -> Floats:
     """Return n triples: the start, with the values of each coordinate that is swept added."""
-    out = np.empty((count, 3))
-    for k, name in enumerate(names):
-        out[:, k] = start[k] + values.get(name, 0.0)
-    return out
+    none = np.zeros_like(next(iter(values.values())))
+    return start + np.stack([values.get(name, none) for name in names], axis=1)
 
 
 def best_block(shape: tuple[int, ...]) -> tuple[int, ...]:

@@ -10,22 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.design.indices import size_of
-from ninedof.support.arguments import choice, items, shown, whole
+from ninedof.support.arguments import choice, items, whole
 from ninedof.support.extras import optional
-from ninedof.support.files import Arrays, Saved, from_json_array, json_array
+from ninedof.support.files import Saved
 from ninedof.support.json import encode
 from ninedof.support.short import short
 from ninedof.tables import Column, Table
 from ninedof.tables.html import notebook
 
-HEAD, COORDINATE, ARRAY = "ninedof", "coordinate ", "array "
+COORDINATE, ARRAY = "coordinate ", "array "
 
 
 @dataclass(frozen=True, eq=False)
 class SweepResult(Saved):
     """Named arrays over named dimensions, with the values along each dimension and their units."""
 
-    FORMAT = "ninedof-sweep-1"
+    FORMAT, HEAD = "ninedof-sweep-1", "ninedof"
 
     arrays: Mapping[str, NDArray[Any]]
     """Name of an index to its values."""
@@ -82,9 +82,7 @@ class SweepResult(Saved):
 
         """
         shape = self.arrays[choice("name", name, self.arrays)].shape
-        numbers = items("position", position, f"{len(shape)} whole numbers")
-        if len(numbers) != len(shape):
-            raise ValueError(f"position: got {shown(position)}, expected {len(shape)} whole numbers")
+        numbers = items("position", position, f"{len(shape)} whole numbers", len(shape))
         each = zip(self.dims[name], numbers, shape, strict=True)
         return {d: self.coords[d][whole("position", k, -size, size - 1)].item() for d, k, size in each}
 
@@ -127,25 +125,17 @@ class SweepResult(Saved):
             {name: _attribute(value) for name, value in self.attributes.items()},
         )
 
-    def _contents(self) -> dict[str, Any]:
-        head = {"format": self.FORMAT, "dims": self.dims, "units": self.units, "attributes": self.attributes}
-        contents: dict[str, Any] = {HEAD: json_array(head)}
-        contents |= {COORDINATE + name: values for name, values in self.coords.items()}
-        return contents | {ARRAY + name: values for name, values in self.arrays.items()}
+    def _saved(self) -> dict[str, Any]:
+        entries: dict[str, Any] = {"dims": self.dims, "units": self.units, "attributes": self.attributes}
+        entries |= {COORDINATE + name: values for name, values in self.coords.items()}
+        return entries | {ARRAY + name: values for name, values in self.arrays.items()}
 
     @classmethod
-    def _made(cls, contents: Arrays) -> SweepResult:
-        head = from_json_array(contents[HEAD])
-        if head["format"] != cls.FORMAT:
-            raise ValueError
-        dims = {name: tuple(of) for name, of in head["dims"].items()}
-        return cls(
-            arrays={name: contents[ARRAY + name] for name in dims},
-            dims=dims,
-            coords={n.removeprefix(COORDINATE): v for n, v in contents.items() if n.startswith(COORDINATE)},
-            units=head["units"],
-            attributes=head["attributes"],
-        )
+    def _restored(cls, entries: dict[str, Any]) -> SweepResult:
+        dims = {name: tuple(of) for name, of in entries["dims"].items()}
+        arrays = {name: entries[ARRAY + name] for name in dims}
+        coords = {n.removeprefix(COORDINATE): v for n, v in entries.items() if n.startswith(COORDINATE)}
+        return cls(arrays, dims, coords, entries["units"], entries["attributes"])
 
 
 def _attribute(value: Any) -> Any:

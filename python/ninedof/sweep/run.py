@@ -16,10 +16,11 @@ from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.designs import P, R_co, TakesDesigns, takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.angles import plain_name
-from ninedof.support.arguments import choice, finite, flag, known_keys, shown
+from ninedof.support.arguments import choice, finite, flag, shown
 from ninedof.support.arrays import thread_argument
 from ninedof.support.chunks import chunk_argument
 from ninedof.support.progress import Progress
+from ninedof.support.structs import options_of
 from ninedof.support.units import unit_argument
 from ninedof.sweep.axis import Values, axes_of
 from ninedof.sweep.grid import GridWork
@@ -150,12 +151,12 @@ def sweep(
     [6.7289, 4.8289, 3.9071, 4.7669, 6.5228]
 
     """
-    known_keys("sweep", options, SweepOptions.__annotations__)
+    values = options_of("sweep", SweepOptions, options, relative=True, internal_point="held", characteristic_length=1.0)
     single(geometry, home, "home")
-    relative = flag("relative", options.get("relative", True))
+    relative, threads, executor = flag("relative", values["relative"]), values["threads"], values["executor"]
     grid = axes_of(over, COORDINATES, ROTATION)
-    rule = choice("internal_point", options.get("internal_point", "held"), RULES)
-    length = length_argument(options.get("characteristic_length", 1.0))
+    rule = choice("internal_point", values["internal_point"], RULES)
+    length = length_argument(values["characteristic_length"])
     swept = {axis.name for axis in grid.axes}
     if swept & set(INTERNAL) and (rule == "best" or (rule in FOLLOWING and not relative)):
         where = "displaced from home" if rule == "best" else "displacements"
@@ -166,15 +167,15 @@ def sweep(
             "nothing else is given), expected a number"
         )
     poses = Poses(geometry, home, relative, rule, length)
-    points = chunk_argument(options.get("chunk"), POSES)
+    points = chunk_argument(values["chunk"], POSES)
     if rule == "best":
         poses = replace(poses, block=best_block(grid.shape))
         size = math.prod(poses.block)
-        points = size if options.get("chunk") is None else -(-points // size) * size
-    threads = options.get("threads")
-    workers = 1 if threads is None and options.get("executor") is not None else (thread_argument(threads) or None)
+        points = size if values["chunk"] is None else -(-points // size) * size
+    workers = 1 if threads is None and executor is not None else (thread_argument(threads) or None)
     units = {name: "rad" if name in ROTATION else "length" for name in COORDINATES}
-    return _result(GridWork(poses, grid, indices_of(index), points, workers), units, options)
+    work = GridWork(poses, grid, indices_of(index), points, workers)
+    return work.result(units, unit_argument(values["unit"]), executor, values["out"], values["progress"])
 
 
 def sweep_designs(
@@ -223,8 +224,8 @@ def sweep_designs(
     [3.924, 3.909, 3.91, 3.929]
 
     """
-    known_keys("sweep_designs", options, DesignOptions.__annotations__)
-    family = choice("family", options.get("family", "hexagonal"), FAMILIES)
+    values = options_of("sweep_designs", DesignOptions, options, family="hexagonal", characteristic_length=1.0)
+    family = choice("family", values["family"], FAMILIES)
     kinds = variable_kinds(family)
     grid = axes_of(over, list(kinds), [name for name, kind in kinds.items() if kind == "angle"])
     in_radians = in_radians_by_kind("design", design, kinds, finite)
@@ -232,17 +233,12 @@ def sweep_designs(
     swept = [plain_name(axis.name) for axis in grid.axes]
     if both := [name for name in swept if name in fixed]:
         raise ValueError(f"design: got {both[0]}, which is swept, expected it in one place")
-    variants = Variants(family, fixed, length_argument(options.get("characteristic_length", 1.0)))
-    at_first = {name: float(values[0]) for name, values in grid.in_radians(0, 1).items()}
+    variants = Variants(family, fixed, length_argument(values["characteristic_length"]))
+    at_first = {name: float(first[0]) for name, first in grid.in_radians(0, 1).items()}
     variants.study().vector(at_first)  # raises for missing variables
     indices = indices_of(index, of_designs=True)
     variants.check(indices)
     fast = all(variants.has_closed_form(i, swept) for i in indices)
-    work = GridWork(variants, grid, indices, chunk_argument(options.get("chunk"), POSES if fast else DESIGNS), 1)
+    work = GridWork(variants, grid, indices, chunk_argument(values["chunk"], POSES if fast else DESIGNS), 1)
     units = {name: "rad" if kind == "angle" else "length" for name, kind in kinds.items()}
-    return _result(work, units, options)
-
-
-def _result(work: GridWork, units: Mapping[str, str], options: GridOptions) -> SweepResult:
-    unit = unit_argument(options.get("unit"))
-    return work.result(units, unit, options.get("executor"), options.get("out"), options.get("progress"))
+    return work.result(units, unit_argument(values["unit"]), values["executor"], values["out"], values["progress"])

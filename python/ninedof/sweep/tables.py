@@ -8,7 +8,7 @@ from typing import Any
 from ninedof.design.indices import INDICES
 from ninedof.support.angles import degrees_of, plain_name
 from ninedof.support.units import amount
-from ninedof.tables import RIGHT, Column, Table
+from ninedof.tables import Table, columns
 
 SIZES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # radius ratios
 
@@ -16,9 +16,8 @@ SIZES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # radius ratios
 def summary_table(summary: Mapping[str, Mapping[str, Any]], title: str, units: Mapping[str, str]) -> Table:
     """Return the least and the greatest value of each index, with their coordinates; angles in degrees."""
     counts = [word for word in ("infinite", "missing") if any(row[word] for row in summary.values())]
-    columns = [Column("index"), Column(), Column("value", "", RIGHT), Column("at")]
     rows = [row for name, one in summary.items() for row in _rows(name, one, units, counts)]
-    return Table(title, [*columns, *(Column(word, "", RIGHT) for word in counts)], rows)
+    return Table(title, columns("index", "", ">value", "at", *(f">{word}" for word in counts)), rows)
 
 
 def _rows(
@@ -54,7 +53,7 @@ def atlas_table(best: Iterable[Mapping[str, Any]]) -> Table:
     """Return the best designs up to a few sizes of the base."""
     listed = list(best)
     names = list(listed[0]["design"]) if listed else []
-    heads = ("radius ratio\nbelow", "condition\nnumber", *names)
+    heads = columns(">radius ratio\nbelow", ">condition\nnumber", *(f">{name}" for name in names))
     rows = []
     for size in SIZES:
         below = [one for one in listed if one["radius_ratio"] < size]
@@ -62,4 +61,4 @@ def atlas_table(best: Iterable[Mapping[str, Any]]) -> Table:
             one = min(below, key=lambda one: one["condition_number"])
             values = (one["condition_number"], *(one["design"][name] for name in names))
             rows.append((f"{size:g}", *(f"{value:.4f}" for value in values)))
-    return Table("Best of all designs up to a radius ratio", [Column(head, "", RIGHT) for head in heads], rows)
+    return Table("Best of all designs up to a radius ratio", heads, rows)

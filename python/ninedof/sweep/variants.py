@@ -51,13 +51,14 @@ class Variants:
             "characteristic_length": self.length,
         }
 
-    def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
+    def values(self, at: dict[str, Floats], indices: tuple[Index, ...], threads: int | None) -> Arrays:
         """Return the indices at n designs."""
+        count = len(next(iter(at.values())))
         out: dict[str, Floats] = {i.name: np.empty((count, *i.tail)) for i in indices}
         one_by_one = []
         for index in indices:
             if self.has_closed_form(index, at):
-                out[index.name][:] = self._closed_form(at, count, threads)
+                out[index.name][:] = self._closed_form(at, threads)
             else:
                 one_by_one.append(index)
         if one_by_one:
@@ -70,8 +71,8 @@ class Variants:
         own = isinstance(self.length, float) and self.family == "hexagonal" and untwisted
         return own and index == INDICES["condition_number"]  # `is` fails: it may come from another process
 
-    def _closed_form(self, at: dict[str, Floats], count: int, threads: int | None) -> Floats:
-        columns = {n: np.broadcast_to(at.get(n, self.design.get(n, np.nan)), count) for n in HEXAGONAL}
+    def _closed_form(self, at: dict[str, Floats], threads: int | None) -> Floats:
+        columns = {n: np.asarray(at.get(n, self.design.get(n, np.nan))) for n in HEXAGONAL}
         for name in HEXAGONAL[:4]:
             if columns[name].min() < 0.0:
                 raise ValueError(f"{name}: got {columns[name].min():g}, expected a side of 0 at least")

@@ -16,7 +16,7 @@ from ninedof.motion.rotations import to_quaternions
 from ninedof.plot import style
 from ninedof.plot.admissible import admissible as figure_of
 from ninedof.proof.admissible_set import INSIDE, OUTSIDE, AdmissibleSet
-from ninedof.records.admissible import latest_admissible, run_of
+from ninedof.records.proofs import latest_admissible, run_of
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
 from ninedof.viewer.machine import Machine

@@ -19,13 +19,11 @@ from ninedof.design.variables import variables_of
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables
-from ninedof.pareto import Front
 from ninedof.records.design_file import Design, hexagonal_design
-from ninedof.records.load import load
+from ninedof.records.load import design_and_result, load
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.plates import points_of
-from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
 from ninedof.workspace.study_question import leg_ranges_over
 
@@ -180,22 +178,11 @@ class Machine:
 
 def machine_of(design: Any = None) -> Machine:
     """Return the machine that an argument `design` names: the published design without one."""
-    name = "design: "
+    name = "design"
     if design is None:
         design = hexagonal_design(published_variables())
     elif isinstance(design, str | os.PathLike):
-        name, design = f"{os.fspath(design)}: ", load(design)
-    if isinstance(design, Design):
-        single(design.geometry, design.configuration)
-        return Machine(design)
-    if isinstance(design, Front):
-        raise ValueError(f"{name}got a front, expected one of its points: RUN#1 to RUN#{len(design)}")
-    if not isinstance(design, Result):
-        what = shown(design) if name == "design: " else "a run without a design"
-        raise ValueError(f"{name}got {what}, expected a design file, a Design or a run with a design")
-    best = design.best
-    if best is None:
-        raise ValueError(f"{name}the result holds no design: {design.reason}")
-    study = design.study
-    found = Design(best.geometry, best.configuration, best.characteristic_length, study.unit, study.tool)
-    return Machine(found, design)
+        name, design = os.fspath(design), load(design)
+    found, result = design_and_result(design, name)
+    single(found.geometry, found.configuration)
+    return Machine(found, result)

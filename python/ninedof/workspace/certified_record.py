@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -14,7 +14,7 @@ from ninedof import _core
 from ninedof.proof.machine_record import outward
 from ninedof.support.arguments import choice, finite, text, whole
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.files import Arrays, Saved, from_json_array, json_array
+from ninedof.support.files import Saved
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount
 from ninedof.workspace.question import SETS
@@ -218,37 +218,17 @@ class CertifiedWorkspace(Saved):
 
     def to_dict(self) -> dict[str, Any]:
         """Return what is proved as plain values, without the boxes."""
-        out = {name: value for name, value in vars(self).items() if not isinstance(value, np.ndarray)}
+        out = {name: value for name, value in self._saved().items() if not isinstance(value, np.ndarray)}
         for name in ("low", "high", "box_low", "box_high"):
             out[name] = getattr(self, name).tolist()
         counts = {"inner_boxes": len(self.inner_low), "open_boxes": len(self.open_low)}
         return out | counts | {"bounds": self.bounds, "gap": self.gap}
 
-    def _contents(self) -> dict[str, Any]:
-        return packed(self.FORMAT, vars(self))
-
     @classmethod
-    def _made(cls, contents: Arrays) -> CertifiedWorkspace:
-        words, arrays = unpacked(cls.FORMAT, contents)
+    def _restored(cls, entries: dict[str, Any]) -> CertifiedWorkspace:
         for name in ("volume", "home_volume", "estimate"):
-            words[name] = None if words[name] is None else tuple(words[name])
-        return cls(**words, **arrays)
-
-
-def packed(form: str, entries: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the contents of a file: arrays as they are, the other entries with the format as words."""
-    arrays = {name: value for name, value in entries.items() if isinstance(value, np.ndarray)}
-    words = {name: value for name, value in entries.items() if name not in arrays}
-    return {"words": json_array({"format": form, **words}), **arrays}
-
-
-def unpacked(form: str, contents: Arrays) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return the words and the arrays that `packed` took; raise for another format."""
-    arrays: dict[str, Any] = dict(contents)
-    words = from_json_array(arrays.pop("words"))
-    if words.pop("format") != form:
-        raise ValueError
-    return words, arrays
+            entries[name] = None if entries[name] is None else tuple(entries[name])
+        return cls(**entries)
 
 
 def _between(bounds: tuple[float, float], unit: str) -> str:

@@ -14,11 +14,11 @@ from ninedof import _core
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, flag, whole
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Arrays, Saved
+from ninedof.support.files import Saved
 from ninedof.support.structs import from_core
 from ninedof.tables.html import notebook
 from ninedof.workspace.cells import LIMITS, IndexStatistics, WorkspaceCells, WorkspaceSlice, group_of
-from ninedof.workspace.certified_record import CertifiedWorkspace, packed, unpacked
+from ninedof.workspace.certified_record import CertifiedWorkspace
 from ninedof.workspace.tables import workspace_table
 
 MOST_VOXELS = 1_300_000
@@ -249,18 +249,17 @@ class WorkspaceMap(Saved):
         indices = {name: asdict(statistics) for name, statistics in self.indices.items()}
         return out | {"internal_point_audit": asdict(self.internal_point_audit), "indices": indices}
 
-    def _contents(self) -> dict[str, Any]:
+    def _saved(self) -> dict[str, Any]:
         cells = {f"cells_{name}": value for name, value in self.cells._asdict().items()}
-        return packed(self.FORMAT, {"limit_names": LIMITS, **self._entries()}) | cells
+        return {"limit_names": list(LIMITS), **cells, **self._entries()}
 
     @classmethod
-    def _made(cls, contents: Arrays) -> WorkspaceMap:
-        words, data = unpacked(cls.FORMAT, contents)
-        if tuple(words.pop("limit_names")) != LIMITS:
+    def _restored(cls, entries: dict[str, Any]) -> WorkspaceMap:
+        if tuple(entries.pop("limit_names")) != LIMITS:
             raise ValueError
-        cells = WorkspaceCells(*(data.pop(f"cells_{name}") for name in WorkspaceCells._fields))
-        words["status"] = WorkspaceStatus(words["status"])
-        words["coordinates"] = tuple(words["coordinates"])
-        words["internal_point_audit"] = MapAudit(**words["internal_point_audit"])
-        words["indices"] = {name: IndexStatistics(**one) for name, one in words.get("indices", {}).items()}
-        return cls(cells=cells, **words, **data)
+        cells = WorkspaceCells(*(entries.pop(f"cells_{name}") for name in WorkspaceCells._fields))
+        entries["status"] = WorkspaceStatus(entries["status"])
+        entries["coordinates"] = tuple(entries["coordinates"])
+        entries["internal_point_audit"] = MapAudit(**entries["internal_point_audit"])
+        entries["indices"] = {name: IndexStatistics(**one) for name, one in entries.get("indices", {}).items()}
+        return cls(cells=cells, **entries)

@@ -18,7 +18,7 @@ from ninedof.redundancy.redundancy import leg_limits
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.support.arguments import choice, flag, instance, known_keys, number, pair, shown, vector, whole
+from ninedof.support.arguments import choice, flag, instance, items, known_keys, number, shown, vector, whole
 from ninedof.support.arrays import Floats, as_floats, as_number
 
 SETS = ("reachable", "inclusive", "dexterous")
@@ -130,7 +130,7 @@ def _domain(box: Any, arguments: Mapping[str, Any]) -> _core.WorkspaceDomain:
         archetype="inclusive" if archetype == "dexterous" else archetype, rotations=rotations, region=chart
     )
     if box is not None:
-        low, high = pair("box", box, "(low, high), each of shape (3,)")
+        low, high = items("box", box, "(low, high), each of shape (3,)", 2)
         out.low, out.high = _vector("box (low)", low), _vector("box (high)", high)
     if position is not None:
         out.position = _vector("position", position)
@@ -172,7 +172,7 @@ def _region(region: Any) -> _core.OrientationRegion:
         raise ValueError(f"region: got {shown(region)}, expected 'angle', or 'tilt' and 'torsion'")
     tilt, torsion = as_number("region (tilt)", region["tilt"]), region["torsion"]
     if isinstance(torsion, tuple | list):
-        low, high = (as_number("region (torsion)", x) for x in pair("region (torsion)", torsion, "(low, high)"))
+        low, high = (as_number("region (torsion)", x) for x in items("region (torsion)", torsion, "(low, high)", 2))
     else:
         high = as_number("region (torsion)", torsion)
         low = -high
@@ -222,7 +222,7 @@ def _limit(row: Row, value: Any) -> list[_core.Limit]:
         return [_core.Limit(name=row.name)] if flag(row.name, value) else []
     entries = value
     if not isinstance(value, Mapping):
-        both = pair(row.name, value, "(low, high)") if len(row.sides) == 2 else (value,)
+        both = items(row.name, value, "(low, high)", 2) if len(row.sides) == 2 else (value,)
         entries = dict(zip(row.sides, both, strict=True))
     option = "axis" if row.is_angle else "duty" if row.needs else "exempt"
     known_keys(row.name, entries, (*row.sides, option))

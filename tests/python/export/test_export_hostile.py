@@ -10,7 +10,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.export.export import formats
-from ninedof.records.motion import write_motion
+from ninedof.records.record import write_run
 
 DESIGN = nd.Design(
     nd.Geometry.hexagonal(a1=0.0, a2=581.24, b1=290.62, b2=0.0), nd.Configuration.neutral(398.28, 244.35), 100.0, "mm"
@@ -60,7 +60,7 @@ def test_no_cell_of_a_table_is_a_formula(tmp_path):
     home = DESIGN.configuration
     circle = nd.Trajectory.circle(home, radius=5.0, duration=1.0, points=5, unit="mm")
     followed = nd.follow(DESIGN.geometry, circle, home)
-    write_motion(followed, tmp_path, question={"design": "=1+1"})
+    write_run(followed, tmp_path, question={"design": "=1+1"})
     tables += [(tmp_path / name).read_text() for name in ("legs.csv", "poses.csv")]
     cells = 0
     for text in tables:

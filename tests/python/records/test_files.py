@@ -11,7 +11,7 @@ import pytest
 from sizes import size
 
 import ninedof as nd
-from ninedof.records.certificate import save_certificate
+from ninedof.records.proofs import save_certificate
 from ninedof.records.record import load_record
 from ninedof.support.files import json_bytes, read_json, read_npz, write_npz, write_whole
 from ninedof.support.store import FORMAT, Store

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import ninedof as nd
-from ninedof.records.certificate import save_certificate
+from ninedof.records.proofs import save_certificate
 
 _PLACES = itertools.count()
 

@@ -17,8 +17,16 @@ from sweep_work import finished
 import ninedof as nd
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.sweep.atlas import BLOCK, CHUNK, AtlasWork
-from ninedof.sweep.sample import BOUNDS, STEPS, Sample, closed_form, squared_radius_ratio
-from ninedof.sweep.tally import Tally, condition_edges, ratio_edges
+from ninedof.sweep.survey import (
+    BOUNDS,
+    STEPS,
+    Sample,
+    Tally,
+    closed_form,
+    condition_edges,
+    ratio_edges,
+    squared_radius_ratio,
+)
 
 RATIO_EDGES, CONDITION_EDGES = ratio_edges(), condition_edges()
 OPTIMUM = 3.762659  # of the paper's study, proved in the theory notes

@@ -15,9 +15,9 @@ import sweep_work as work
 from sweep_work import GRID, HOME, G, finished
 
 import ninedof as nd
+from ninedof.cli import scheduler as schedulers
 from ninedof.design.indices import indices_of
 from ninedof.support import chunks
-from ninedof.support import cluster as schedulers
 from ninedof.sweep.axis import axes_of
 from ninedof.sweep.grid import GridWork
 from ninedof.sweep.poses import COORDINATES, Poses
@@ -363,7 +363,6 @@ _open = []
 
 def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(tmp_path, capsys, monkeypatch):
     """What dask raises when the scheduler is killed while it works; the chunks so far are kept."""
-    from ninedof.cli import scheduler
     from ninedof.cli.app import main
 
     class Lost(Executor):
@@ -378,7 +377,7 @@ def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(tmp_path, ca
                 future.set_result(perform(*task))
             return future
 
-    monkeypatch.setattr(scheduler, "dask_executor", lambda address: Lost())
+    monkeypatch.setattr(schedulers, "dask_executor", lambda address: Lost())
     monkeypatch.chdir(tmp_path)
     line = "sweep --over x_p=-1:1:23 --chunk 5 --no-figures --out".split()
     with pytest.raises(SystemExit) as end:

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.plot.admissible import INSIDE
-from ninedof.records.admissible import admissible_file, latest_admissible, save_admissible
+from ninedof.records.proofs import admissible_file, latest_admissible, save_admissible
 from ninedof.viewer.designs import DesignPicture
 
 STUDY = nd.Study(

@@ -18,23 +18,17 @@ from ninedof.support.units import amount, unit_entry
 from ninedof.tables import Line, Table, columns
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof accuracy design.toml --leg-error 0.01 --joint-error 0.02
-
   ninedof accuracy runs/20260101-120000 --leg-error 0.01 --all-poses
-
   ninedof accuracy runs/20260101-120000 --within 0.1    which tolerances keep p within 0.1?
-
   ninedof accuracy runs/20260101-120000#7 --leg-error 0.01 --samples 10000 --json | jq .position"""
 
 GROUPS = ("turn about", "p along", "O along")  # in the order of the components
 
 
 @struct
-class AccuracyOptions(PosesOptions):
-    """The options."""
-
+class _Options(PosesOptions):
     leg_error: float | None = option(LEG_ERROR)
     joint_error: float | None = option(JOINT_ERROR)
     distribution: str = option(
@@ -48,7 +42,7 @@ class AccuracyOptions(PosesOptions):
     samples: int | None = option("Random robots within the tolerances, without linearization, at one pose.")
 
 
-def accuracy(options: AccuracyOptions) -> Answer:
+def accuracy(options: _Options) -> Answer:
     """Print the errors of platform and O for tolerances of legs and joints, worst case and standard deviation."""
     if options.samples is not None:
         whole("--samples", options.samples, 1, MOST_SAMPLES)
@@ -85,13 +79,10 @@ def accuracy(options: AccuracyOptions) -> Answer:
     return at.answer(parts, data, used)
 
 
-def _allotted(options: AccuracyOptions, at: DesignAtPoses) -> Answer:
+def _allotted(options: _Options, at: DesignAtPoses) -> Answer:
     """Return the tolerances that keep the machine within an error, over the poses of its study."""
-    for name in ("leg_error", "joint_error", "samples", "all_poses"):
-        if getattr(options, name):
-            raise ValueError(f"--{name.replace('_', '-')}: got it with --within, expected one of the two")
-    if named := options.named():
-        raise ValueError(f"{named[0]}: got it with --within, expected none: it is about all poses of the study")
+    more = ("leg_error", "joint_error", "samples", "all_poses", "position", "rotation_deg", "internal_point")
+    options.refuse("with --within: it is about all poses of the study", *more)
     turn = None if options.within_deg is None else math.radians(options.within_deg)
     design, unit = at.machine, at.unit
     kept = tolerances_for(design, options.within, turn, options.weights)

@@ -8,12 +8,11 @@ from typing import Any
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.changes import changes_option
-from ninedof.cli.options import SCHEDULER, THREADS, Options, argument, option, struct
+from ninedof.cli.options import SCHEDULER, THREADS, Options, argument, changes_option, option, struct
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.proof.design_range import design_range
-from ninedof.records.admissible import admissible_file, load_admissible, run_of, save_admissible
+from ninedof.records.proofs import admissible_file, load_admissible, run_of, save_admissible
 from ninedof.support.command import goes_on
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
@@ -21,25 +20,17 @@ from ninedof.tables import Table, columns
 PLACE = 4
 WORDS = {"exists": "yes", "none": "no"}
 Ranges = Mapping[str, tuple[float, float] | None]
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1
-
   ninedof admissible runs/20260101-120000 --vary a2=400:850 --vary b1 --condition 4.2 --time 300
-
   ninedof admissible study.toml --vary a2 --vary b1 --set zp=480 --set zs=320 --out designs
-
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --set zs=-5%
-
   ninedof admissible study.toml --vary a2 --vary b1 --vary zp --set zs=320 --scheduler tcp://head:8786
-
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --around    how far each may go"""
 
 
 @struct
-class AdmissibleOptions(Options):
-    """The options."""
-
+class _Options(Options):
     of: str = argument("A study file, a run folder, or RUN#7 of a front.", metavar="STUDY|RUN")
     vary: list[str] = option("A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH.", ...)
     set: list[str] | None = option("Another variable: zs=320, or zs=+10%. Repeatable.")
@@ -53,7 +44,7 @@ class AdmissibleOptions(Options):
     scheduler: str | None = option(f"{SCHEDULER} the 64 roots of the box.")
 
 
-def admissible(options: AdmissibleOptions) -> Answer:
+def admissible(options: _Options) -> Answer:
     """Divide a box of designs into those proved to keep every limit at every pose, those proved not to, and the rest.
 
     The other variables have the values of the run or of the study. The same command again goes on. For a study with
@@ -92,7 +83,7 @@ def admissible(options: AdmissibleOptions) -> Answer:
     return Answer([], data, INTERRUPTED if found.interrupted else DONE)
 
 
-def _rows(screen: Screen, study: nd.Study, options: AdmissibleOptions, vary: Ranges, at: Mapping[str, Any]) -> Answer:
+def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: Mapping[str, Any]) -> Answer:
     """Return for which rows of its actuators a study has designs; nothing is kept."""
     for name in ("condition", "around", "certificate", "out", "scheduler"):
         if getattr(options, name):
@@ -105,7 +96,7 @@ def _rows(screen: Screen, study: nd.Study, options: AdmissibleOptions, vary: Ran
     return Answer([Table("", heads, rows)], data, INTERRUPTED if found.interrupted else DONE)
 
 
-def _how(options: AdmissibleOptions) -> dict[str, Any]:
+def _how(options: _Options) -> dict[str, Any]:
     return {"time_limit": options.time, "resolution": options.resolution, "threads": options.threads or 0}
 
 
@@ -115,13 +106,12 @@ def _example(one: nd.AdmissibleRow, study: nd.Study) -> str:
 
 
 def _draw(found: nd.AdmissibleSet, file: Path) -> list[Path]:
-    from ninedof.plot.admissible import admissible as figure_of
-    from ninedof.plot.files import save
+    from ninedof import plot
 
-    return save(figure_of(found), file.parent, file.stem)
+    return plot.save(plot.admissible(found), file.parent, file.stem)
 
 
-def _of(options: AdmissibleOptions) -> tuple[nd.Study | nd.Result, Path | None]:
+def _of(options: _Options) -> tuple[nd.Study | nd.Result, Path | None]:
     """Return what is asked about, and the folder of the answer."""
     if (place := Path(options.of)).suffix == ".toml" and place.is_file():
         return nd.Study.load(place), options.out

@@ -13,26 +13,22 @@ import ninedof as nd
 from ninedof.cli.options import option, struct
 from ninedof.cli.sweep_job import Job
 from ninedof.conditioning.hexagonal import HEXAGONAL
-from ninedof.sweep.sample import squared_radius_ratio
+from ninedof.sweep.survey import squared_radius_ratio
 from ninedof.sweep.tables import atlas_table
 
 PLACE = 5
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof atlas                                        a million designs
-
   ninedof atlas --designs 100000000 --out atlas        a hundred million; again after an interruption"""
 
 
 @struct
-class Atlas(Job):
-    """The options."""
-
+class _Options(Job):
     designs: int = option("Number of designs.", 1_000_000)
     seed: int = option("Shifts the sequence of designs.", 0)
 
 
-def atlas(job: Atlas) -> None:
+def atlas(job: _Options) -> None:
     """Survey the hexagonal family: the distribution of its designs, and the best for each size of the base."""
     result, folder = job.compute(partial(nd.atlas, job.designs, job.seed), f"{job.designs:,} designs")
     rows = [

@@ -13,7 +13,7 @@ import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import with_length
 from ninedof.cli.options import LC, LEG_LIMITS, Two, ends, option, struct
-from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home
+from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.redundancy.redundancy import CRITERIA
 from ninedof.sheet.pose_words import decimals_of, fixed, vector_words
@@ -22,29 +22,23 @@ from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof best design.toml --position 0.8 0 3.98
-
   ninedof best runs/20260101-120000 --all-poses             the leg limits of the run's study
-
   ninedof best runs/20260101-120000#7 --criterion singularity --legs 200 650 --json | jq .value"""
 
 WORDS = {"condition_number": "condition number", "singularity": "least |det|", "leg_centring": "leg centring"}
-YZ = (">\ny", ">\nz")  # heads behind one of x
 SHOWN = 12  # poses, the worst ones
 
 
 @struct
-class BestOptions(PosesOptions):
-    """The options."""
-
+class _Options(PosesOptions):
     criterion: str = option(f"One of {', '.join(CRITERIA)}.", "condition_number")
     legs: Two | None = ends(LEG_LIMITS)
     lc: str | None = option(LC)
 
 
-def best(options: BestOptions) -> Answer:
+def best(options: _Options) -> Answer:
     """Print the best place of O at a pose, reached from where it is without passing a singularity."""
     at = with_length(options.at(), options.lc)
     c, length = at.c, length_at_home(at)
@@ -105,8 +99,8 @@ def _table(at: DesignAtPoses, result: nd.InternalPoint, now: Floats, words: str,
     c, points = at.c, result.configuration.internal_point
     order = np.argsort(-now if small else now, kind="stable")
     decimals = decimals_of(c.position, points)
-    p, o = (f"{with_unit(name, at.unit)}\nx" for name in ("p", "best O"))
-    heads = columns(">pose", f">{p}", *YZ, ">now", ">best", f">{o}", *YZ, "why")
+    p, o = (xyz(with_unit(name, at.unit)) for name in ("p", "best O"))
+    heads = columns(">pose", *p, ">now", ">best", *o, "why")
     rows = []
     for k in order[:SHOWN].tolist():
         place, centre = (

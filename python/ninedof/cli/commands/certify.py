@@ -14,7 +14,7 @@ from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.proof.machine import tolerances_of
 from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import outward
-from ninedof.records.certificate import certificate_file, save_certificate
+from ninedof.records.proofs import certificate_file, save_certificate
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.arguments import finite
@@ -25,23 +25,16 @@ from ninedof.tables import Table, columns
 
 PLACE = 4
 LARGEST = "max"
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof certify runs/20260101-120000                certify.json in the run folder
-
   ninedof certify runs/20260101-120000 --condition 3.4 --time 600
-
   ninedof certify runs/20260101-120000 --tolerance 0.05       of every machine built so exactly
-
   ninedof certify runs/20260101-120000 --certificate machine.certificate     for `ninedof check`
-
   ninedof certify runs/20260101-120000                again: goes on where time was over"""
 
 
 @struct
-class CertifyOptions(Options):
-    """The options."""
-
+class _Options(Options):
     run: str = argument("A run folder, or RUN#7: point 7 of a front, counted from 1.")
     condition: float | None = option("A bound of the condition number to be proved too.")
     gap: float = option("Relative width of the enclosure of the worst condition number.", 0.05)
@@ -52,7 +45,7 @@ class CertifyOptions(Options):
     certificate: Path | None = option("Also write a file that `ninedof check` replays.")
 
 
-def certify(options: CertifyOptions) -> Answer:
+def certify(options: _Options) -> Answer:
     """Prove that a machine keeps its limits at every pose of its region, not only at those looked at."""
     screen = options.screen
     run = options.run

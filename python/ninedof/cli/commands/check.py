@@ -14,14 +14,10 @@ from ninedof.proof.optimum import check_certificate
 from ninedof.proof.optimum_proof import FILE
 
 PLACE = 4
-EXAMPLES = f"""[bold]Examples[/bold]
-
+EXAMPLES = f"""
   ninedof optimize --certify --out proved       writes {FILE} into the run folder
-
   ninedof check proved
-
   ninedof admissible study.toml --vary a2 --vary b1 --certificate designs.certificate
-
   ninedof check designs.certificate"""
 
 NUMBER = r"-?\d[\d.]*(?:e[-+]?\d+)?"
@@ -32,13 +28,11 @@ UNIT = "lengths in the study's unit, which a certificate does not name"
 
 
 @struct
-class CheckOptions(Options):
-    """The options."""
-
+class _Options(Options):
     certificate: Path = argument(f"A certificate, or a run folder that has {FILE}.")
 
 
-def check(options: CheckOptions) -> Answer:
+def check(options: _Options) -> Answer:
     """Check a certificate: of a bound of all designs, a machine that keeps its limits, or a set of designs."""
     path = options.certificate / FILE if options.certificate.is_dir() else options.certificate
     if not path.exists() and path != options.certificate:

@@ -10,10 +10,19 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.changes import changes_option
 from ninedof.cli.chosen_design import chosen_design, named_design
-from ninedof.cli.compared import compared, plot_argument
-from ninedof.cli.options import HEXAGON, ONE_DESIGN, PLOT, HexagonalOptions, argument, option, struct
+from ninedof.cli.commands.compare import compared, plot_argument
+from ninedof.cli.options import (
+    HEXAGON,
+    ONE_DESIGN,
+    PLOT,
+    HexagonalOptions,
+    argument,
+    changes_option,
+    option,
+    struct,
+    typed,
+)
 from ninedof.cli.posed import beyond_words
 from ninedof.design.indices import computed
 from ninedof.records.design_file import indices
@@ -24,23 +33,16 @@ from ninedof.tables import Line, Table, columns
 
 PLACE = 3
 DETERMINANTS = "singularity margins: det N, B, C"
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4435
-
   ninedof evaluate design.toml --lc optimal
-
   ninedof evaluate runs/20260101-120000    the best design of a run
-
   ninedof evaluate runs/20260101-120000 --set a2=+10%    what if a2 were longer?
-
   ninedof evaluate runs/20260101-120000#7    the design of point 7 of a front"""
 
 
 @struct
-class EvaluateOptions(HexagonalOptions):
-    """The options."""
-
+class _Options(HexagonalOptions):
     design: str | None = argument(ONE_DESIGN, None)
     changes: list[str] | None = option(
         "What if? A variable of the run's study: a2=900 or a2=+10%. Repeatable.", None, "--set"
@@ -48,7 +50,7 @@ class EvaluateOptions(HexagonalOptions):
     plot: Path | None = option(PLOT)
 
 
-def evaluate(options: EvaluateOptions) -> Answer:
+def evaluate(options: _Options) -> Answer:
     """Print the indices of one design and configuration; of a run also its study's poses and limits in short."""
     if options.changes:
         return _changed(options)
@@ -73,11 +75,11 @@ def evaluate(options: EvaluateOptions) -> Answer:
     return Answer(parts, values)
 
 
-def _changed(options: EvaluateOptions) -> Answer:
+def _changed(options: _Options) -> Answer:
     """Return the run beside its design with other values of some variables."""
     plot_argument(options.plot)
     if given := options.given(*HEXAGON, "lc"):
-        raise ValueError(f"--set: got --{next(iter(given)).replace('_', '-')} beside it, expected a run alone")
+        raise ValueError(f"--set: got {typed(next(iter(given)))} beside it, expected a run alone")
     result = named_design(options.design).result if options.design else None
     if result is None:
         raise ValueError(f"--set: got {options.design or 'no design'}, expected a run, whose study has variables")

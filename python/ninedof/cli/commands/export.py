@@ -7,7 +7,7 @@ from pathlib import Path
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct
+from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct, typed
 from ninedof.export.export import formats
 from ninedof.export.model import Format
 from ninedof.support.arguments import choice
@@ -15,21 +15,16 @@ from ninedof.support.files import own_or_new
 from ninedof.support.units import unit_argument
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof export runs/20260101-120000 --to mjcf
-
   ninedof export runs/20260101-120000 --to urdf --out machine.urdf --platform-mass 12
-
   ninedof export design.toml --out joints.csv"""
 
 WORDS = "; ".join(f"{name}: {row.words}" for name, row in formats().items())
 
 
 @struct
-class ExportOptions(Options):
-    """The options."""
-
+class _Options(Options):
     design: str = argument(ONE_DESIGN)
     to: str | None = option(f"{WORDS}. Follows from the suffix of --out if that is given.")
     out: Path | None = option("The file; in this folder, with the name of the design, by default.")
@@ -39,7 +34,7 @@ class ExportOptions(Options):
     unit: str | None = option("The length unit (mm, cm, m, in, ft); that of the study or file by default.")
 
 
-def export(options: ExportOptions) -> Answer:
+def export(options: _Options) -> Answer:
     """Write a design as a file of another program: simulators, CAD, controllers, documents."""
     out = options.out
     row = _by_suffix(out) if options.to is None else formats()[choice("--to", options.to, formats())]
@@ -51,8 +46,8 @@ def export(options: ExportOptions) -> Answer:
         raise ValueError(f"--out: got {file}, the design itself, expected another file")
     more = options.given("leg_mass", "platform_mass", "gravity")
     for key in more.keys() - row.options:
-        what = ", ".join(map(_typed, row.options)) or "no option"
-        raise ValueError(f"{_typed(key)}: got {more[key]:g} with --to {row.name}, which takes {what}")
+        what = ", ".join(map(typed, row.options)) or "no option"
+        raise ValueError(f"{typed(key)}: got {more[key]:g} with --to {row.name}, which takes {what}")
     own_or_new("--out", file, row.mark)
     if row.beside is not None:
         own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
@@ -69,10 +64,6 @@ def _by_suffix(out: Path | None) -> Format:
     if out.suffix.lower() not in suffixes:
         raise ValueError(f"--out: got {out}, expected --to with a format, or a file that ends in {', '.join(suffixes)}")
     return suffixes[out.suffix.lower()]
-
-
-def _typed(name: str) -> str:
-    return f"--{name.replace('_', '-')}"
 
 
 def _stem(design: str) -> str:

@@ -10,19 +10,14 @@ from ninedof.cli.posed import loads_option
 from ninedof.sheet.failure.tables import failure_parts
 
 PLACE = 3
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof failure runs/20260101-120000
-
   ninedof failure runs/20260101-120000 --condition 10 --load "0 0 0 0 0 -100"
-
   ninedof failure design.toml --no-pairs --json | jq .locked"""
 
 
 @struct
-class FailureOptions(Options):
-    """The options."""
-
+class _Options(Options):
     design: str = argument(ONE_DESIGN)
     condition: float | None = option(
         "The condition number that shares of the region are about; twice the healthy worst."
@@ -31,7 +26,7 @@ class FailureOptions(Options):
     pairs: bool = option("Lock each pair of legs too.", True)
 
 
-def failure(options: FailureOptions) -> Answer:
+def failure(options: _Options) -> Answer:
     """Print what is left when each leg, and each pair, is locked at its length, and when each leg carries nothing.
 
     Over the poses of the study, of a region study over its region. Loads and masses of a run's study are taken.

@@ -19,25 +19,20 @@ from ninedof.tables import Table, columns, grouped
 from ninedof.tables.numbers import spread
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof forces design.toml --load "0 0 0 0 0 -100"
-
   ninedof forces runs/20260101-120000 --load "0 0 0 0 0 -100" --load "0 5 0 0 0 -100" --all-poses
-
   ninedof forces runs/20260101-120000#7 --load "0 0 0 0 0 -100" --position 10 0 350 --json | jq .forces"""
 
 BALANCED = 1e-9  # of the largest force
 
 
 @struct
-class ForcesOptions(PosesOptions):
-    """The options."""
-
+class _Options(PosesOptions):
     load: list[str] | None = option(LOAD)
 
 
-def forces(options: ForcesOptions) -> Answer:
+def forces(options: _Options) -> Answer:
     """Print the forces in the legs that balance loads on the platform, positive where a leg pushes."""
     given = loads_option(options.load)
     at = options.at()

@@ -9,7 +9,7 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import option, struct
-from ninedof.cli.posed import PoseOptions, length_at_home, poses_data, several
+from ninedof.cli.posed import PoseOptions, length_at_home, poses_data, several, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.proof.machine_record import outward
 from ninedof.sheet.pose_words import decimals_of, fixed, turn_deg
@@ -18,29 +18,22 @@ from ninedof.support.units import unit_entry, with_unit
 from ninedof.tables import Table, columns
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof modes design.toml                          all modes with the leg lengths of the neutral pose
-
   ninedof modes runs/20260101-120000 --position 10 0 350 --rotation-deg 0 5 0
-
   ninedof modes design.toml --certify                with a proof that there are no others
-
   ninedof modes design.toml --lengths "5 5 5 3 3 3 4 4 4" --json | jq .count"""
 
-YZ = (">\ny", ">\nz")  # heads behind one of x
 SAME = 1e-6  # of Q, and of p and O over the longest leg
 
 
 @struct
-class ModesOptions(PoseOptions):
-    """The options."""
-
+class _Options(PoseOptions):
     lengths: str | None = option('Nine leg lengths "l1 l2 l3 q1 q2 q3 r1 r2 r3", in place of those of a pose.')
     certify: bool = option("Also prove how many there are, and enclose each of them.", False, "--certify")
 
 
-def modes(options: ModesOptions) -> Answer:
+def modes(options: _Options) -> Answer:
     """Print every configuration with the leg lengths of a pose: the assembly modes."""
     if options.lengths is not None and options.named():
         raise ValueError("--lengths: got a pose beside it, expected one of the two")
@@ -94,8 +87,8 @@ def _proof(proof: nd.ModesCertificate) -> str:
 
 def _table(result: nd.AssemblyModes, kappa: Floats, this: int, neutral: Floats, unit: str) -> Table:
     """Return a row for each mode: p, the rotation vector from the neutral orientation, O, the condition number."""
-    p, o = (f"{with_unit(name, unit)}\nx" for name in ("p", "O"))
-    heads = columns(">", f">{p}", *YZ, ">turn °\nx", *YZ, f">{o}", *YZ, ">cond.\nno.")
+    p, o = (xyz(with_unit(name, unit)) for name in ("p", "O"))
+    heads = columns(">", *p, *xyz("turn °"), *o, ">cond.\nno.")
     decimals, turns = decimals_of(result.position, result.internal_point), turn_deg(result, neutral)
     rows = []
     for k in range(len(result)):

@@ -17,7 +17,6 @@ from ninedof.optimize.result import with_fixed_design
 from ninedof.optimize.tables import agreement_words, best_prices, candidates_table, proof_words
 from ninedof.paper.comparison import Comparison, compare, comparison_table, comparison_words
 from ninedof.proof.optimum import left_out_of
-from ninedof.records.figures import figures_of
 from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
 from ninedof.sheet.tables import limits_table
@@ -27,23 +26,16 @@ from ninedof.support.command import ended_by_time
 from ninedof.support.units import amount, unit_entry
 
 PLACE = 1
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof optimize                         the paper's problem, beside the published optimum
-
   ninedof optimize study.toml --out run1   a study of your own, run folder run1
-
   ninedof optimize study.toml --certify    with a proof of how much better any design can be
-
   ninedof optimize study.toml --time 60    the best design of a minute, and what is left to gain
-
   ninedof optimize --json --no-figures | jq .optimization.status"""
 
 
 @struct
-class OptimizeOptions(JobOptions):
-    """The options."""
-
+class _Options(JobOptions):
     study: Path | None = argument("A study file (TOML). The paper's study if none is given.", None)
     starts: int | None = option(STARTS)
     seed: int | None = option("Seed, in place of the study's.")
@@ -56,7 +48,7 @@ class OptimizeOptions(JobOptions):
     certify: bool = option("Also prove how much better a design of the study can be at most.", False, "--certify")
 
 
-def optimize(options: OptimizeOptions) -> Answer:
+def optimize(options: _Options) -> Answer:
     """Find the best design of a study: by default, the design with the least condition number."""
     screen = options.screen
     file = options.study
@@ -77,7 +69,11 @@ def optimize(options: OptimizeOptions) -> Answer:
         result, answer = run, Answer(_result_parts(run), {"optimization": run.to_dict()})
     data = {**unit_entry(study.unit), **answer.data}
     with_figures = options.figures and not result.interrupted
-    draw = figures_of(run, screen.say, options.convergence) if with_figures else None
+    draw = None
+    if with_figures:
+        from ninedof.records.figures import figures_of
+
+        draw = figures_of(run, screen.say, options.convergence)
     write = partial(write_run, run, directory)
     record = write_job(screen, Answer(answer.parts, data), write, draw, with_figures and options.report)
     if options.check and result.best is not None and not result.interrupted:

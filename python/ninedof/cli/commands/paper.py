@@ -14,24 +14,20 @@ from ninedof.records.record import Record, write_drawn
 from ninedof.support.store import Store
 
 PLACE = 7
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof paper --json | jq '.[].verdict'
-
   ninedof paper --figures --out figures    Figs. 1 to 7, drawn anew"""
 
 
 @struct
-class PaperOptions(Options):
-    """The options."""
-
+class _Options(Options):
     figures: bool = option("Draw the seven figures of the paper too.", False, "--figures")
     out: Path | None = option("Folder of the figures; runs/<time> by default.")
     threads: int | None = option(THREADS)
     report: bool = option(REPORT, True, "--report/--no-report")
 
 
-def paper(options: PaperOptions) -> None:
+def paper(options: _Options) -> None:
     """Print every number of the paper beside ours, and a verdict on each; with --figures, draw its figures anew."""
     screen = options.screen
     if options.out is not None and not options.figures:

@@ -22,25 +22,17 @@ from ninedof.records.load import split
 from ninedof.records.record import write_run
 
 PLACE = 2
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof pareto --against radius_ratio    the paper's optimum for several sizes of the base
-
   ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4
-
   ninedof pareto study.toml --against base_cone_deg --value 30 --value 35
-
   ninedof pareto study.toml --against tolerance    what accuracy costs: joints and legs off by so much
-
   ninedof pareto runs/20260101-120000 --points 7   the study of a run, against the limit of greatest price
-
   ninedof pareto study.toml --against leg_ratio --out front     again after an interruption"""
 
 
 @struct
-class ParetoOptions(JobOptions):
-    """The options."""
-
+class _Options(JobOptions):
     study: Path | None = argument(
         "A study file (TOML), or a run folder: its study. The paper's study if none is given.", None
     )
@@ -57,7 +49,7 @@ class ParetoOptions(JobOptions):
     threads: int | None = option(THREADS)
 
 
-def pareto(options: ParetoOptions) -> None:
+def pareto(options: _Options) -> None:
     """Compute the least condition number for each value of a limit."""
     screen = options.screen
     least = 0.0 if options.against == TOLERANCE else math.ulp(0.0)  # 0 is the machine as it is drawn

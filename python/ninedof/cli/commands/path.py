@@ -29,7 +29,8 @@ from ninedof.cli.posed import rule_option
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.motion.tables import motion_tables, motion_words
 from ninedof.records.folder import run_folder
-from ninedof.records.motion import plain, write_motion
+from ninedof.records.motion import plain
+from ninedof.records.record import write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.request import masses_of
@@ -38,23 +39,16 @@ from ninedof.support.units import unit_entry
 
 PLACE = 7
 SHAPES, TIMES = ("circle", "line", "spiral"), ("duration", "points")
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof path design.toml path.csv --legs 2.5 6.5
-
   ninedof path runs/20260101-120000 path.csv              the limits of the run's study
-
   ninedof path design.toml --circle 0.5 --duration 2 --internal-point best
-
   ninedof path runs/20260101-120000 --line 30 0 20 --mass 5 --centre 0 0 20
-
   ninedof path --line 0.5 0 0.2 --force 0 0 -9.81 --json | jq .motion.legs.l1"""
 
 
 @struct
-class PathOptions(JobOptions):
-    """The options."""
-
+class _Options(JobOptions):
     design: str | None = argument(DESIGN_OR_PUBLISHED, None)
     file: Path | None = argument(
         "Poses (CSV): columns t x y z (or x_rel y_rel z_rel, from the neutral pose), and for the rotation "
@@ -79,7 +73,7 @@ class PathOptions(JobOptions):
     lc: str | None = option(LC)
 
 
-def path(options: PathOptions) -> None:
+def path(options: _Options) -> None:
     """Compute leg lengths, rates and accelerations along a path, and the limits that break.
 
     A run brings every limit of its study.
@@ -125,12 +119,12 @@ def path(options: PathOptions) -> None:
     if masses is not None and options.mass is None:
         stated = [*stated, "[masses]"]
     parts += [f"from the study: {', '.join(stated)}"] if stated else []
-    write = partial(write_motion, result, directory, question=question, limits=of_study)
+    write = partial(write_run, result, directory, question=question, results={"motion": motion}, limits=of_study)
     answer = Answer(parts, {"motion": motion}, DONE if result.tracked and not motion["breaks"] else NO_RESULT)
     finish_job(options, directory, answer, write, partial(_draw, result, options.screen, of_study))
 
 
-def _trajectory(chosen: Chosen, options: PathOptions) -> nd.Trajectory:
+def _trajectory(chosen: Chosen, options: _Options) -> nd.Trajectory:
     """Return the one trajectory of the options."""
     home, shapes = chosen.configuration, options.given(*SHAPES)
     names = [*(["a file"] if options.file else []), *(f"--{name}" for name in shapes)]
@@ -147,7 +141,7 @@ def _trajectory(chosen: Chosen, options: PathOptions) -> nd.Trajectory:
     return trajectory
 
 
-def _load(options: PathOptions, duty: nd.Study) -> tuple[Any, Any, list[str]]:
+def _load(options: _Options, duty: nd.Study) -> tuple[Any, Any, list[str]]:
     """Return force and moment of the options, or of each load of a study, and what the study states of them."""
     wrenches = duty.loads.wrenches
     if options.force is not None or options.moment is not None or not wrenches:

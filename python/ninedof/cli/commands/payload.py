@@ -22,19 +22,14 @@ from ninedof.support.units import amount
 from ninedof.tables import Table, columns, grouped
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof payload runs/20260101-120000    by the limit of force of its study
-
   ninedof payload runs/20260101-120000 --force 500
-
   ninedof payload runs/20260101-120000 --force 500 --pull 200 --centre 0 0 40 --json | jq .mass"""
 
 
 @struct
-class PayloadOptions(Options):
-    """The options."""
-
+class _Options(Options):
     design: str = argument(ONE_DESIGN)
     force: float | None = option(
         "Greatest force of a leg, pushing, and pulling without --pull; N for kg. That of the study by default."
@@ -44,7 +39,7 @@ class PayloadOptions(Options):
     load: list[str] | None = option(LOAD)
 
 
-def payload(options: PayloadOptions) -> Answer:
+def payload(options: _Options) -> Answer:
     """Print the greatest mass on the platform that the legs hold at every pose.
 
     Loads, masses and gravity of a run's study act besides it. A region is searched: no proof.

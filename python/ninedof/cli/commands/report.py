@@ -11,24 +11,19 @@ from ninedof.support.files import own_or_new
 
 PLACE = 3
 MARK = "Made by ninedof"  # in every report
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof report runs/20260101-120000                 report.html in the run folder
-
   ninedof report runs/20260101-120000 --out mine.html
-
   ninedof report front#3                              point 3 of a trade-off"""
 
 
 @struct
-class ReportOptions(Options):
-    """The options."""
-
+class _Options(Options):
     run: str = argument("A run folder, or RUN#7: point 7 of a front, counted from 1.")
     out: Path | None = option("File to write; report.html in the run folder, or report-7.html, by default.")
 
 
-def report(options: ReportOptions) -> Answer:
+def report(options: _Options) -> Answer:
     """Write a run as one page of HTML: question, answer, the machine to turn by hand, sheet, figures, proof."""
     if options.out is not None:
         own_or_new("--out", options.out, MARK)

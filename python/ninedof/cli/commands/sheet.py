@@ -18,6 +18,7 @@ from ninedof.cli.options import (
     argument,
     option,
     struct,
+    typed,
 )
 from ninedof.cli.posed import loads_option, several
 from ninedof.sheet.tables import sheet_parts
@@ -26,23 +27,17 @@ from ninedof.support.files import own_or_new, write_whole
 
 PLACE = 3
 MARK = "leg,shortest"  # begins a table of legs
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof sheet runs/20260101-120000 --csv legs.csv
-
   ninedof sheet runs/20260101-120000 --load "0 0 0 0 0 -100" --leg-error 0.01 --leg-stiffness 2e4
-
   ninedof sheet runs/20260101-120000 --mass 5 --centre "0 0 20" --twist "0 0 1 200 0 0"
-
   ninedof sheet design.toml --speed 200 --turn-deg 30 --json"""
 
 VECTORS = {"twist": "wx wy wz vx vy vz", "twist_rate": "ax ay az ax ay az", "centre": "x y z", "gravity": "x y z"}
 
 
 @struct
-class SheetOptions(Options):
-    """The options."""
-
+class _Options(Options):
     design: str = argument(ONE_DESIGN)
     speed: float | None = option("Platform speed for the leg speeds, length/time; of the study, or 1.")
     turn_deg: float | None = option("Angular speed beside it, degrees/time; of the study, or 0.")
@@ -61,15 +56,14 @@ class SheetOptions(Options):
     csv: Path | None = option("Write the table of the legs to this file.")
 
 
-def sheet(options: SheetOptions) -> None:
+def sheet(options: _Options) -> None:
     """Print the engineering sheet: joints, legs, clearance, singularities and limits over the poses."""
     screen = options.screen
     if options.csv is not None:
         own_or_new("--csv", options.csv, MARK)
     chosen = named_design(options.design)
     vectors: dict[str, Any] = {
-        name: several(f"--{name.replace('_', '-')}", text, VECTORS[name])
-        for name, text in options.given(*VECTORS).items()
+        name: several(typed(name), text, VECTORS[name]) for name, text in options.given(*VECTORS).items()
     }
     turn = options.turn_deg
     result = nd.sheet(

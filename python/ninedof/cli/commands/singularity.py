@@ -19,12 +19,9 @@ from ninedof.support.units import amount
 from ninedof.tables import Table, columns
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof singularity design.toml
-
   ninedof singularity runs/20260101-120000 --all-poses
-
   ninedof singularity runs/20260101-120000#7 --direction "0 0 0 1 0 0 1 0 0" --most 500 --json | jq .distance"""
 
 # Of each part: its name, the unit shown, what radians or lengths are multiplied by.
@@ -36,16 +33,14 @@ GROUPS = {
 
 
 @struct
-class SingularityOptions(PosesOptions):
-    """The options."""
-
+class _Options(PosesOptions):
     direction: str | None = option(
         'A motion "wx wy wz px py pz sx sy sz" of platform and O, radians and lengths, base axes.'
     )
     most: float = option("End of it, in multiples of the motion.", 1.0)
 
 
-def singularity(options: SingularityOptions) -> Answer:
+def singularity(options: _Options) -> Answer:
     """Print the distance to the nearest singularity, with its kind and pose: along each coordinate, or one motion.
 
     Along a coordinate the others stay, O too while the platform moves. Turns are looked at up to half a turn, p and O

@@ -16,12 +16,9 @@ from ninedof.support.units import per, times
 from ninedof.tables import Table, columns, grouped
 
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof stiffness design.toml --leg-stiffness 2e4
-
   ninedof stiffness runs/20260101-120000 --leg-stiffness 2e4 --all-poses
-
   ninedof stiffness runs/20260101-120000#7 --leg-stiffness 2e4 --json | jq .least"""
 
 COLUMNS = (">turn x", ">turn y", ">turn z", ">p x", ">p y", ">p z")
@@ -29,13 +26,11 @@ ROWS = ("mx", "my", "mz", "fx", "fy", "fz")
 
 
 @struct
-class StiffnessOptions(PosesOptions):
-    """The options."""
-
+class _Options(PosesOptions):
     leg_stiffness: float = option(LEG_STIFFNESS, ...)
 
 
-def stiffness(options: StiffnessOptions) -> Answer:
+def stiffness(options: _Options) -> Answer:
     """Print the stiffness matrix of the platform, legs locked and O free to settle, and the least stiffness."""
     finite("--leg-stiffness", options.leg_stiffness, 0.0)
     at = options.at()

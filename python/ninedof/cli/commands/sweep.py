@@ -22,7 +22,6 @@ from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
 from ninedof.sweep.axis import Values
 from ninedof.sweep.poses import COORDINATES, ROTATION, rule_of_study
-from ninedof.sweep.run import DesignOptions
 from ninedof.sweep.tables import summary_table
 
 FAMILIES = {name: tuple(nd.Study(name).variables) for name in FAMILY_NAMES}
@@ -31,27 +30,16 @@ FIGURES = ("figure-6", "figure-7")
 OF_POSES = ("absolute", "internal_point", "threads")
 NONE_WITH_FIGURES = ("over", "index", *OF_POSES, "lc", "chunk", *HEXAGON)
 PLACE = 4
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof sweep figure-6                   the condition number against displacement, as in the paper's Fig. 6
-
   ninedof sweep --over x_p=-1:1:201 --over theta_z_deg=-60:60:121
-
   ninedof sweep design.toml --over z_s=-1:1:401 --index singular_values --index leg_lengths
-
   ninedof sweep --over a1=0:3:31 --over b2=0:3:31      designs in place of configurations
-
   ninedof sweep runs/20260101-120000 --over platform_internal_angle_deg=-60:60:121 --index leg_ratio"""
 
 
-Held = tuple[dict[str, float], DesignOptions]
-"""The values of the variables that are not swept, and their family, characteristic length and unit of lengths."""
-
-
 @struct
-class Sweep(HexagonalOptions, Job):
-    """The options."""
-
+class _Options(HexagonalOptions, Job):
     what: str | None = argument(
         f"figure-6, figure-7, or {DESIGN}. By default the published design at its best zs.", None
     )
@@ -74,7 +62,7 @@ class Sweep(HexagonalOptions, Job):
     threads: int | None = option(THREADS)
 
 
-def sweep(job: Sweep) -> None:
+def sweep(job: _Options) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
     what, chosen, note = job.what, None, ""
     if what in FIGURES:
@@ -92,10 +80,8 @@ def sweep(job: Sweep) -> None:
             call = _over_poses(chosen, job, grid, rule)
         else:
             job.refuse("in a sweep over designs", *OF_POSES)
-            design, own = _held_variables(what, chosen, job, grid)
             note = _note(chosen, "at the neutral pose alone")
-            own["chunk"] = job.chunk
-            call = partial(nd.sweep_designs, design, grid, job.index or "condition_number", **own)
+            call = _over_designs(what, chosen, job, grid)
     result, folder = job.compute(call, title)
     title += f"; {note}" * bool(note)
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
@@ -113,7 +99,7 @@ def _note(chosen: Chosen | None, where: str) -> str:
 
 
 def _over_poses(
-    chosen: Chosen | None, job: Sweep, grid: Mapping[str, Values], rule: str
+    chosen: Chosen | None, job: _Options, grid: Mapping[str, Values], rule: str
 ) -> Callable[..., nd.SweepResult]:
     """Return the sweep over coordinates of a design, or of the published one at its best zs."""
     if chosen is None:
@@ -133,24 +119,41 @@ def _over_poses(
     )
 
 
-def _held_variables(name: str | None, chosen: Chosen | None, options: HexagonalOptions, grid: Iterable[str]) -> Held:
-    """Return what a sweep over variables holds: of the design of a name, or of a hexagonal one given by its sides."""
-    over = [plain_name(swept) for swept in grid]
-    if chosen is not None:
-        return _of_named(name, chosen, over)
-    own = options.given(*HEXAGON)
+def _over_designs(
+    name: str | None, chosen: Chosen | None, job: _Options, grid: Mapping[str, Values]
+) -> Callable[..., nd.SweepResult]:
+    """Return the sweep over variables of the design of a name, or of a hexagonal one given by its sides."""
+    over = list(map(plain_name, grid))
+    if chosen is None:
+        family, values = "hexagonal", _sides(job, over)
+        length, unit = 1.0 if job.lc is None else length_option(job.lc), ""
+    else:
+        family, values = _variables(name, chosen, over)
+        length, unit = chosen.characteristic_length, chosen.unit
+    return partial(
+        nd.sweep_designs,
+        {name: values[name] for name in FAMILIES[family] if name in values and name not in over},
+        grid,
+        job.index or "condition_number",
+        family=family,
+        characteristic_length=length,
+        unit=unit,
+        chunk=job.chunk,
+    )
+
+
+def _sides(job: _Options, over: Iterable[str]) -> Mapping[str, float]:
+    own = job.given(*HEXAGON)
     twist = own.pop("theta_z_deg", None)
     if both := sorted(set(own) & set(over)):
         raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")
     if others := [swept for swept in over if swept not in FAMILIES["hexagonal"]]:
         raise ValueError(f"--over: got {others[0]}, expected a DESIGN whose family has it")
     values = own or published_variables()
-    if twist is not None:
-        values["theta_z"] = math.radians(twist)
-    return _held("hexagonal", values, over, 1.0 if options.lc is None else length_option(options.lc))
+    return values if twist is None else values | {"theta_z": math.radians(twist)}
 
 
-def _of_named(name: str | None, chosen: Chosen, over: list[str]) -> Held:
+def _variables(name: str | None, chosen: Chosen, over: list[str]) -> tuple[str, Mapping[str, float]]:
     if chosen.tool:
         raise ValueError(
             f"--over: got variables of {name}, which has a [tool], expected coordinates of the configuration"
@@ -163,17 +166,12 @@ def _of_named(name: str | None, chosen: Chosen, over: list[str]) -> Held:
             fits[family] = found
     for family, values in fits.items():
         if set(over) <= set(FAMILIES[family]):
-            return _held(family, values, over, chosen.characteristic_length, chosen.unit)
+            return family, values
     expected = f"variables of one family: {', '.join(fits)}" if fits else "coordinates: O or p is not on the z axis"
     raise ValueError(f"--over: got {', '.join(over)}, which {name} does not have as variables, expected {expected}")
 
 
-def _held(family: str, values: Mapping[str, float], over: list[str], length: float | str, unit: str = "") -> Held:
-    values_held = {name: values[name] for name in FAMILIES[family] if name in values and name not in over}
-    return values_held, {"family": family, "characteristic_length": length, "unit": unit}
-
-
-def _grid(job: Sweep) -> dict[str, Values]:
+def _grid(job: _Options) -> dict[str, Values]:
     """Return the axes of --over."""
     what, over = job.what, job.over or ()
     if what is not None and what.startswith("figure-") and not Path(what).exists():

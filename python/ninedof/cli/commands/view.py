@@ -11,19 +11,14 @@ import ninedof as nd
 from ninedof.cli.options import DESIGN_OR_PUBLISHED, argument, option, struct
 
 PLACE = 3
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof view runs/20260101-120000                   the best design of a run, with the limits of its study
-
   ninedof view design.toml --path path.csv --port 0   with a path to play, at any free port
-
   ninedof view                                        the published design"""
 
 
 @struct
-class ViewOptions:
-    """The options."""
-
+class _Options:
     design: str | None = argument(DESIGN_OR_PUBLISHED, None)
     path: Path | None = option("Poses to play: a CSV file as of `ninedof path`.")
     host: str = option(
@@ -34,7 +29,7 @@ class ViewOptions:
     browser: bool = option("Open the page in the browser.", False, "--open")
 
 
-def view(options: ViewOptions) -> None:
+def view(options: _Options) -> None:
     """Show a design in the browser, to move by hand: platform, O, variables; numbers and limits follow.
 
     Needs the extra `viewer`. Ctrl-C ends it.

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import Any, TypeVar
 
 from ninedof.cli.answer import Answer, finish_job, write_job
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
-from ninedof.cli.workspace_figures import draw
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
 from ninedof.records.folder import run_folder
 from ninedof.records.record import write_run
@@ -25,18 +25,12 @@ from ninedof.workspace.tables import asked_lines, share_words, workspace_table, 
 PLACE = 6
 S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)
 OF_THE_MAP = ("method", "tolerance", "resolution", "points", "seed", "index")
-EXAMPLES = """[bold]Examples[/bold]
-
+EXAMPLES = """
   ninedof workspace --legs 1.5 6.5 --condition 5 --singularity-free
-
   ninedof workspace runs/20260101-120000    the limits of the study, O as the design has it
-
   ninedof workspace runs/20260101-120000 --upper 1.5 3 --clearance 0 --no-figures
-
   ninedof workspace design.toml --legs 2.5 6.5 --x -2 2 --y -2 2 --z 3 7 --out run1
-
   ninedof workspace runs/20260101-120000 --certify --gap 0.02    bounds of the volume, proved
-
   ninedof workspace --archetype orientation --angle-deg 60 --legs 1.5 6.5 --json | jq .workspace.volume"""
 
 
@@ -85,10 +79,15 @@ def workspace(options: WorkspaceOptions) -> None:
         data["region"] = share._asdict()
     stopped = result.interrupted or (result.certified is not None and result.certified.interrupted)
     with_figures = result.volume > 0.0 and result.method != "sample"
-    drawing = partial(draw, result, screen, home, None if result.of_angles else region) if with_figures else None
+
+    def draw(folder: Path) -> list[Path]:
+        from ninedof.cli import workspace_figures
+
+        return workspace_figures.draw(result, screen, home, None if result.of_angles else region, folder)
+
     answer = Answer([], data, INTERRUPTED if stopped else DONE if result.volume > 0.0 else NO_RESULT)
     write = partial(write_run, result, directory, question=record)
-    finish_job(options, directory, answer, write, drawing)
+    finish_job(options, directory, answer, write, draw if with_figures else None)
 
 
 def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -> S:
