@@ -74,13 +74,7 @@ def load_design(path: str | os.PathLike[str]) -> Design:
     default) and two tables: [geometry] with a1 a2 b1 b2, or with four lists of three joints base_external,
     base_internal, platform_external, platform_internal; [configuration] with zp, zs and theta_z_deg (or theta_z in
     radians), or with position, internal_point and, optionally, rotation (three rows). With a third, [tool], as in a
-    study, the two are of the plates, and the design is as the tool sees it.
-
-    Raises
-    ------
-    ValueError
-        Naming the file and the entry.
-
+    study, the two are of the plates, and the design is as the tool sees it. ValueError names the file and the entry.
     """
     data = read_toml(path)
     with within(os.fspath(path), ": "):
