@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from ninedof.design.limits import kind_of, kind_unit
 from ninedof.motion.follow import FORCES, Followed
 from ninedof.redundancy.rules import where_o
 from ninedof.robot.idle import NEVER_CARRY
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.margins import margin_words
-from ninedof.support.units import amount, per
+from ninedof.support.units import amount, per, times
 from ninedof.tables import RIGHT, Column, Table, grouped
 
 POWERS, WORKS = ("power", "braking"), ("work", "returned")
@@ -44,8 +45,9 @@ def legs_table(motion: Mapping[str, Any]) -> Table:
 def drives_table(motion: Mapping[str, Any]) -> Table | None:
     """Return the table of forces, powers and work of the legs; None without forces."""
     legs = motion["legs"]
-    newton = motion.get("force_unit", "")
-    groups = ((newton, FORCES), ("W" if newton else "", POWERS), ("J" if newton else "", WORKS))
+    newton, unit = motion.get("force_unit", ""), motion.get("unit", "")
+    power, work = ("W", "J") if newton else (times("force", per(unit, "s")), times("force", unit))
+    groups = ((newton, FORCES), (power, POWERS), (work, WORKS))
     units = {name: unit for unit, names in groups for name in names if all(name in leg for leg in legs.values())}
     if not units:
         return None
@@ -75,7 +77,7 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
         if "limit_deg" in row:
             ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
         else:
-            unit = motion.get("unit", "") if row["name"] in OF_LENGTHS else ""
+            unit = kind_unit(kind_of(row["name"]), motion.get("unit", ""))
             ends = [amount(f"{row[key]:.6g}", unit) for key in ("limit", "value")]
         margin = margin_words(row["margin"], "sign" if row["name"] == "singularity_free" else "")
         rows.append((f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"))
