@@ -54,6 +54,18 @@ def test_curves_over_poses_have_the_neutral_one_beside_and_a_ground_where_a_limi
     assert [axes.get_title(loc="left") for axes in figure.axes] == ["along zs", "along theta_z"]
 
 
+def test_the_legend_of_a_long_question_lies_in_the_figure():
+    name = "worst condition number over the 20 poses that ruled the region"
+    zs, theta, k = np.array([1.5, 2.0, 2.5]), np.array([-0.1, 0.0, 0.1]), [4.1, 4.0, 4.1]
+    passed = [True, False, False], [True, False, False]
+    design = plot.DesignCurves(name, zs, k, theta, k, (2.0, 0.0, 4.0), passed=passed, neutral=(k, k))
+    figure = plot.condition_curves([design])
+    figure.draw_without_rendering()
+    box = figure.legends[0].get_window_extent()
+    assert 0.0 <= box.x0 < box.x1 <= figure.bbox.width
+    assert 0.0 <= box.y0 < box.y1 < figure.axes[0].xaxis.label.get_window_extent().y0
+
+
 def test_a_design_that_limits_leave_no_room_is_said_to_be_allowed():
     zs, theta = np.array([2.0, 2.4, 2.400001, 3.0]), np.array([-0.1, 0.0, 0.1])
     passed = [True, False, True, True], [False, False, True]
