@@ -16,7 +16,7 @@ from ninedof.support.angles import angle_entry, degrees_of, half_turn, in_radian
 from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
 from ninedof.support.schema import Check, plain, within
 from ninedof.support.structs import Fixed
-from ninedof.support.units import per, times
+from ninedof.support.units import kind_unit as kind_unit
 
 
 class Row(NamedTuple):
@@ -153,12 +153,6 @@ def split_label(text: str) -> tuple[str, str]:
     """Return the name and the place of a label."""
     name, _, at = text.partition(" at ")
     return name, at or AT[0]
-
-
-def kind_unit(kind: str, of_lengths: str) -> str:
-    """Return the unit of values of a kind: "deg", that of lengths, a rate or a power, "" for others."""
-    rate = per(of_lengths, "s")
-    return {"angle": "deg", "length": of_lengths, "rate": rate, "power": times("force", rate)}.get(kind, "")
 
 
 def kind_of(name: str) -> str:

@@ -8,13 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.limits import kind_of, kind_unit
 from ninedof.motion.follow import FORCES, Followed
 from ninedof.redundancy.rules import where_o
 from ninedof.robot.idle import NEVER_CARRY
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.margins import margin_words
-from ninedof.support.units import amount, per, times
+from ninedof.support.units import amount, kind_unit, per, times
 from ninedof.tables import RIGHT, Column, Table, grouped
 
 POWERS, WORKS = ("power", "braking"), ("work", "returned")
@@ -77,7 +76,7 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
         if "limit_deg" in row:
             ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
         else:
-            unit = kind_unit(kind_of(row["name"]), motion.get("unit", ""))
+            unit = kind_unit(row.get("kind", ""), motion.get("unit", ""))
             ends = [amount(f"{row[key]:.6g}", unit) for key in ("limit", "value")]
         margin = margin_words(row["margin"], "sign" if row["name"] == "singularity_free" else "")
         rows.append((f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"))
