@@ -76,7 +76,8 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
         if "limit_deg" in row:
             ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
         else:
-            unit = kind_unit(row.get("kind", ""), motion.get("unit", ""))
+            kind = row.get("kind", "length" if row["name"] in OF_LENGTHS else "")  # none in earlier records
+            unit = kind_unit(kind, motion.get("unit", ""))
             ends = [amount(f"{row[key]:.6g}", unit) for key in ("limit", "value")]
         margin = margin_words(row["margin"], "sign" if row["name"] == "singularity_free" else "")
         rows.append((f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"))
