@@ -11,7 +11,7 @@ from ninedof import _core
 from ninedof.robot.configuration import Configuration, Flat, operands
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import choice, finite, shown
+from ninedof.support.arguments import choice, did_you_mean, finite, shown
 from ninedof.support.arrays import Floats, as_floats
 
 KINDS = ("optimal", "natural", "mean_leg", "platform_radius")
@@ -70,8 +70,13 @@ def operands_and_length(
 
 def length_argument(length: Any) -> float | str:
     """Return one characteristic length: a finite number above 0, or the name of a kind."""
+    if isinstance(length, str) and length not in KINDS:
+        expected = f"one of {', '.join(KINDS)}, or a number: its unit is the length unit of the study or design"
+        raise ValueError(
+            f"characteristic_length: got {shown(length)}, expected {expected}{did_you_mean(length, KINDS)}"
+        )
     if isinstance(length, str):
-        return choice("characteristic_length", length, KINDS)
+        return length
     value = finite("characteristic_length", length)
     if not value > 0.0:
         raise ValueError(f"characteristic_length: got {shown(length)}, expected a number above 0")

@@ -16,7 +16,7 @@ from ninedof.support.angles import angle_entry, degrees_of, half_turn, in_radian
 from ninedof.support.arguments import Vector, choice, items, known_keys, number, shown, vector, whole
 from ninedof.support.schema import Check, plain, within
 from ninedof.support.structs import Fixed
-from ninedof.support.units import per
+from ninedof.support.units import kind_unit as kind_unit
 
 
 class Row(NamedTuple):
@@ -24,7 +24,7 @@ class Row(NamedTuple):
 
     name: str
     kind: str
-    """"ratio", "length", "angle", "sign", "number" or "rate"."""
+    """"ratio", "length", "angle", "sign", "number", "rate" or "power"."""
     sides: tuple[str, ...]
     """"min", "max" or both."""
     units: tuple[str, ...]
@@ -43,6 +43,7 @@ class Row(NamedTuple):
 
 
 ROWS = {values[0]: Row(*values) for values in _core.constraint_table}
+ROWS |= {name: row._replace(kind="power") for name, row in ROWS.items() if name.endswith("power")}
 STEPS, MOST_STEPS = _core.singularity_free_steps  # parts of the way from the neutral pose that singularity_free tests
 AT = ("poses", "neutral")
 """The places where a limit holds: every pose of the objective, the default, or the neutral pose alone."""
@@ -152,11 +153,6 @@ def split_label(text: str) -> tuple[str, str]:
     """Return the name and the place of a label."""
     name, _, at = text.partition(" at ")
     return name, at or AT[0]
-
-
-def kind_unit(kind: str, of_lengths: str) -> str:
-    """Return the unit of values of a kind: "deg", that of lengths or a rate, "" for others."""
-    return {"angle": "deg", "length": of_lengths, "rate": per(of_lengths, "s")}.get(kind, "")
 
 
 def kind_of(name: str) -> str:

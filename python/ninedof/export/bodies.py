@@ -13,12 +13,14 @@ from typing import Any
 
 import numpy as np
 
+from ninedof.design.duty import Masses
+from ninedof.design.study import Study
 from ninedof.export.model import LEGS, Model, O, P, in_metres
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import Floats
 
-MASSES = (1.0, 5.0)
-"""Of a leg and of the platform, kg."""
+ASSUMED = Masses(platform=5.0, cylinder=0.5, rod=0.5)
+"""In kg, where neither a study nor an option states them: simulators take no body without a mass."""
 FREE = (0.7, 1.3)  # of the neutral length: the range of a leg that nothing limits, which one stage can have
 LEAST_STROKE = 0.01  # of the neutral length: simulators take no range that is a point
 COLOURS = {
@@ -64,12 +66,10 @@ class Leg:
 
 
 class Bodies:
-    """The robot in metres and kilograms; masses of the arguments in kg, above 0."""
+    """The robot in metres and kilograms; masses as in `masses_of`."""
 
-    def __init__(self, model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSES[1]) -> None:
-        for name, mass in (("leg_mass", leg_mass), ("platform_mass", platform_mass)):
-            if not finite(name, mass) > 0.0:
-                raise ValueError(f"{name}: got {mass:g}, expected a mass above 0")
+    def __init__(self, model: Model, leg_mass: float | None = None, platform_mass: float | None = None) -> None:
+        masses = masses_of(model.study, leg_mass, platform_mass)[0]
         self.unit = "metres" if model.unit else "the design's own, without a unit"
         """Of lengths, for people."""
         metric = model.in_metres()
@@ -86,29 +86,48 @@ class Bodies:
             Leg(name, _site(root), _site(tip), at, stroke)
             for (name, root, tip), stroke in zip(LEGS, strokes, strict=True)
         ]
-        self.part_mass = 0.5 * float(leg_mass)
-        """Of a cylinder and of a rod, each: half a leg."""
+        self.cylinder_mass, self.rod_mass, self.platform_mass = masses.cylinder, masses.rod, masses.platform
         self.radius = RADIUS * float(np.mean([leg.length for leg in self.legs]))
         """Of a rod."""
-        self.point_mass = 0.2 * self.part_mass
-        """Of the body O: a tenth of a leg."""
+        self.point_mass = masses.internal_point
+        """Of the body O."""
         self.point_inertia = ball_inertia(self.point_mass, 2.0 * self.radius)
         """Moments of the body O, a ball of twice the radius of a rod."""
-        self.platform_mass = float(platform_mass)
+        self.platform_centre = in_metres(masses.centre, model.unit)
+        """Centre of its mass in the frame of the plate."""
         square = max(float(np.sum(point[:2] ** 2)) for point in self.platform.values())
         self.platform_inertia = 0.25 * self.platform_mass * square, 0.5 * self.platform_mass * square
-        """Moments about an axis in the plate and about its normal: a disc through the outermost joint."""
+        """Moments about an axis in the plate and about its normal: a disc with the radius of the outermost joint."""
 
-    def part_inertia(self, leg: Leg) -> tuple[float, float]:
+    def part_inertia(self, leg: Leg, mass: float) -> tuple[float, float]:
         """Moments of a cylinder or a rod about an axis across it, through its centre, and about its own axis."""
         square = (1.5 * self.radius) ** 2
-        return self.part_mass * (3.0 * square + leg.part**2) / 12.0, 0.5 * self.part_mass * square
+        return mass * (3.0 * square + leg.part**2) / 12.0, 0.5 * mass * square
 
     def root_of(self, leg: Leg) -> tuple[Floats, Floats]:
         """Return the start of a leg and its direction in the frame of the body that it starts from."""
         if leg.root == "base":
             return leg.start, leg.direction
         return self.platform[leg.root_joint], leg.direction @ self.rotation
+
+
+def masses_of(
+    study: Study | None, leg_mass: float | None = None, platform_mass: float | None = None
+) -> tuple[Masses, list[str]]:
+    """Return the masses of the bodies in kg, and the names of those that are assumed.
+
+    The arguments come first, then the study's, then `ASSUMED`; O is a tenth of a leg where the study says nothing.
+    """
+    for name, mass in (("leg_mass", leg_mass), ("platform_mass", platform_mass)):
+        if mass is not None and not finite(name, mass) > 0.0:
+            raise ValueError(f"{name}: got {mass:g}, expected a mass above 0")
+    of_study = Masses() if study is None else study.masses
+    half = None if leg_mass is None else 0.5 * leg_mass
+    stated = {"platform": platform_mass, "cylinder": half, "rod": half, "internal_point": None}
+    stated = {name: mass or getattr(of_study, name) for name, mass in stated.items()}
+    masses: dict[str, Any] = {name: float(mass or getattr(ASSUMED, name)) for name, mass in stated.items()}
+    masses["internal_point"] = masses["internal_point"] or 0.1 * (masses["cylinder"] + masses["rod"])
+    return Masses(**masses, centre=of_study.centre), [name for name, mass in stated.items() if not mass]
 
 
 def _site(name: str) -> str:

@@ -32,7 +32,8 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
         Name of the length unit; that of the study or of the design file by default. "mjcf", "urdf" and "sdf" are in
         metres where it is known, and in the numbers of the design where it is not.
     options : keywords
-        Of the format. "mjcf", "urdf" and "sdf": `leg_mass` (1 by default) and `platform_mass` (5 by default), in kg.
+        Of the format. "mjcf", "urdf" and "sdf": `leg_mass` and `platform_mass` in kg; by default the `masses` of the
+        study, and 1 and 5 where it has none.
         "mjcf": `gravity`, 0 by default, m/s² downward.
 
     Returns

@@ -8,14 +8,14 @@ robot and nine spins of the legs about themselves.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.export.bodies import COLOURS, MASSES, Bodies, Leg, numbers
+from ninedof.export.bodies import COLOURS, LEVEL, Bodies, Leg, numbers
 from ninedof.export.model import Fields, Format, Model, from_metres
 from ninedof.motion.rotations import from_quaternions
 from ninedof.robot.configuration import Configuration
@@ -35,11 +35,10 @@ SPIN_DECAY = 20.0  # 1/s: the free spin of a leg dies out in a twentieth of a se
 PLATE = "0.62 0.66 0.70 0.55"
 
 
-def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSES[1], gravity: float = 0.0) -> str:
+def text(model: Model, leg_mass: float | None = None, platform_mass: float | None = None, gravity: float = 0.0) -> str:
     """Return the MJCF text of a design; masses in kg, gravity in m/s² downward."""
     b, down, length = Bodies(model, leg_mass, platform_mass), finite("gravity", gravity), model.characteristic_length
     legs = {root: "".join(_leg(b, leg) for leg in b.legs if leg.root == root) for root in ("base", "platform")}
-    (across, normal), (ball, _) = b.platform_inertia, b.point_inertia
     slides = "\n      ".join(
         f'<joint name="O_{axis}" type="slide" axis="{numbers(direction)}" ref="{numbers(at)}"/>'
         for axis, direction, at in zip("xyz", np.eye(3), b.internal_point, strict=True)
@@ -78,13 +77,13 @@ def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSE
     {_sites(b.base)}{legs["base"]}
     <body name="O" pos="{numbers(b.internal_point)}">
       {slides}
-      <inertial pos="0 0 0" mass="{numbers(b.point_mass)}" diaginertia="{numbers([ball] * 3)}"/>
+      {_inertial(LEVEL, b.point_mass, b.point_inertia)}
       <geom name="O" type="sphere" size="{numbers(2.2 * b.radius)}" rgba="{COLOURS["joint"]}"/>
       <site name="O"/>
     </body>
     <body name="platform" pos="{numbers(b.position)}" xyaxes="{numbers(b.rotation[:, :2].T.ravel())}">
       <freejoint name="platform"/>
-      <inertial pos="0 0 0" mass="{numbers(b.platform_mass)}" diaginertia="{numbers([across, across, normal])}"/>
+      {_inertial(b.platform_centre, b.platform_mass, b.platform_inertia)}
       <geom name="platform" type="mesh" mesh="platform" rgba="{PLATE}"/>
       <site name="platform" size="{numbers(0.2 * b.radius)}"/>{_tool(b)}
       {_sites(b.platform)}{legs["platform"]}
@@ -110,26 +109,31 @@ def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSE
 
 def _leg(b: Bodies, leg: Leg) -> str:
     start, along = b.root_of(leg)
-    across, axial = b.part_inertia(leg)
-    mass = f'mass="{numbers(b.part_mass)}" diaginertia="{numbers([across, across, axial])}"'
+    _, axial = b.part_inertia(leg, 0.5 * (b.cylinder_mass + b.rod_mass))
     colour, rod, half = COLOURS[leg.name[0]], COLOURS["rod"], 0.5 * leg.part
     return f"""
     <body name="{leg.name}_cylinder" pos="{numbers(start)}" zaxis="{numbers(along)}">
       <joint name="{leg.name}_ball" type="ball" damping="{numbers(SPIN_DECAY * axial)}"/>
-      <inertial pos="0 0 {numbers(half)}" {mass}/>
+      {_inertial((0.0, 0.0, half), b.cylinder_mass, b.part_inertia(leg, b.cylinder_mass))}
       <geom type="cylinder" fromto="0 0 0 0 0 {numbers(leg.part)}" size="{numbers(1.5 * b.radius)}" rgba="{colour}"/>
       <body name="{leg.name}_rod" pos="0 0 {numbers(leg.length)}">
         <joint name="{leg.name}" type="slide" axis="0 0 1" ref="{numbers(leg.length)}"
           range="{numbers([leg.shortest, leg.longest])}" limited="true"/>
-        <inertial pos="0 0 {numbers(-half)}" {mass}/>
+        {_inertial((0.0, 0.0, -half), b.rod_mass, b.part_inertia(leg, b.rod_mass))}
         <geom type="cylinder" fromto="0 0 0 0 0 {numbers(-leg.part)}" size="{numbers(b.radius)}" rgba="{rod}"/>
         <site name="{leg.name}_tip"/>
       </body>
     </body>"""
 
 
+def _inertial(centre: Iterable[float], mass: float, inertia: tuple[float, float]) -> str:
+    across, axial = inertia
+    moments = numbers([across, across, axial])
+    return f'<inertial pos="{numbers(centre)}" mass="{numbers(mass)}" diaginertia="{moments}"/>'
+
+
 def _actuators(b: Bodies) -> str:
-    kp, kv = STIFFNESS * b.part_mass / TIMESTEP**2, DAMPING * b.part_mass / TIMESTEP
+    kp, kv = STIFFNESS * b.rod_mass / TIMESTEP**2, DAMPING * b.rod_mass / TIMESTEP
     return "\n    ".join(
         f'<position name="{leg.name}" joint="{leg.name}" kp="{kp:.6g}" kv="{kv:.6g}" '
         f'ctrlrange="{numbers([leg.shortest, leg.longest])}" ctrllimited="true"/>'

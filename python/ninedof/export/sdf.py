@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
-from ninedof.export.bodies import COLOURS, LEVEL, MASSES, Bodies, Leg, angles, bars, numbers, pointing
+from ninedof.export.bodies import COLOURS, LEVEL, Bodies, Leg, angles, bars, numbers, pointing
 from ninedof.export.model import Format, Model
 from ninedof.support.arrays import Floats
 
@@ -17,7 +17,7 @@ VERSION = "1.9"
 CARRIER = "q1"  # the leg whose rod O is fixed to
 
 
-def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSES[1]) -> str:
+def text(model: Model, leg_mass: float | None = None, platform_mass: float | None = None) -> str:
     """Return the SDFormat text of a design; masses in kg."""
     b = Bodies(model, leg_mass, platform_mass)
     return f"""<?xml version="1.0"?>
@@ -34,7 +34,7 @@ def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSE
     </joint>
     <link name="platform">
       {_pose(b.position, angles(b.rotation))}
-      {_inertial(LEVEL, b.platform_mass, b.platform_inertia)}
+      {_inertial(b.platform_centre, b.platform_mass, b.platform_inertia)}
       {_bars(b, b.platform.values())}
     </link>
     <link name="O">
@@ -57,19 +57,19 @@ def _tool(b: Bodies) -> str:
 
 def _leg(b: Bodies, leg: Leg) -> str:
     """Return cylinder, rod and their three joints; the frame of the rod is at its tip. Joints are in their child."""
-    n, rpy, inertia, half = leg.name, pointing(leg.direction), b.part_inertia(leg), 0.5 * leg.part
+    n, rpy, half = leg.name, pointing(leg.direction), 0.5 * leg.part
     cylinder = _cylinder("cylinder", (0.0, 0.0, half), LEVEL, 1.5 * b.radius, leg.part, COLOURS[n[0]])
     rod = _cylinder("rod", (0.0, 0.0, -half), LEVEL, b.radius, leg.part, COLOURS["rod"])
     low, high = numbers(leg.shortest - leg.length), numbers(leg.longest - leg.length)
     return f"""
     <link name="{n}_cylinder">
       {_pose(leg.start, rpy)}
-      {_inertial((0.0, 0.0, half), b.part_mass, inertia)}
+      {_inertial((0.0, 0.0, half), b.cylinder_mass, b.part_inertia(leg, b.cylinder_mass))}
       {cylinder}
     </link>
     <link name="{n}_rod">
       {_pose(leg.end, rpy)}
-      {_inertial((0.0, 0.0, -half), b.part_mass, inertia)}
+      {_inertial((0.0, 0.0, -half), b.rod_mass, b.part_inertia(leg, b.rod_mass))}
       {rod}
     </link>
     <joint name="{n}_start" type="universal">

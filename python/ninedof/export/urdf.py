@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
-from ninedof.export.bodies import COLOURS, LEVEL, MASSES, Bodies, Leg, angles, ball_inertia, bars, numbers, pointing
+from ninedof.export.bodies import COLOURS, LEVEL, Bodies, Leg, angles, ball_inertia, bars, numbers, pointing
 from ninedof.export.model import Format, Model
 from ninedof.support.arrays import Floats
 from ninedof.support.json import encode
@@ -22,7 +22,7 @@ CARRIERS = ("l1", "q1")
 CROSS = 0.02  # mass of the part between two axes of a joint, by that of a cylinder: programs refuse a mass of 0
 
 
-def text(model: Model, leg_mass: float = MASSES[0], platform_mass: float = MASSES[1]) -> str:
+def text(model: Model, leg_mass: float | None = None, platform_mass: float | None = None) -> str:
     """Return the URDF text of a design; masses in kg."""
     b = Bodies(model, leg_mass, platform_mass)
     return f"""<?xml version="1.0"?>
@@ -72,25 +72,25 @@ def _leg(b: Bodies, leg: Leg) -> str:
     <limit lower="{numbers(low)}" upper="{numbers(high)}" effort="{EFFORT:g}" velocity="{VELOCITY:g}"/>"""
     return f"""
 {_axis(f"{n}_turn1", leg.root, f"{n}_cross", "1 0 0", at, pointing(along))}
-{_point(f"{n}_cross", CROSS * b.part_mass, b.radius)}
+{_point(f"{n}_cross", CROSS * b.cylinder_mass, b.radius)}
 {_axis(f"{n}_turn2", f"{n}_cross", f"{n}_cylinder", "0 1 0")}
-{_strut(b, leg, f"{n}_cylinder", 0.5 * leg.part, 1.5 * b.radius, COLOURS[n[0]])}
+{_strut(b, leg, b.cylinder_mass, f"{n}_cylinder", 0.5 * leg.part, 1.5 * b.radius, COLOURS[n[0]])}
 {_joint(f"{n}_slide", "prismatic", f"{n}_cylinder", f"{n}_rod", slide)}
-{_strut(b, leg, f"{n}_rod", -0.5 * leg.part, b.radius, COLOURS["rod"])}"""
+{_strut(b, leg, b.rod_mass, f"{n}_rod", -0.5 * leg.part, b.radius, COLOURS["rod"])}"""
 
 
 def _platform(b: Bodies) -> str:
     """Return three axes of the platform at the tip of leg l1, the plate, and the frame of the platform at p."""
     first = b.platform["platform_external1"]
     turn = b.legs[0].frame.T @ b.rotation  # the platform's axes, seen from the rod
-    small, joints = CROSS * b.part_mass, [at - first for at in b.platform.values()]
+    small, joints = CROSS * b.cylinder_mass, [at - first for at in b.platform.values()]
     return f"""
 {_axis("platform_turn1", "l1_rod", "platform_cross1", "1 0 0", rpy=angles(turn))}
 {_point("platform_cross1", small, b.radius)}
 {_axis("platform_turn2", "platform_cross1", "platform_cross2", "0 1 0")}
 {_point("platform_cross2", small, b.radius)}
 {_axis("platform_turn3", "platform_cross2", "plate", "0 0 1")}
-{_link("plate", _inertial(-first, b.platform_mass, b.platform_inertia), *_bars(b, joints))}
+{_link("plate", _inertial(b.platform_centre - first, b.platform_mass, b.platform_inertia), *_bars(b, joints))}
 {_joint("platform_frame", "fixed", "plate", "platform", f'<origin xyz="{numbers(-first)}"/>')}
   <link name="platform"/>{_tool(b)}"""
 
@@ -125,10 +125,10 @@ def _link(name: str, *parts: str) -> str:
   </link>"""
 
 
-def _strut(b: Bodies, leg: Leg, name: str, middle: float, radius: float, colour: str) -> str:
+def _strut(b: Bodies, leg: Leg, mass: float, name: str, middle: float, radius: float, colour: str) -> str:
     """Return a link that is a part of a leg, a cylinder along z."""
     at = (0.0, 0.0, middle)
-    inertial = _inertial(at, b.part_mass, b.part_inertia(leg))
+    inertial = _inertial(at, mass, b.part_inertia(leg, mass))
     return _link(name, inertial, _cylinder(at, LEVEL, radius, leg.part, name, colour))
 
 

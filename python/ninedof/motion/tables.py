@@ -13,7 +13,7 @@ from ninedof.redundancy.rules import where_o
 from ninedof.robot.idle import NEVER_CARRY
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.margins import margin_words
-from ninedof.support.units import amount, per
+from ninedof.support.units import amount, kind_unit, per, times
 from ninedof.tables import RIGHT, Column, Table, columns, grouped
 
 POWERS, WORKS = ("power", "braking"), ("work", "returned")
@@ -44,8 +44,9 @@ def legs_table(motion: Mapping[str, Any]) -> Table:
 def drives_table(motion: Mapping[str, Any]) -> Table | None:
     """Return the table of forces, powers and work of the legs; None without forces."""
     legs = motion["legs"]
-    newton = motion.get("force_unit", "")
-    groups = ((newton, FORCES), ("W" if newton else "", POWERS), ("J" if newton else "", WORKS))
+    newton, unit = motion.get("force_unit", ""), motion.get("unit", "")
+    power, work = ("W", "J") if newton else (times("force", per(unit, "s")), times("force", unit))
+    groups = ((newton, FORCES), (power, POWERS), (work, WORKS))
     units = {name: unit for unit, names in groups for name in names if all(name in leg for leg in legs.values())}
     if not units:
         return None
@@ -75,7 +76,8 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
         if "limit_deg" in row:
             ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
         else:
-            unit = motion.get("unit", "") if row["name"] in OF_LENGTHS else ""
+            kind = row.get("kind", "length" if row["name"] in OF_LENGTHS else "")  # none in earlier records
+            unit = kind_unit(kind, motion.get("unit", ""))
             ends = [amount(f"{row[key]:.6g}", unit) for key in ("limit", "value")]
         margin = margin_words(row["margin"], "sign" if row["name"] == "singularity_free" else "")
         rows.append((f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"))

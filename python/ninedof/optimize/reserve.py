@@ -54,7 +54,8 @@ class Reserve(Table):
     def words(self) -> list[str]:
         """The reserve in sentences."""
         parts = [f"{name.replace('_', ' ')} {100.0 * abs(1.0 - share):.2g} %" for name, share in self.shares.items()]
-        out = [f"reserve for the tolerances: {', '.join(parts)}"] if parts else []
+        kept = "verdict, prices and what is left to gain are with it; a smaller one may do"
+        out = [f"reserve for the tolerances: {', '.join(parts)}; {kept}"] if parts else []
         note = "proved of every machine within the tolerances" if self.proved else self.note
         return [*out, note] if note else out
 

@@ -166,7 +166,7 @@ def front_table(front: Front) -> Table:
         Column(f"{limit}\n{with_unit('at most', 'deg' if front.unit == 'rad' else front.unit)}", "", RIGHT),
         Column("objective", "", ".6f"),
         Column("neutral\ncondition number", "", ".6f"),
-        Column("slope\n% for 1 %", "", ".2g" if front.of_tolerances else ".3f"),
+        Column("price\n% for 1 %", "", ".2g" if front.of_tolerances else ".3f"),
         Column("limits reached, or why there is no design"),
     ]
     rows = [
@@ -182,7 +182,7 @@ def front_table(front: Front) -> Table:
         for number, row in enumerate(front.table(), start=1)
     ]
     steep = max((price or 0.0 for price in front.prices), default=0.0) >= MOST_GAIN
-    notes = ["slope: of the objective at that limit; a steep one holds for much less than 1 %"] * steep
+    notes = ["price: slope of the objective at that limit; a steep one holds for much less than 1 %"] * steep
     return Table(f"{front.study.words} against {limit}", columns, rows, notes)
 
 

@@ -84,6 +84,11 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
             f"against: got {shown(against)} for a study of the index {index!r}, expected one of the two to be the "
             "condition number and the other another index"
         )
+    plain = split_label(name)[0]
+    if plain in ROWS and plain not in names:
+        raise ValueError(
+            f"against: got {shown(against)}, which has a min alone, expected a limit with a max: only that varies"
+        )
     hint = did_you_mean(name, [*labels, CONDITION_LIMIT, TOLERANCE, *indices])
     raise ValueError(
         f"against: got {shown(against)}, expected a constraint with a max ({', '.join(names)}; also "

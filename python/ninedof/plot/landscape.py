@@ -117,8 +117,10 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Fi
                 )
             )
         keys += [style.key(**NEUTRAL, label="at the neutral pose")] * any(d.neutral is not None for d in designs)
-        keys += [Patch(color=style.GRID, label="a limit is passed")] * any(ground)
-        figure.legend(handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.01), ncols=4, handlelength=3.2)
+        keys += [Patch(color=style.GRID, label="a limit is passed at one of these poses")] * any(ground)
+        figure.legend(
+            handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.0), ncols=2 if any(ground) else 4, handlelength=3.2
+        )
     return figure
 
 

@@ -94,7 +94,8 @@ class DesignRange:
         """Return the worst condition number over a sample of poses, at designs of the plane of two of the variables.
 
         Values of the first variable (n,) and of the second (n,), and a row for each value of the second, NaN where
-        there is no robot; None where the characteristic length depends on the design. Nothing of it is proved.
+        there is no robot, infinite where O is not between the plates; None where the characteristic length depends on
+        the design. Nothing of it is proved.
         """
         length = self.study.characteristic_length
         if not isinstance(length, float | int):
@@ -104,6 +105,9 @@ class DesignRange:
         worst = np.full((SIDE, SIDE), np.nan)
         for n, m in np.ndindex(SIDE, SIDE):
             values = dict(self.at) | {self.vary[first]: float(x[m]), self.vary[second]: float(y[n])}
+            if values["zs"] >= values["zp"]:
+                worst[n, m] = np.inf
+                continue
             row = [values.get(name, 0.0) for name in problem.names]
             with suppress(ValueError):  # no robot there
                 worst[n, m] = np.max(condition_number(problem.geometry(row), self._poses(row), float(length)))

@@ -22,6 +22,7 @@ SAME_LIMITS = (
     "digits may differ."
 )
 LIST = re.compile(r"\[\n((?: +[-+.\w]+,?\n)+) *\]")  # of numbers, one to a line
+POSE, FEW = re.compile(r"\[\[objective\.poses\]\]\n(?:\w+ = .*\n)*\n?"), 6
 
 
 def of_front(front: Front, record: Any, point: str = "") -> Html:
@@ -42,6 +43,7 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
     import tomli_w
 
     text = _flat(tomli_w.dumps(study.to_dict()))
+    paper = _with_few_poses(text)
     data = b64encode(text.encode()).decode()
     file = tag("a", "study.toml", href=f"data:text/plain;base64,{data}", download="study.toml")
     save = "From this page alone: save" if record.command else "Save"
@@ -52,7 +54,11 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
         _versions(record, [("starts", study.starts), ("seed", study.seed)]),
         paragraphs([note], class_="note"),
         tag("h3", "study.toml"),
-        listing(text),
+        *(
+            [tag("div", listing(text), class_="screen"), tag("div", listing(paper), class_="paper")]
+            if paper
+            else [listing(text)]
+        ),
     )
 
 
@@ -63,6 +69,12 @@ def of_question(question: Mapping[str, Any], record: Any) -> Html:
         words = paragraphs(["Everything that was asked, as the record of the run has it:"])
         asked = joined(words, listing(_flat(encode(question))))
     return joined(_made_by(record), asked, _versions(record, []))
+
+
+def _with_few_poses(text: str) -> str:
+    """Return a study file for paper, from which nobody copies: the first poses and a count; "" where it is short."""
+    rest = POSE.findall(text)[FEW:]
+    return text.replace("".join(rest), f"# and {len(rest)} more, on the screen\n\n") if rest else ""
 
 
 def _flat(text: str) -> str:

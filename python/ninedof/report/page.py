@@ -58,7 +58,7 @@ def title_block(study: Study, name: str, created: str) -> Html:
     """Return the block of a drawing: project, author and revision of a study, lines to write on where it has none."""
     about = study.about
     rows = [
-        ("project", about.project or name),
+        ("project", about.project or BLANK),
         ("author", about.author or BLANK),
         ("revision", about.revision or BLANK),
         ("date", created[:10]),

@@ -69,6 +69,8 @@ class Comparison:
         out: list[Any] = [Table("Numbers over the poses of each study", columns, lines)]
         for name, one in of_each:
             out.append(f"{name}, {over(one)}, worst at {pose_of(one, one.condition_number.pose)}")
+        if any(one.tool for one in self.sheets):
+            out.append("p is the point of the tool where a study has one, height p its height; zp is that of the plate")
         if self.limits:
             rows = [row for label, entry in self.limits.items() for row in _limit_rows(label, entry, self.sheets)]
             out.append(Table("Limits", self._columns("limit"), rows))

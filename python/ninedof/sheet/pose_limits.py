@@ -134,7 +134,7 @@ class PathLimits:
             row = {"limit": one.limit, "value": float(one.value[k])}
             if one.name in CONES:
                 row = {f"{name}_deg": float(np.degrees(value)) for name, value in row.items()}
-            names = {"name": one.name, "part": one.part, "side": one.side}
+            names = {"name": one.name, "kind": kind_of(one.name), "part": one.part, "side": one.side}
             rows[key] = names | row | {"margin": margin, "at": float(self.time[k])}
         return list(rows.values())
 

@@ -81,8 +81,8 @@ class LimitRow(NamedTuple):
     part: str
     """The leg, the pair of legs ("l1-q2") or the determinant that reaches it; "" for a limit without parts."""
     unit: str
-    """"ratio", "length", "angle", "sign", "number" or "rate" as in the table of constraints; "ratio" for a length over
-    zp or a radius."""
+    """"ratio", "length", "angle", "sign", "number", "rate" or "power" as in the table of constraints; "ratio" for a
+    length over zp or a radius."""
 
 
 def limit_amount(row: LimitRow, value: float, number: Callable[[float], str], unit: str) -> str:

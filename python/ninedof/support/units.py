@@ -73,6 +73,12 @@ def times(above: str, unit: str) -> str:
     return f"{above} {unit}" if above and unit else ""
 
 
+def kind_unit(kind: str, of_lengths: str) -> str:
+    """Return the unit of values of a kind: "deg", that of lengths, a rate or a power, "" for others."""
+    rate = per(of_lengths, "s")
+    return {"angle": "deg", "length": of_lengths, "rate": rate, "power": times("force", rate)}.get(kind, "")
+
+
 def metres(unit: str) -> float:
     """Return the unit in metres; 1 without one."""
     above, below = METRES[unit]

@@ -82,10 +82,26 @@ class Viewer:
         camera = self._server.initial_camera
         if self.designs is not None:
             middle = middle + np.array([0.0, 0.0, 1.0])
-        away = 1.55 if self.designs is None else 2.0
+        away = (1.55 if self.designs is None else 2.0) * EXTENT * np.array([0.42, -0.80, 0.36])
         camera.look_at = middle
-        camera.position = middle + away * EXTENT * np.array([0.42, -0.80, 0.36])
+        camera.position = middle + away
         camera.fov = math.radians(40.0)
+
+        async def begin(client: Any) -> None:
+            seen = 1.0
+
+            async def fit(camera: Any) -> None:
+                """Stand back where a window is narrow, until the user moves: the angle of view is the vertical one."""
+                nonlocal seen
+                if np.allclose(camera.position, middle + away / seen, atol=1e-3):
+                    seen = min(1.0, max(camera.aspect, 0.1))
+                    camera.position = middle + away / seen
+                    camera.look_at = middle
+
+            client.camera.on_update(fit)
+            await fit(client.camera)
+
+        self._server.on_client_connect(begin)
 
     # --- for Python ---------------------------------------------------------------------------------------------------
 

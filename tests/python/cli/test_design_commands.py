@@ -324,7 +324,8 @@ def test_a_sweep_of_a_region_study_says_that_it_is_not_over_the_region(run, tmp_
     nd.save(nd.optimize(nd.Study.paper(), starts=1), tmp_path / "plain")
     words = {
         "x_p=0,0.1": "with O shifted, in one orientation",
-        "z_s=0,0.1": "with O held, in one orientation",
+        "z_s=0,0.1": "with O moved, in one orientation, at one position",
+        "theta_z=0,0.1": "with O shifted, at one position",
         "a2=5,6": "at the neutral pose alone",
     }
     for name, said in (("box", True), ("plain", False)):
@@ -332,7 +333,9 @@ def test_a_sweep_of_a_region_study_says_that_it_is_not_over_the_region(run, tmp_
             options = f"--over {over} --no-figures --out {tmp_path / f'{name}-sweep-{number}'}"
             status, out, _ = run(f"sweep {tmp_path / name} {options}")
             assert status == 0
-            assert (f"{where}, not over the region of the study" in " ".join(out.split())) is said
+            said_words = " ".join(out.split())
+            assert (where if said else where.replace("shifted", "held")) in said_words
+            assert (f"{where}, not over the region of the study" in said_words) is said
 
 
 FIXED = """

@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import ninedof as nd
@@ -14,7 +15,11 @@ DESIGN = Path(__file__).resolve().parents[3] / "examples" / "04_design.toml"
 def test_a_design_is_written_with_its_name_in_this_folder(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     status, out, _ = run(f"export {DESIGN} --to mjcf")
-    assert (status, out) == (0, "MuJoCo model with closed loops and nine actuators: 04_design.xml\n")
+    first, masses = out.split("\n", 1)
+    assert (status, first) == (0, "MuJoCo model with closed loops and nine actuators: 04_design.xml")
+    assert " ".join(masses.split()).startswith(
+        "masses: platform 5 kg (assumed), each cylinder 0.5 kg (assumed), each rod 0.5 kg (assumed)"
+    )
     status, out, _ = run("evaluate 04_design.xml --json")
     assert status == 0
     found, expected = json.loads(out), json.loads(run(f"evaluate {DESIGN} --json")[1])
@@ -34,6 +39,31 @@ def test_a_run_is_written_with_the_name_of_its_folder(run, tmp_path, monkeypatch
     assert run("export run#1 --to sdf")[0] == 0
     assert run("export run/ --to sdf")[0] == 0
     assert (tmp_path / "run-1.sdf").read_text().replace("run-1", "run") == (tmp_path / "run.sdf").read_text()
+
+
+def test_the_masses_of_a_study_are_those_of_the_model(run, tmp_path, monkeypatch):
+    mujoco = pytest.importorskip("mujoco")
+    masses = {"platform": 12.0, "centre": (0.0, 10.0, 30.0), "rod": 0.6, "internal_point": 0.3}
+    values = {"a1": 60.0, "a2": 500.0, "b1": 250.0, "b2": 30.0, "zp": 400.0, "zs": 200.0}
+    study = nd.Study(variables=values, characteristic_length=150.0, unit="mm", masses=masses)
+    nd.save(nd.optimize(study), tmp_path / "run")
+    monkeypatch.chdir(tmp_path)
+    for name, place in (("mjcf", "run.xml"), ("urdf", "run.urdf"), ("sdf", "run.sdf")):
+        status, out, _ = run(
+            f"export run --to {name} --platform-mass 7" if name == "sdf" else f"export run --to {name}"
+        )
+        mass = 7 if name == "sdf" else 12
+        words = f"platform {mass} kg, each cylinder 0.5 kg (assumed), each rod 0.6 kg, O 0.3 kg; inertias"
+        assert (status, words in " ".join(out.split())) == (0, True)
+        if name == "sdf":
+            assert "<pose>0 0.01 0.03 0 0 0</pose>\n        <mass>7</mass>" in Path(place).read_text()
+            continue
+        model = mujoco.MjModel.from_xml_path(place)
+        plate = model.body("platform" if name == "mjcf" else "plate")
+        assert (plate.mass[0], model.body("O").mass[0]) == (12.0, 0.3)
+        assert (model.body("l1_cylinder").mass[0], model.body("l1_rod").mass[0]) == (0.5, 0.6)
+        first = np.zeros(3) if name == "mjcf" else 0.001 * nd.load("run").geometry.platform_external[0]
+        assert plate.ipos + first == pytest.approx([0.0, 0.01, 0.03], abs=1e-12)
 
 
 @pytest.mark.parametrize("name", formats())

@@ -249,7 +249,12 @@ APART = [  # a row, entries that are refused because of what they are together o
     ("error_samples", {"samples": 2**40}, "samples: got 1099511627776"),
     ("atlas", {"designs": 2**40, "chunk": 1}, "chunk: got 1 of 1099511627776 points, expected at least 262"),
     ("pareto", {"against": "radius_ratoi"}, r"against: got 'radius_ratoi', .* \(did you mean 'radius_ratio'\?\)"),
-    ("pareto", {"against": "joint_spacing"}, "against: got 'joint_spacing', expected a constraint with a max"),
+    (
+        "pareto",
+        {"against": "joint_spacing"},
+        "against: got 'joint_spacing', which has a min alone, expected a .*varies$",
+    ),
+    ("Study", {"characteristic_length": "150 mm"}, ".*got '150 mm', expected .*a number: its unit is the length unit"),
     ("pareto", {"against": "leg_ratio at neutrl"}, r"against: .* \(did you mean 'leg_ratio at neutral'\?\)"),
     ("pareto", {"against": "stroke at neutral"}, r"stroke\.at: got \"neutral\", expected \"poses\""),
     ("pareto", {"against": "condition_number"}, "against: got 'condition_number' for a study of the index 'condition"),

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import ninedof as nd
-from ninedof.motion.tables import drives_table, motion_words
+from ninedof.motion.tables import drives_table, motion_tables, motion_words
 from ninedof.tables.plain import plain
 
 HOME = nd.Configuration.neutral(3.9828, 2.4432)
@@ -135,3 +135,26 @@ def test_of_several_loads_forces_are_those_of_each_and_drives_the_largest(lifted
     assert "all" not in plain(table)  # the largest do not add up
     with pytest.raises(ValueError, match="load: got stacks"):
         nd.follow(g, lifted.trajectory, HOME, load=(force[:, :, None], None), **how)
+
+
+def test_a_power_says_its_unit_wherever_it_stands():
+    """Force times speed, of the study's own units; watts only where masses make forces newtons."""
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 871.9, "b1": 435.9, "b2": 0.0, "zp": 597.4, "zs": 366.5},
+        constraints={"power": (None, 9e4), "rate": (None, 250.0)},
+        loads={"wrenches": [(0, 0, 0, 0, 0, -500.0)]},
+        speeds={"linear": 100.0},
+        characteristic_length=150.0,
+        unit="mm",
+    )
+    result = nd.optimize(study)
+    path = nd.Trajectory.line(result.configuration, (30.0, 0.0, 20.0), unit="mm")
+    motion = nd.follow(result, path, load=((0, 0, 0), (0, 0, -500.0)))
+    plain_motion = motion.to_dict() | {"limits": nd.path_limits(study, motion, result.configuration).worst()}
+    _, drives, limits = motion_tables(plain_motion)
+    assert [column.unit for column in drives.columns if column.name in ("power", "work")] == ["force mm/s", "force mm"]
+    allowed = {row[0].split()[0]: row[2] for row in limits.rows if row}
+    assert allowed == {"power": "90000 force mm/s", "rate": "250 mm/s"}
+    with_masses = nd.follow(result, path, masses=MASSES)
+    _, drives = motion_tables(with_masses.to_dict())
+    assert [column.unit for column in drives.columns if column.name in ("power", "work")] == ["W", "J"]

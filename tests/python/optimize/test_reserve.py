@@ -56,7 +56,8 @@ def test_the_proof_succeeds_and_needs_the_reserve(result):
     assert set(result.reserve.shares) == {"stroke_ratio max"}
     assert result.certify(time_limit=0.0, slack=0.0).proved
     assert result.certify(time_limit=0.0).tolerances == TOLERANCES
-    assert any("reserve for the tolerances: stroke ratio max" in line for line in result.summary().splitlines())
+    (line,) = [line for line in result.summary().splitlines() if "reserve for the tolerances: stroke ratio max" in line]
+    assert line.endswith("%; verdict, prices and what is left to gain are with it; a smaller one may do")
     assert result.study.tolerances == TOLERANCES
     assert result.study.constraints == REQUIREMENT.constraints
     largest = result.largest_tolerance()

@@ -54,3 +54,26 @@ def test_all_words_are_in_the_page(vary):
 def test_outside_is_not_the_colour_of_inside(colour):
     pale = PALE * np.array(to_rgb(colour)) + 1.0 - PALE
     assert np.linalg.norm(pale - to_rgb(INSIDE)) > 0.18
+
+
+def test_lines_near_a_singularity_are_smooth_and_none_is_where_o_is_above_the_platform():
+    """With zs at zp the condition number has no bound: its lines were those of the grid, in pieces and with hooks."""
+    heights = {"zp": (300.0, 700.0), "zs": (50.0, 650.0)}
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 850.0, "b1": 292.9, "b2": 0.0, **heights},
+        constraints={"radius_ratio": (None, 5.0)},
+        objective={"region": {"box": (60.0, 60.0, 40.0), "tilt_deg": 10.0}},
+        characteristic_length=150.0,
+        unit="mm",
+    )
+    found = nd.admissible(study, ("zp", "zs"), at={"zp": 483.0, "zs": 319.0}, resolution=0.5, time_limit=2.0)
+    axes = plot.admissible(found).axes[0]
+    (lines,) = [one for one in axes.collections if hasattr(one, "levels")]
+    paths = [part for path in lines.get_paths() for part in path.to_polygons(closed_only=False)]
+    assert len(paths) > len(lines.levels)  # a label parts its line
+    for part in paths:
+        assert (part[:, 1] < part[:, 0]).all()
+        along = np.diff(part, axis=0)
+        along /= np.linalg.norm(along, axis=1)[:, None]
+        near = (part[:, 0] - part[:, 1] < 60.0).all()
+        assert not near or (np.sum(along[1:] * along[:-1], axis=1) > 0.8).all()

@@ -44,7 +44,7 @@ def test_condition_curves_mark_points_and_crossings():
 def test_curves_over_poses_have_the_neutral_one_beside_and_a_ground_where_a_limit_is_passed():
     figure = made("objective over poses")
     words = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert words == ["published: 3.9110", "at the neutral pose", "a limit is passed"]
+    assert words == ["published: 3.9110", "at the neutral pose", "a limit is passed at one of these poses"]
     for axes, ends in zip(figure.axes, ((1.5, 1.5 + 2.0 * 169 / 399), (-20.0 + 0.5 * 51, 20.0)), strict=True):
         (ground,) = [one for one in axes.collections if to_hex(one.get_facecolor()[0]) == style.GRID.lower()]
         spans = ground.get_paths()[0].vertices[:, 0]
@@ -52,6 +52,18 @@ def test_curves_over_poses_have_the_neutral_one_beside_and_a_ground_where_a_limi
     (dashed,) = [line for line in figure.axes[0].lines if line.get_color() == style.MUTED]
     assert set(dashed.get_ydata()) == {3.8}
     assert [axes.get_title(loc="left") for axes in figure.axes] == ["along zs", "along theta_z"]
+
+
+def test_the_legend_of_a_long_question_lies_in_the_figure():
+    name = "worst condition number over the 20 poses that ruled the region"
+    zs, theta, k = np.array([1.5, 2.0, 2.5]), np.array([-0.1, 0.0, 0.1]), [4.1, 4.0, 4.1]
+    passed = [True, False, False], [True, False, False]
+    design = plot.DesignCurves(name, zs, k, theta, k, (2.0, 0.0, 4.0), passed=passed, neutral=(k, k))
+    figure = plot.condition_curves([design])
+    figure.draw_without_rendering()
+    box = figure.legends[0].get_window_extent()
+    assert 0.0 <= box.x0 < box.x1 <= figure.bbox.width
+    assert 0.0 <= box.y0 < box.y1 < figure.axes[0].xaxis.label.get_window_extent().y0
 
 
 def test_a_design_that_limits_leave_no_room_is_said_to_be_allowed():

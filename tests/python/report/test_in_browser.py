@@ -152,7 +152,16 @@ CUT = """[...document.querySelectorAll(".table")].filter((e) => e.scrollWidth > 
 OVERLAP = """[...document.querySelectorAll(".beside > div")].filter((e) => e.scrollWidth > e.clientWidth + 1).length"""
 
 
-@pytest.mark.parametrize("study", [ORDINARY, LOADED], ids=["ordinary", "loads and limits of them"])
+POSES = [
+    *nd.poses.box(half=(60.0, 60.0, 40.0), tilt_deg=(10, 10, 0)),
+    *nd.poses.box(half=(30.0, 30.0, 20.0), tilt_deg=(5, 0, 10)),
+]
+POSED = replace(LOADED, objective={"poses": POSES[:31]})
+
+
+@pytest.mark.parametrize(
+    "study", [ORDINARY, LOADED, POSED], ids=["ordinary", "loads and limits of them", "dozens of poses too"]
+)
 def test_a_report_has_at_most_four_pages_and_no_table_is_torn_or_cut(browser, tmp_path, study):
     result = nd.optimize(study)
     write_run(result, tmp_path, figures_of(result, lambda _: None))
@@ -166,6 +175,12 @@ def test_a_report_has_at_most_four_pages_and_no_table_is_torn_or_cut(browser, tm
     assert browser.run("getComputedStyle(document.querySelector('.of-mechanism')).display") == "none"  # shown already
     browser.pdf(tmp_path / "it.pdf")
     assert len(re.findall(rb"/Type\s*/Page\b", (tmp_path / "it.pdf").read_bytes())) <= 4
+    if study is POSED:
+        shown = "[...document.querySelectorAll('#again pre')].filter((e) => e.offsetHeight).at(-1).innerText"
+        assert "# and 25 more, on the screen\n" in browser.run(shown)
+        browser.open(made)
+        assert browser.run(shown).count("[[objective.poses]]") == 31
+        browser.open(made, PAPER, 1000, media="print")
     browser.run(THREE_DESIGNS)
     assert browser.run(OVERLAP) == 0
 

@@ -132,7 +132,7 @@ def test_the_smaller_of_two_figures_is_embedded_and_the_view_has_a_still(page):
 @pytest.mark.parametrize(
     ("about", "project", "others"),
     [
-        (SimpleNamespace(project="", author="", revision=""), "<b>a&b", [BLANK, BLANK]),
+        (SimpleNamespace(project="", author="", revision=""), BLANK, [BLANK, BLANK]),
         (SimpleNamespace(project="Polishing <head>", author="M. N.", revision="B"), "Polishing <head>", ["M. N.", "B"]),
     ],
 )

@@ -133,3 +133,14 @@ def test_plates_are_in_one_scale(compared):
     figure = plot.compare(compared)
     base, platform = figure.axes
     assert base.get_xlim() == platform.get_xlim() == base.get_ylim()
+
+
+def test_heights_of_a_tool_are_explained(compared):
+    values = {"a1": 0.0, "a2": 5.0, "b1": 2.5, "b2": 0.0, "zp": 4.0, "zs": 2.0}
+    with_tool, without = (
+        nd.optimize(nd.Study(variables=values, tool=tool)) for tool in ({"position": (0.0, 0.0, -0.5)}, {})
+    )
+    both = nd.compare(with_tool, without)
+    assert both.numbers["height p"] == pytest.approx((3.5, 4.0))
+    assert "height p its height; zp is that of the plate" in str(both)
+    assert "of the plate" not in str(compared)

@@ -210,6 +210,30 @@ def test_a_handle_follows_again_when_its_client_leaves():
         until(lambda: np.allclose(gizmo.position, viewer.scene.scale * home))
 
 
+def test_the_first_view_fits_a_narrow_window_until_the_user_moves():
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    g = nd.Geometry.hexagonal(a1=0.0, a2=850.0, b1=290.0, b2=0.0)
+    design = nd.Design(g, nd.Configuration.neutral(zp=200.0, zs=100.0), 150.0, "mm")
+    with nd.view(design, port=0) as viewer:
+        first, updates = viewer._server.initial_camera, []
+        camera = SimpleNamespace(position=first.position, look_at=first.look_at, aspect=1.6, on_update=updates.append)
+        asyncio.run(viewer._server._client_connect_cb[-1](SimpleNamespace(camera=camera)))
+        assert camera.position == pytest.approx(first.position)
+        camera.aspect = 0.3  # the panel is docked, or the window made narrow
+        asyncio.run(updates[0](camera))
+        away = first.look_at - camera.position
+        along = away / np.linalg.norm(away)
+        right = np.cross(along, [0.0, 0.0, 1.0])
+        right /= np.linalg.norm(right)
+        for joint in viewer.scene.scale * np.concatenate([g.base_external, g.base_internal]):
+            ray = joint - camera.position
+            assert abs(ray @ right) < camera.aspect * np.tan(0.5 * first.fov) * (ray @ along)
+        camera.position = own = camera.position + 1.0  # by the user
+        camera.aspect = 0.5
+        asyncio.run(updates[0](camera))
+        assert camera.position is own
+
+
 def until(condition, seconds=20.0):
     end = time.monotonic() + seconds
     while not condition():

@@ -8,6 +8,7 @@ import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct, typed
+from ninedof.export.bodies import masses_of
 from ninedof.export.export import formats
 from ninedof.export.model import Format
 from ninedof.support.arguments import choice
@@ -15,6 +16,7 @@ from ninedof.support.files import own_or_new
 from ninedof.support.units import unit_argument
 
 PLACE = 4
+BODIES = {"platform": "platform", "cylinder": "each cylinder", "rod": "each rod", "internal_point": "O"}
 EXAMPLES = """
   ninedof export runs/20260101-120000 --to mjcf
   ninedof export runs/20260101-120000 --to urdf --out machine.urdf --platform-mass 12
@@ -28,8 +30,10 @@ class _Options(Options):
     design: str = argument(ONE_DESIGN)
     to: str | None = option(f"{WORDS}. Follows from the suffix of --out if that is given.")
     out: Path | None = option("The file; in this folder, with the name of the design, by default.")
-    leg_mass: float | None = option("mjcf, urdf, sdf: mass of a leg, kg; 1 by default.")
-    platform_mass: float | None = option("mjcf, urdf, sdf: mass of the platform, kg; 5 by default.")
+    leg_mass: float | None = option("mjcf, urdf, sdf: mass of a leg, kg; that of the study, or 1, by default.")
+    platform_mass: float | None = option(
+        "mjcf, urdf, sdf: mass of the platform, kg; that of the study, or 5, by default."
+    )
     gravity: float | None = option("mjcf: downward, m/s²; 0 by default.")
     unit: str | None = option("The length unit (mm, cm, m, in, ft); that of the study or file by default.")
 
@@ -53,7 +57,12 @@ def export(options: _Options) -> Answer:
         own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
     unit = chosen.unit if options.unit is None else unit_argument(options.unit)
     path = nd.export(chosen.machine, row.name, file, unit=unit, **more)
-    return Answer([f"{row.words}: {path}"], {"format": row.name, "file": str(path)})
+    lines = [f"{row.words}: {path}"]
+    if "leg_mass" in row.options:
+        masses, assumed = masses_of(chosen.study, options.leg_mass, options.platform_mass)
+        each = (f"{name} {getattr(masses, key):g} kg{' (assumed)' * (key in assumed)}" for key, name in BODIES.items())
+        lines.append(f"masses: {', '.join(each)}; inertias of the bodies as they are drawn")
+    return Answer(lines, {"format": row.name, "file": str(path)})
 
 
 def _by_suffix(out: Path | None) -> Format:

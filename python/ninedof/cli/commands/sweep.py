@@ -21,7 +21,7 @@ from ninedof.paper.published import published_variables
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
 from ninedof.sweep.axis import Values
-from ninedof.sweep.poses import COORDINATES, ROTATION, rule_of_study
+from ninedof.sweep.poses import COORDINATES, INTERNAL, POSITION, ROTATION, rule_of_study
 from ninedof.sweep.tables import summary_table
 
 FAMILIES = {name: tuple(nd.Study(name).variables) for name in FAMILY_NAMES}
@@ -76,11 +76,11 @@ def sweep(job: _Options) -> None:
         if all(plain_name(name) in COORDINATES for name in grid):
             title += "" if job.absolute else ", from the neutral pose"
             rule = job.internal_point or rule_of_study(chosen, grid)
-            note = _note(chosen, f"with O {rule}, in one orientation")
+            note = _held_words(grid, rule) + _note(chosen)
             call = _over_poses(chosen, job, grid, rule)
         else:
             job.refuse("in a sweep over designs", *OF_POSES)
-            note = _note(chosen, "at the neutral pose alone")
+            note = f"at the neutral pose alone{_note(chosen)}"
             call = _over_designs(what, chosen, job, grid)
     result, folder = job.compute(call, title)
     title += f"; {note}" * bool(note)
@@ -90,12 +90,20 @@ def sweep(job: _Options) -> None:
     job.write(result, folder, json_data(result, summary), table, lambda: _figures(result, what, note), stated)
 
 
-def _note(chosen: Chosen | None, where: str) -> str:
-    """Return where a sweep evaluates a design whose study is about a region or poses; "" for other designs."""
+def _held_words(grid: Iterable[str], rule: str) -> str:
+    """Return where O is in a sweep over coordinates, and what of the platform stays."""
+    swept = set(map(plain_name, grid))
+    moved = rule if not swept & set(INTERNAL) else "moved" if rule == "held" else f"{rule} and moved"
+    stays = {"in one orientation": ROTATION, "at one position": POSITION}
+    return ", ".join([f"with O {moved}", *(words for words, names in stays.items() if not swept & set(names))])
+
+
+def _note(chosen: Chosen | None) -> str:
+    """Return that a sweep of a design whose study is about a region or poses is not over them; "" for other designs."""
     study = None if chosen is None else chosen.study
     if study is None or not (study.objective.poses or study.objective.region):
         return ""
-    return f"{where}, not over the {'region' if study.objective.region else 'poses'} of the study"
+    return f", not over the {'region' if study.objective.region else 'poses'} of the study"
 
 
 def _over_poses(
