@@ -100,6 +100,7 @@ const char* to_string(LimitKind kind) {
     case LimitKind::sign: return "sign";
     case LimitKind::number: return "number";
     case LimitKind::rate: return "rate";
+    case LimitKind::power: return "power";
   }
   return "";
 }

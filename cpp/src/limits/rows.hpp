@@ -51,7 +51,7 @@ inline constexpr std::array known_limits = [] {
       of_pose({"fault_tolerant", ratio, only_high}, logarithm, fault_tolerant_row),
       of_pose({"force", number, only_high, {}, "", 0.0, false, "loads"}, mixed, force_row),
       of_pose({"rate", rate, only_high, {}, "", 0.0, false, "speeds"}, mixed, rate_row),
-      of_pose({"power", number, only_high, {}, "", 0.0, false, "loads speeds"}, mixed, power_row),
+      of_pose({"power", power, only_high, {}, "", 0.0, false, "loads speeds"}, mixed, power_row),
       of_pose({"external_force", number, only_high, {}, "", 0.0, false, "loads"}, mixed, external_force_row),
       of_pose({"upper_force", number, only_high, {}, "", 0.0, false, "loads"}, mixed, upper_force_row),
       of_pose({"lower_force", number, only_high, {}, "", 0.0, false, "loads"}, mixed, lower_force_row),

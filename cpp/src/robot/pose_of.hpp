@@ -56,6 +56,7 @@ struct AsBuilt {
   const Geometry& nominal;
   std::array<double, 12> radius{};  ///< in the order of Points
 
+  bool exact() const { return radius == std::array<double, 12>{}; }
   /// A vector with the error of a joint.
   template <class T>
   Xyz<T> loose(Xyz<T> v, int point) const {

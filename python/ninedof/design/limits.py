@@ -16,7 +16,7 @@ from ninedof.support.angles import angle_entry, degrees_of, half_turn, in_radian
 from ninedof.support.arguments import Vector, choice, items, known_keys, number, shown, vector, whole
 from ninedof.support.schema import Check, plain, within
 from ninedof.support.structs import Fixed
-from ninedof.support.units import kind_unit as kind_unit
+from ninedof.support.units import kind_unit
 
 
 class Row(NamedTuple):
@@ -43,7 +43,6 @@ class Row(NamedTuple):
 
 
 ROWS = {values[0]: Row(*values) for values in _core.constraint_table}
-ROWS |= {name: row._replace(kind="power") for name, row in ROWS.items() if name.endswith("power")}
 STEPS, MOST_STEPS = _core.singularity_free_steps  # parts of the way from the neutral pose that singularity_free tests
 AT = ("poses", "neutral")
 """The places where a limit holds: every pose of the objective, the default, or the neutral pose alone."""

@@ -66,10 +66,10 @@ class Leg:
 
 
 class Bodies:
-    """The robot in metres and kilograms; masses as in `masses_of`."""
+    """The robot in metres and kilograms; masses as in `body_masses`."""
 
     def __init__(self, model: Model, leg_mass: float | None = None, platform_mass: float | None = None) -> None:
-        masses = masses_of(model.study, leg_mass, platform_mass)[0]
+        masses = body_masses(model.study, leg_mass, platform_mass)[0]
         self.unit = "metres" if model.unit else "the design's own, without a unit"
         """Of lengths, for people."""
         metric = model.in_metres()
@@ -111,7 +111,7 @@ class Bodies:
         return self.platform[leg.root_joint], leg.direction @ self.rotation
 
 
-def masses_of(
+def body_masses(
     study: Study | None, leg_mass: float | None = None, platform_mass: float | None = None
 ) -> tuple[Masses, list[str]]:
     """Return the masses of the bodies in kg, and the names of those that are assumed.

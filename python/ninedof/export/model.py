@@ -172,6 +172,8 @@ def model_of(design: Any, name: str = "ninedof", unit: str | None = None) -> Mod
     unit is that of the study or of the design file. A Candidate or a DesignPoint names none, so it must be given, ""
     for none: a simulator would take millimetres for metres. ValueError says what is missing or differs.
     """
+    if not all(hasattr(design, name) for name in ("geometry", "configuration", "characteristic_length")):
+        raise ValueError(f"design: got {type(design).__name__}, expected a result or a design")
     g, c, length = robot_of(design, "design"), design.configuration, design.characteristic_length
     if np.shape(c.position) != (3,):
         raise ValueError(f"design: got a stack of configurations of shape {c.shape}, expected a single one")

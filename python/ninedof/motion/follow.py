@@ -21,7 +21,7 @@ from ninedof.robot.idle import idle_names, unloaded_names
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.statics.dynamics import inverse_dynamics
-from ninedof.statics.masses import GRAVITY
+from ninedof.statics.masses import GRAVITY, gravity_for_core
 from ninedof.support.arguments import choice, finite, instance, items
 from ninedof.support.arrays import Floats, as_floats, as_number, broadcast_leading
 from ninedof.support.files import Saved
@@ -311,7 +311,7 @@ def follow(
     rule = choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
     lc = float(length_of(geometry, home, lc)) if isinstance(lc, str) else as_number("characteristic_length", lc)
     path, bounds, ends, forces = trajectory, leg_limits(limits), items("load", load, "force and moment", 2), None
-    without_loads = np.empty((0, 6)), None, np.zeros(3)
+    without_loads = np.empty((0, 6)), None, gravity_for_core(gravity, path.unit)
     motion = _core.follow(g, home, path.time, path.position, path.rotation, rule, bounds, lc, *without_loads)
     poses, margins, _ = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
     c = Configuration(path.position, path.rotation, motion.pop("internal_point"))

@@ -87,7 +87,7 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
     plain = split_label(name)[0]
     if plain in ROWS and plain not in names:
         raise ValueError(
-            f"against: got {shown(against)}, which has a min alone, expected a limit with a max: only that varies"
+            f"against: got {shown(against)}, which has no max, expected a limit that has one: only that varies"
         )
     hint = did_you_mean(name, [*labels, CONDITION_LIMIT, TOLERANCE, *indices])
     raise ValueError(

@@ -147,8 +147,8 @@ def _prices(axes: Any, rows: Sequence[Row], is_tolerance: bool) -> None:
     else:
         axes.set_yticks([])
     relaxed = "a tolerance 1 % smaller" if is_tolerance else "a limit 1 % looser"
-    axes.set_title(f"slope: what {relaxed} gains, to first order", size=style.TEXT_SIZE)
-    axes.set_ylabel("slope (%)")
+    axes.set_title(f"price: what {relaxed} gains, to first order", size=style.TEXT_SIZE)
+    axes.set_ylabel("price (%)")
 
 
 def _limits(panels: Sequence[Any], rows: Sequence[Row]) -> None:

@@ -9,13 +9,12 @@ from typing import Any
 
 from ninedof import _core
 from ninedof.design.duty import Tolerances
-from ninedof.design.limits import kind_unit
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.arguments import flag, number, table, text, whole
 from ninedof.support.short import short_repr
 from ninedof.support.structs import entries_of
-from ninedof.support.units import amount
+from ninedof.support.units import amount, kind_unit
 
 FORMAT = "ninedof-machine-certificate-3"
 PROVED, VIOLATED, UNDECIDED = "proved", "violated", "undecided"
@@ -179,12 +178,15 @@ class MachineCertificate:
                 f"The worst condition number met is {outward(self.condition[0], False)}, at "
                 f"{self.condition_at.worded(self.unit)}."
             )
-        if not math.isfinite(self.condition[1]):
-            out.append(f"No bound of the condition number is proved; {self.left_count} boxes of poses are left.")
+        boxes = f"{self.left_count} {'box' if self.left_count == 1 else 'boxes'} of poses left"
+        if self.left_count and not math.isfinite(self.condition[1]):
+            out.append(f"No bound of the condition number is proved, with {boxes}.")
         elif self.left_count:
+            out.append(f"Not decided: whether the condition number is at most {self.target:.6g}, with {boxes}.")
+        elif self.tolerances and self.target < self.condition[1]:
             out.append(
-                f"Not decided: whether the condition number is at most {self.target:.6g}; {self.left_count} boxes of "
-                "poses are left."
+                f"No bound of the condition number below {outward(self.target, False)} is proved of machines that "
+                "differ by these tolerances, however long the search."
             )
         for limit in self.limits:
             name = ", ".join(filter(None, [limit.name.replace("_", " "), limit.which]))

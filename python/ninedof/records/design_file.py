@@ -124,7 +124,7 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
 
 def _entries(where: str, data: Mapping[str, Any], needed: Sequence[str], others: Sequence[str] = ()) -> dict[str, Any]:
     """Return the entries of a table that has all that are needed, and no unknown ones."""
-    known_keys(where or "design", data, (*needed, *others))
+    known_keys(where or "design", data, dict.fromkeys((*needed, *others)))
     for name in needed:
         if name not in data:
             raise ValueError(f"{where}.{name}: got nothing, expected a value".removeprefix("."))

@@ -121,9 +121,11 @@ def design_and_result(run: object, name: str) -> tuple[Design, Result | None]:
     if isinstance(run, Design):
         return run, None
     if isinstance(run, Front):
-        raise ValueError(f"{name}: got a front, expected one of its points: {name}#1 to {name}#{len(run)}")
+        points = "RUN" if name == "design" else name
+        raise ValueError(f"{name}: got a front, expected one of its points: {points}#1 to {points}#{len(run)}")
     if not isinstance(run, Result):
-        raise ValueError(f"{name}: got {shown(run)}, expected a design file, a Design or a run with a design")
+        what = shown(run) if name == "design" else "a run without a design"
+        raise ValueError(f"{name}: got {what}, expected a design file, a Design or a run with a design")
     result, study = with_fixed_design(run), run.study
     if (best := result.best) is None:
         raise ValueError(f"{name}: the record holds no design: {run.reason}")

@@ -11,7 +11,6 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.limit_numbers import JOINTS
-from ninedof.design.limits import kind_unit
 from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
@@ -22,7 +21,7 @@ from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.plain_values import rows_of
 from ninedof.singularity.singularity import mechanism_of
 from ninedof.support.arrays import Floats
-from ninedof.support.units import amount
+from ninedof.support.units import amount, kind_unit
 
 MOTIONS = ("shift", "turn", "internal")
 

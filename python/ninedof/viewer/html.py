@@ -6,12 +6,11 @@ import math
 from collections.abc import Mapping
 from html import escape
 
-from ninedof.design.limits import kind_unit
 from ninedof.plot.style import LEG_COLOURS
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.rows import LimitRow
 from ninedof.support.margins import is_violated, margin_words
-from ninedof.support.units import with_unit
+from ninedof.support.units import kind_unit, with_unit
 from ninedof.viewer.numbers import Numbers
 
 RED = "#E0202F"

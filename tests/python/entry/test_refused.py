@@ -252,7 +252,7 @@ APART = [  # a row, entries that are refused because of what they are together o
     (
         "pareto",
         {"against": "joint_spacing"},
-        "against: got 'joint_spacing', which has a min alone, expected a .*varies$",
+        "against: got 'joint_spacing', which has no max, expected a .*varies$",
     ),
     ("Study", {"characteristic_length": "150 mm"}, ".*got '150 mm', expected .*a number: its unit is the length unit"),
     ("pareto", {"against": "leg_ratio at neutrl"}, r"against: .* \(did you mean 'leg_ratio at neutral'\?\)"),

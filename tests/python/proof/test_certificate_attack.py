@@ -290,7 +290,7 @@ def test_what_is_printed_is_what_was_checked(tmp_path):
         "b2 0.1",
         "zp from 1 to 9",
         "zs from 0.3 to 8",
-        "theta_z from -0.2 to 0.3",
+        "theta_z from -0.2 to 0.3 rad (-11.4592, 17.1887 deg)",
         "zs_fraction from 0.2 to 0.8",
         "leg_ratio from 0 to 3",
     )

@@ -86,7 +86,8 @@ def test_a_genuine_file_is_proved_and_says_what_it_is_about(designs, lines, verd
     assert not found.incomplete
     assert found.boxes == len(designs.state)
     assert "a2 from 2 to 10" in found.study
-    assert "at every pose of a box of 0.3, 0.2, 0.2, tilts up to 0.1, yaw up to 0, O shifted" in found.study
+    angles = "tilts up to 0.1 rad (5.72958 deg), yaw up to 0 rad (0 deg)"
+    assert f"at every pose of a box of 0.3, 0.2, 0.2, {angles}, O shifted" in found.study
     assert "stroke_ratio at most 1.22" in found.study
     assert min(len(boxes(lines, state)) for state in ("inside", "outside", "undecided")) > 5
 

@@ -23,8 +23,9 @@ enum class LimitKind {
   length,  ///< see Limit::of
   angle,   ///< radians
   sign,    ///< a determinant of singularity.hpp, in [-1, 1]
-  number,  ///< in units of the study that are no lengths: forces, powers
+  number,  ///< in units of the study that are no lengths: forces
   rate,    ///< a length over time
+  power,   ///< a force times a rate
 };
 
 /// What a length is a fraction of.

@@ -113,6 +113,9 @@ struct WorstOverPoses {
   Extreme extreme;
   PoseBoxes left;  ///< where nothing better than extreme.high, or the condition number asked for, is proved
   double tried = 0.0;  ///< the bound that was tried last
+  /// Of machines within tolerances that differ too much at one pose for the bound tried last: the least that is proved
+  /// there. The search ended then, and no boxes are left: no division of poses helps.
+  double least_there = 0.0;
   bool interrupted = false;
 };
 

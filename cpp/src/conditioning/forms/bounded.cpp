@@ -91,7 +91,7 @@ struct AllMachines {
   double condition, of_x = 0.0, of_w = 0.0;
 };
 AllMachines all_machines(const Looseness& loose, double condition, double most, double least) {
-  if (!(loose.fixed > 0.0)) return {condition};
+  if (loose.fixed == 0.0) return {condition};
   constexpr double up = 1.0 + 0x1p-40, down = 1.0 - 0x1p-40;
   constexpr double c = 0.2;  // (x + w)^2 <= (1 + c) x^2 + (1 + 1 / c) w^2
   const double a = loose.fixed / std::sqrt(most), b = loose.fixed / std::sqrt(least);
@@ -171,7 +171,7 @@ bool bounded(const SplitGramOf<CurvedForm>& g, double condition, const Looseness
   t.r = 0.0;
   const double defect = (eigen.v.transpose() * eigen.v - Mat6::Identity()).cwiseAbs().maxCoeff();
   // Of an entry: turning it, its values at corners and its part in the decomposition lose 200 units of 2^-53.
-  const double rounding = 0x1p-44 * (1.0 + squared) * largest + 2.0 * defect * (std::abs(t.c) + spread(t));
+  const double rounding = 0x1p-44 * (1.0 + squared) * largest + 2.0 * defect * (std::abs(t.c) + spread(t) + all.of_x);
 
   LinearMatrix<6> above;
   LinearMatrix<9> below;

@@ -183,8 +183,10 @@ SplitGramOf<T> split_gram(const Robot& g, double characteristic_length, const Po
   for (std::size_t j = 0; j < 6; ++j)
     for (std::size_t i = 0; i <= j; ++i)
       out.above[entry(j, i)] = out.external[entry(j, i)] + dot(upper[i], upper_pull[j]) + dot(lower[i], lower_pull[j]);
-  out.upper_reach = reach_of(upper);
-  out.lower_reach = reach_of(lower);
+  if constexpr (T::curved) {
+    out.upper_reach = reach_of(upper);
+    out.lower_reach = reach_of(lower);
+  }
   if (freedom.locked) keep_across(freedom.along, out.sum);
   return out;
 }

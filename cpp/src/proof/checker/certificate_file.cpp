@@ -66,10 +66,7 @@ Certificate read(Stream& file) {
 std::vector<std::string> study_of(const Certificate& c) {
   std::vector<std::string> out{c.family + " designs with 0 < zs < zp", "characteristic length " + digits(c.length)};
   for (const std::vector<Bound>& bounds : {c.variables, c.limits})
-    for (const auto& [name, range] : bounds) {
-      const std::string low = digits(range.a), high = digits(range.b);
-      out.push_back(low == high ? name + " " + low : name + " from " + low + " to " + high);
-    }
+    for (const auto& [name, range] : bounds) out.push_back(said(name, range));
   for (const std::string& limit : c.left_out) out.push_back("without the limit " + limit);
   return out;
 }

@@ -182,6 +182,9 @@ void validate(const DesignsFile& file) {
 std::string plain(const Triple& x) {
   return digits(x[0]) + ", " + digits(x[1]) + ", " + digits(x[2]);
 }
+std::string turned_by(const Triple& x) {
+  return ", turned by " + plain(x) + in_degrees({x[0], x[1], x[2]});
+}
 
 }  // namespace
 
@@ -208,27 +211,26 @@ DesignsFile read_designs(Stream& file) {
 
 std::vector<std::string> question_of(const DesignsFile& file) {
   std::vector<std::string> out{file.family + " designs with 0 < zs < zp"};
-  for (const auto& [name, range] : file.variables)
-    out.push_back(range.a == range.b ? name + " " + digits(range.a)
-                                     : name + " from " + digits(range.a) + " to " + digits(range.b));
+  for (const auto& [name, range] : file.variables) out.push_back(said(name, range));
   if (file.tool != std::array<double, 6>{})
-    out.push_back("tool at " + plain({file.tool[0], file.tool[1], file.tool[2]}) + ", turned by " +
-                  plain({file.tool[3], file.tool[4], file.tool[5]}));
+    out.push_back("tool at " + plain({file.tool[0], file.tool[1], file.tool[2]}) +
+                  turned_by({file.tool[3], file.tool[4], file.tool[5]}));
   const auto in = [](bool zp) { return zp ? " zp" : ""; };
   const RegionLine& region = file.region;
   if (region.shape != "none")
     out.push_back("at every pose of a " + region.shape +
                   (region.shape == "path" ? "" : " of " + plain(region.size) + in(region.in_zp)) + ", tilts up to " +
-                  digits(region.tilt) + ", yaw up to " + digits(region.yaw) + ", O " +
-                  (region.shifted ? "shifted" : "held"));
+                  digits(region.tilt) + in_degrees({region.tilt}) + ", yaw up to " + digits(region.yaw) +
+                  in_degrees({region.yaw}) + ", O " + (region.shifted ? "shifted" : "held"));
   for (const Triple& corner : region.corners) out.push_back("  by " + plain(corner) + in(region.in_zp));
   for (const PoseLine& one : file.poses)
-    out.push_back("at the pose shifted by " + plain(one.position) + in(one.in_zp) + ", turned by " +
-                  plain(one.rotation) + ", O shifted by " + plain(one.internal) + in(one.in_zp));
+    out.push_back("at the pose shifted by " + plain(one.position) + in(one.in_zp) + turned_by(one.rotation) +
+                  ", O shifted by " + plain(one.internal) + in(one.in_zp));
   for (const LimitLine& one : file.limits) {
     std::string line = one.name;
     if (one.range.a > 0.0) line += " at least " + digits(one.range.a);
     if (one.range.b < inf) line += " at most " + digits(one.range.b);
+    if (one.name.find("cone") != std::string::npos && one.range.b < inf) line += in_degrees({one.range.b});
     if (one.of != "length") line += " " + one.of;
     if (one.name == "condition_number") line += " with the characteristic length " + digits(file.length);
     if (one.axis != Triple{}) line += " about " + plain(one.axis);

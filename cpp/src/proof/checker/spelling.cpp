@@ -12,6 +12,22 @@ void refuse(const std::string& why) {
   throw std::runtime_error(why);
 }
 
+std::string in_degrees(std::initializer_list<double> angles) {
+  std::string out;
+  for (const double angle : angles) {
+    if (!out.empty()) out += ", ";
+    out += digits(angle * 57.29577951308232, std::chars_format::general, 6);
+  }
+  return " rad (" + out + " deg)";
+}
+
+std::string said(const std::string& name, Range range) {
+  const bool angle = name == "theta_z" || name.ends_with("_angle"), one = range.a == range.b;
+  std::string out = name + (one ? " " + digits(range.a) : " from " + digits(range.a) + " to " + digits(range.b));
+  if (angle) out += one ? in_degrees({range.a}) : in_degrees({range.a, range.b});
+  return out;
+}
+
 std::string hexadecimal(double x) {
   if (std::isinf(x)) return x > 0.0 ? "inf" : "-inf";
   return (std::signbit(x) ? "-0x" : "0x") + digits(std::abs(x), std::chars_format::hex);

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <initializer_list>
 #include <istream>
 #include <string>
 #include <vector>
@@ -20,6 +21,10 @@ std::string digits(Number x, Format... format) {
   return {text, std::to_chars(text, text + sizeof text, x, format...).ptr};
 }
 std::string hexadecimal(double x);
+/// " rad (5.72958 deg)" after angles.
+std::string in_degrees(std::initializer_list<double> angles);
+/// The number of this name, " 2" or " from 2 to 10"; angles in degrees too.
+std::string said(const std::string& name, Range range);
 /// Fifteen digits, never more than x > 1.
 std::string rounded_down(double x);
 std::string quoted(const std::string& text);

@@ -26,10 +26,11 @@ class ConditionOverPoses final : public IndexOverPoses {
   }
   bool bounded(const Box& box, double bound, Moves& moves) const override {
     const PoseOf<CurvedForm> pose = domain().pose<CurvedForm>(box);
-    const AsBuilt &built = domain().built(), drawn{built.nominal};
+    const AsBuilt& built = domain().built();
     if (locked_ >= 0) return forms::bounded(forms::split_gram(built, length_, pose, moves, locked_), bound);
+    const AsBuilt drawn{built.nominal};
     const forms::SplitGramOf<CurvedForm> g = forms::split_gram(drawn, length_, pose, moves);
-    return forms::bounded(g, bound, forms::looseness(built, length_, pose, g));
+    return forms::bounded(g, bound, built.exact() ? forms::Looseness{} : forms::looseness(built, length_, pose, g));
   }
 
  private:

@@ -29,6 +29,7 @@ class ConditionSearch {
     else if (!from.empty() && state_.low < target) search_in_time(from, target);
     narrow();
     prove();
+    if (least_there_ > 0.0 && state_.left_count == 0 && !within_gap()) state_.target = least_there_;
     return std::move(state_);
   }
 
@@ -41,7 +42,10 @@ class ConditionSearch {
       double step = settings_.gap;
       for (const double wide : wide_steps)
         if (step == settings_.gap && settings_.gap < wide && wide < 0.9 * (state_.high / state_.low - 1.0)) step = wide;
-      search_in_time(poses, std::min(state_.low * (1.0 + step), state_.high));
+      // Other poses than the one that was in the way need a little more.
+      const double target = std::max(state_.low * (1.0 + step), 1.005 * least_there_);
+      if (least_there_ > 0.0 && target > 0.999 * state_.high) return;
+      search_in_time(poses, std::min(target, state_.high));
     }
   }
 
@@ -117,6 +121,7 @@ class ConditionSearch {
     state_.left = state_.left_count <= settings_.most_left ? std::move(found.left) : PoseBoxes{};
     state_.target = found.tried;
     state_.interrupted = found.interrupted;
+    least_there_ = std::max(least_there_, found.least_there);
   }
 
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -128,6 +133,7 @@ class ConditionSearch {
   const std::function<void(const ConditionState&)>& keep_;
   const Control& control_;
   ConditionState state_;
+  double least_there_ = 0.0;  ///< no bound below is proved of machines within tolerances; 0 where none was in the way
 };
 
 }  // namespace

@@ -50,9 +50,7 @@ class Sought {
         sign_(!row_.pairs && wanted.greatest != row_.falls ? 1.0 : -1.0) {}
 
   /// Whether machines within tolerances differ in more than what `number` adds.
-  bool loose() const {
-    return row_.first_leg < 0 && std::ranges::any_of(domain_.built().radius, [](double r) { return r > 0.0; });
-  }
+  bool loose() const { return row_.first_leg < 0 && !domain_.built().exact(); }
   /// At least every value at the poses of the domain in the box.
   double bound(const Box& box, std::array<double, PoseForm::size>& slope, Moves& moves) const {
     const FormPose pose = domain_.pose(box);

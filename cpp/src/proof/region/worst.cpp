@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "math/numbers.hpp"
 #include "math/splitmix.hpp"
@@ -155,11 +156,20 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
     return control.stop.stop_requested() ||
            std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
   };
-  const bool loose = std::ranges::any_of(domain.built().radius, [](double r) { return r > 0.0; });
+  const bool loose = !domain.built().exact();
   // No division of poses makes a bound of all machines at one pose less.
   const auto hopeless = [&](const Box& point, double bound) {
     Moves unused;
     return loose && !index.bounded(point, bound, unused);
+  };
+  const auto least_bound = [&](const Box& point, double below) {
+    double above = 2.0 * below;
+    while (above < 1e9 * below && hopeless(point, above)) below = std::exchange(above, 2.0 * above);
+    while (above > 1.001 * below) {
+      const double between = std::sqrt(above * below);
+      (hopeless(point, between) ? below : above) = between;
+    }
+    return above;
   };
   WorstOverPoses out;
   double proved = infinity;
@@ -177,8 +187,12 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
     double target = given ? settings.condition : met.value * (1.0 + gap);
     std::vector<Box> ahead = std::move(boxes), leaves, stuck;
     boxes.clear();
-    bool provable = !hopeless(met.at, target);
-    while (provable && !ahead.empty() && !stopped() && ahead.size() < most_boxes) {
+    Box top = met.at;
+    while (!ahead.empty() && !stopped() && ahead.size() < most_boxes) {
+      if (hopeless(top, target)) {
+        out.least_there = least_bound(top, target);
+        break;
+      }
       std::vector<Looked> looked(ahead.size());
       parallel_for(static_cast<long>(ahead.size()), 16, settings.threads, [&](long first, long last) {
         if (stopped()) return;
@@ -205,9 +219,13 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
         given = given && met.value < target;
         if (!given) target = std::max(target, met.value * (1.0 + gap));
       }
-      provable = best.value == 0.0 || !hopeless(best.at, target);
+      top = best.value > 0.0 ? best.at : met.at;
       ahead = std::move(next);
       if (control.progress) control.progress(count, 0, met.value);
+    }
+    if (out.least_there > 0.0) {
+      out.tried = target;
+      break;
     }
     ahead.insert(ahead.end(), stuck.begin(), stuck.end());
     if (!ahead.empty() && gap < settings.gap && !given) break;  // narrower than was asked for

@@ -81,7 +81,8 @@ def accuracy(options: _Options) -> Answer:
 
 def _allotted(options: _Options, at: DesignAtPoses) -> Answer:
     """Return the tolerances that keep the machine within an error, over the poses of its study."""
-    more = ("leg_error", "joint_error", "samples", "all_poses", "position", "rotation_deg", "internal_point")
+    more = ("samples", "all_poses", "position", "rotation_deg", "internal_point")
+    options.refuse("with --within: it asks for the tolerances", "leg_error", "joint_error")
     options.refuse("with --within: it is about all poses of the study", *more)
     turn = None if options.within_deg is None else math.radians(options.within_deg)
     design, unit = at.machine, at.unit

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-import re
 from pathlib import Path
 from typing import Any
 
@@ -20,10 +18,6 @@ EXAMPLES = f"""
   ninedof admissible study.toml --vary a2 --vary b1 --certificate designs.certificate
   ninedof check designs.certificate"""
 
-NUMBER = r"-?\d[\d.]*(?:e[-+]?\d+)?"
-NAMES = "angle|theta_z|cone(?:_external|_internal)?|tilts|yaw|turned"
-# Angles of a line as the checker writes it, after their names.
-ANGLES = re.compile(rf"(?:{NAMES})(?: from| at most| up to| by)? ({NUMBER}(?:(?:, | to ){NUMBER})*)")
 UNIT = "lengths in the study's unit, which a certificate does not name"
 
 
@@ -39,7 +33,7 @@ def check(options: _Options) -> Answer:
         raise ValueError(f"{options.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
     with options.screen.bar("points", "reading the certificate") as bar:
         result = check_certificate(path, progress=bar)
-    lines = [*map(with_degrees, result.study), UNIT] if result.study else []
+    lines = [*result.study, UNIT] if result.study else []
     parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in lines)] if lines else []
     verdict = "Proved" if result.proved else "Incomplete" if result.incomplete else "Refused"
     parts.append(bold(verdict, f": {result.words}"))
@@ -53,13 +47,3 @@ def check(options: _Options) -> Answer:
         "study": result.study,
     }
     return Answer(parts, data, DONE if result.proved else NO_RESULT if result.incomplete else REFUSED)
-
-
-def with_degrees(line: str) -> str:
-    """Return a line of the checker with its angles in degrees too."""
-
-    def degrees(found: re.Match[str]) -> str:
-        shown = re.sub(NUMBER, lambda number: f"{math.degrees(float(number[0])):.6g}", found[1])
-        return f"{found[0]} rad ({shown} deg)"
-
-    return ANGLES.sub(degrees, line)

@@ -8,7 +8,7 @@ import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct, typed
-from ninedof.export.bodies import masses_of
+from ninedof.export.bodies import body_masses
 from ninedof.export.export import formats
 from ninedof.export.model import Format
 from ninedof.support.arguments import choice
@@ -59,7 +59,7 @@ def export(options: _Options) -> Answer:
     path = nd.export(chosen.machine, row.name, file, unit=unit, **more)
     lines = [f"{row.words}: {path}"]
     if "leg_mass" in row.options:
-        masses, assumed = masses_of(chosen.study, options.leg_mass, options.platform_mass)
+        masses, assumed = body_masses(chosen.study, options.leg_mass, options.platform_mass)
         each = (f"{name} {getattr(masses, key):g} kg{' (assumed)' * (key in assumed)}" for key, name in BODIES.items())
         lines.append(f"masses: {', '.join(each)}; inertias of the bodies as they are drawn")
     return Answer(lines, {"format": row.name, "file": str(path)})
