@@ -155,6 +155,15 @@ TEST_SUITE("condition_search") {
     CHECK(kept.boxes < 20000);
   }
 
+  TEST_CASE("of tolerances as large as the machine nothing is proved, and the search ends") {
+    PosedRobot machine = small_machine();
+    machine.tolerances.joints.fill(1.0);
+    const ConditionState state = search_condition(machine, {.seconds = 600.0, .gap = 0.05, .wanted = {50.0}});
+    CHECK(state.high == infinity);
+    CHECK(state.left_count == 0);
+    CHECK(state.boxes < 1000);
+  }
+
   TEST_CASE("a bound that no division of poses proves is given up at once") {
     PosedRobot machine = small_machine();
     machine.tolerances.joints.fill(1e-3);

@@ -44,7 +44,7 @@ class ConditionSearch {
         if (step == settings_.gap && settings_.gap < wide && wide < 0.9 * (state_.high / state_.low - 1.0)) step = wide;
       // Other poses than the one that was in the way need a little more.
       const double target = std::max(state_.low * (1.0 + step), 1.005 * least_there_);
-      if (least_there_ > 0.0 && target > 0.999 * state_.high) return;
+      if (least_there_ > 0.0 && (!(target < 0.999 * state_.high) || elapsed() > settings_.seconds)) return;
       search_in_time(poses, std::min(target, state_.high));
     }
   }

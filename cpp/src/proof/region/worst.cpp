@@ -164,7 +164,8 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
   };
   const auto least_bound = [&](const Box& point, double below) {
     double above = 2.0 * below;
-    while (above < 1e9 * below && hopeless(point, above)) below = std::exchange(above, 2.0 * above);
+    for (const double most = 1e6 * below; hopeless(point, above); below = std::exchange(above, 2.0 * above))
+      if (!(above < most)) return infinity;
     while (above > 1.001 * below) {
       const double between = std::sqrt(above * below);
       (hopeless(point, between) ? below : above) = between;
