@@ -178,11 +178,11 @@ class MachineCertificate:
                 f"The worst condition number met is {outward(self.condition[0], False)}, at "
                 f"{self.condition_at.worded(self.unit)}."
             )
-        boxes = f"{self.left_count} {'box' if self.left_count == 1 else 'boxes'} of poses left"
-        if self.left_count and not math.isfinite(self.condition[1]):
-            out.append(f"No bound of the condition number is proved, with {boxes}.")
+        boxes = f", with {self.left_count} {'box' if self.left_count == 1 else 'boxes'} of poses left"
+        if not math.isfinite(self.condition[1]):
+            out.append(f"No bound of the condition number is proved{boxes if self.left_count else ''}.")
         elif self.left_count:
-            out.append(f"Not decided: whether the condition number is at most {self.target:.6g}, with {boxes}.")
+            out.append(f"Not decided: whether the condition number is at most {self.target:.6g}{boxes}.")
         elif self.tolerances and self.target < self.condition[1]:
             out.append(
                 f"No bound of the condition number below {outward(self.target, False)} is proved of machines that "
