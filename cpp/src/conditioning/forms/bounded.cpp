@@ -83,8 +83,8 @@ double column(const Mat6& v, std::size_t i, std::size_t j) {
   return v(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
 }
 
-/// The test of the drawn machine from which that of all machines follows. With N z the rows of the legs and D z what they
-/// change by,
+/// The test of the drawn machine from which that of all machines follows. With N z the rows of the legs and D z what
+/// they change by,
 ///     (1 - b) |N z|^2 - (1 / b - 1) |D z|^2 <= |(N + D) z|^2 <= (1 + a) |N z|^2 + (1 + 1 / a) |D z|^2,
 /// so that a smaller condition number is needed, and more room in the matrix of nine rows.
 struct AllMachines {

@@ -57,8 +57,8 @@ struct SplitGramOf {
   Symmetric6Of<T> external;  ///< A^T A, which is not above M^T M
   std::array<std::array<T, 6>, 3> across;
   Symmetric3Of<T> sum;  ///< H + F
-  double upper_reach = 0.0,
-         lower_reach = 0.0;  ///< of curved forms: at least what H and F are taken of, for |x| = 1, w = 0
+  /// Of curved forms: at least what H and F are taken of, for |x| = 1 and w = 0.
+  double upper_reach = 0.0, lower_reach = 0.0;
   bool known = false;
 };
 using SplitGram = SplitGramOf<PoseForm>;

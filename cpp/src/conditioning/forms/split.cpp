@@ -2,9 +2,9 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "conditioning/forms/gram.hpp"
+#include "math/numbers.hpp"
 
 namespace ninedof::forms {
 namespace {
@@ -46,7 +46,10 @@ template <class T>
 double reach_of(const Columns<T>& columns) {
   double squares = 0.0;
   for (const Xyz<T>& v : columns)
-    for (const T* x : {&v.x, &v.y, &v.z}) squares += (std::abs(x->c) + radius(*x)) * (std::abs(x->c) + radius(*x));
+    for (const T* x : {&v.x, &v.y, &v.z}) {
+      const double most = std::abs(x->c) + radius(*x);
+      squares += most * most;
+    }
   return std::sqrt(squares) * (1.0 + 0x1p-45);
 }
 
@@ -204,7 +207,7 @@ Looseness looseness(const AsBuilt& g, double characteristic_length, const PoseOf
     const Xyz<CurvedForm> v = ends.to - ends.from;
     const double nearest = centre(v).norm() * (1.0 - 0x1p-48) - wandering(v);
     // A direction turns by at most an angle whose sine is off / length.
-    const double turn = nearest > off ? off / (nearest - off) : std::numeric_limits<double>::infinity();
+    const double turn = nearest > off ? off / (nearest - off) : infinity;
     if (leg < 3) {
       const double arm = joint_of(g.nominal, point_u + leg).norm() / characteristic_length;
       const double row =
