@@ -239,7 +239,7 @@ def test_the_report_no_longer_says_that_nothing_better_was_only_searched(proved)
     assert "Proved: no machine of this class has a condition number below 3.76265907859." in page
     assert "That no other design is better" not in page
     assert "hexagonal plates" not in page  # the weaker bound of long searches
-    page = str(report_proof(dataclasses.replace(proved, proof=None)))
+    page = str(report_proof(dataclasses.replace(proved, proof=None), None))
     assert "That no other design is better" in page
 
 
