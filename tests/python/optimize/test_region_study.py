@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from interrupts import InterruptedPhase
 from region_oracle import random_poses, worst_at_random
-from sizes import size
+from sizes import LONG, size
 
 import ninedof as nd
 from ninedof.design.region_poses import posed
@@ -183,6 +183,36 @@ def test_what_a_dear_limit_buys_is_not_left_over():
     assert result.status == "optimal"
     assert result.best.prices["stroke_ratio"] > 20.0
     assert 0.0 <= result.region.gain <= 1e-7
+
+
+@pytest.mark.skipif(not LONG, reason="twenty seconds: NINEDOF_LONG=1")
+def test_the_least_stroke_of_a_tall_machine_ends():
+    """Rounds went on for minutes between 2e-8 and the 1e-7 that may be left to gain: a limit costs 100 times itself."""
+    study = nd.Study(
+        "symmetric",
+        variables={
+            "base_external_radius": (100.0, 500.0),
+            "base_internal_radius": (100.0, 500.0),
+            "platform_external_radius": (180.0, 220.0),
+            "platform_internal_radius": (50.0, 220.0),
+            "zp": (300.0, 700.0),
+            "zs": (50.0, 650.0),
+        },
+        constraints={
+            "base_cone": {"max_deg": 45} | UPRIGHT,
+            "platform_cone": {"max_deg": 45, "axis": [0.0, 0.0, -1.0]},
+            "stroke_ratio": (None, 1.277468720927349),
+            "leg_clearance": {"radius": 10.0},
+            "singularity_free": {},
+        },
+        objective={"region": {"box": [50.0, 50.0, 50.0], "tilt_deg": 10}},
+        characteristic_length=150.0,
+        unit="mm",
+    )
+    result = nd.optimize(study, time_limit=200.0)
+    assert result.status == "optimal"
+    assert result.condition_number == pytest.approx(29.387471, rel=1e-6)
+    assert result.region.gain <= 1e-7
 
 
 @pytest.mark.slow

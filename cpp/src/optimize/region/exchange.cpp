@@ -17,6 +17,7 @@ constexpr double one_place = 1e-9;    // of the region: nearer poses are one
 constexpr double follows_known = 1e-2;  // in coordinates of the solver
 constexpr double no_better = 2e-6;      // relative gain that is not worth the last rounds
 constexpr int most_exact = 3;  // solutions without Newton's method, each from the last one, whose slack is too large
+constexpr double left = 5e-8;  // what may be left to gain after them: slack and it have to fit in most_gain
 constexpr int first_comparison = 4;   // round from which a design is compared with the best known
 
 }  // namespace
@@ -97,7 +98,6 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
   Settled out;
   Imposed imposed = first;
   Eigen::VectorXd x = start;
-  double excess = 1.0;  // of the last design
   int exact = 0;  // rounds without Newton's method
   while (out.rounds < most_exchanges && !control_.stop.stop_requested()) {
     ++out.rounds;
@@ -115,18 +115,17 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     if (!out.best.feasible()) break;
     x = out.best.variables;
     if (hopeless(out, known)) break;
-    const auto take = [&](Look found) {
-      out.look = std::move(found);
-      excess = std::max(out.look.excess, gain_of(out));  // little of a dear limit is much
+    const auto holds = [&] {  // little of a dear limit is much
+      return out.look.excess <= passed && gain_of(out) <= (exact < most_exact ? passed : left);
     };
     try {
-      take(look(out, quick_samples, control_));
-      if (excess <= passed) take(look(out, dense_samples, control_));
+      out.look = look(out, quick_samples, control_);
+      if (holds()) out.look = look(out, dense_samples, control_);
     } catch (const Stopped&) {
       out.look = {};
       break;
     }
-    if (excess <= passed) {
+    if (holds()) {
       out.slack = slack(out);
       out.settled = exact >= most_exact || out.slack <= passed;
       if (out.settled) break;
