@@ -191,10 +191,7 @@ def _twist(sheet: Any) -> Table:
 def _forces(sheet: Any) -> Table:
     """Return the forces in the legs for each load."""
     notes = [load_words(k, load, sheet.unit) for k, load in enumerate(sheet.loads, start=1)]
-    if sheet.weight is not None:
-        notes.append(weight_words(sheet.weight, sheet.tool))
-    if sheet.has_leg_masses:
-        notes.append("each with the weights of the legs and of O")
+    notes += weight_words(sheet.weight, sheet.tool, sheet.has_leg_masses)
     for k, names in enumerate(map(unloaded_names, sheet.forces()), start=1):
         if 0 < len(names) < len(sheet.legs):
             notes.append(f"{', '.join(names)} never carry load {k}: {NEVER_CARRY}")
@@ -218,13 +215,17 @@ def _powers(sheet: Any) -> Table:
     return _of_legs(f"Drives, largest {over(sheet)}", sheet, columns, rows, [note])
 
 
-def weight_words(weight: Any, tool: Any) -> str:
-    """Return the weight of the platform in words, its centre in the frame of the plate."""
+def weight_words(weight: Any, tool: Any, legs: bool) -> list[str]:
+    """Return which weights act beside the loads; the centre of the platform's in the frame of the plate."""
+    words = ["each with the weights of the legs and of O"] * legs
+    if weight is None:
+        return words
     x, y, z = tool.own(weight.centre).tolist()
-    return (
+    return [
         f"each with the weight of a mass of {weight.mass:g}, centre {vector_words((x, y, z))} in the frame of the "
-        f"plate, gravity {vector_words(weight.gravity)}"
-    )
+        f"plate, gravity {vector_words(weight.gravity)}",
+        *words,
+    ]
 
 
 def load_words(number: int, load: Any, unit: str) -> str:

@@ -70,6 +70,7 @@ def test_with_a_tool_the_payload_is_at_the_origin_of_the_plate(run, tmp_path):
     said = " ".join(run(f"payload {tmp_path / 'tooled.toml'} --force 60")[1].split())
     assert "a point mass at (0, 0, 0) m in the frame of the plate (--centre), not at the tool's point;" in said
     assert said.endswith("beside it nothing")
+    assert "│ l1 │ 0 │" in said  # rounding is not a force
 
 
 def test_the_force_is_that_of_the_study_where_it_has_one(folder, mass, run, tmp_path):
@@ -98,6 +99,7 @@ def test_json_has_no_number_that_was_not_asked_for(folder, run):
 def test_forces_and_paths_have_the_masses_of_the_study(folder, run, tmp_path):
     machine = nd.load(folder)
     wrench = DUTY["loads"]["wrenches"][0]
+    assert "each with the weights of the legs and of O" in run(f"forces {folder}")[1]
     data = json.loads(run(f"forces {folder} --json")[1])
     expected = nd.inverse_dynamics(machine.geometry, machine.configuration, masses=machine.study.masses, load=wrench)
     assert data["forces"][0][0] == pytest.approx(expected.forces.tolist(), abs=1e-9)

@@ -100,7 +100,10 @@ def answer(run, line):
 def test_commands_take_the_duty_of_a_run(run, folder, result):
     data, words = answer(run, f"accuracy {folder}")
     assert (data["leg_error"], data["joint_error"]) == (0.01, 0.02)
-    assert "tolerances of the study: legs 0.01 mm, joints 0.02 mm" in words
+    assert "tolerances: legs 0.01 mm of the study, joints 0.02 mm of the study" in words
+    assert (
+        "tolerances: legs 0.03 mm, joints 0.02 mm of the study" in answer(run, f"accuracy {folder} --leg-error 0.03")[1]
+    )
     data, words = answer(run, f"forces {folder} --all-poses")
     assert "from the study: [loads], [masses]" in words
     forces = np.array(data["forces"])

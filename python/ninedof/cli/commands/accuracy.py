@@ -62,9 +62,12 @@ def accuracy(options: _Options) -> Answer:
     heads = columns("", ">largest", f">standard deviation\n({options.distribution} errors)", ">pose")
     if len(at.c) == 1:
         heads, rows = heads[:3], [row[:3] for row in rows]
-    sizes = f"legs {amount(f'{legs:g}', unit)}, joints {amount(f'{joints:g}', unit)}"
-    source = " of the study" * (bool(duty) and None in (options.leg_error, options.joint_error))
-    parts: list[Any] = [f"tolerances{source}: {sizes}", Table("Errors of first order", heads, rows)]
+    sizes = {"legs": (legs, options.leg_error), "joints": (joints, options.joint_error)}
+    words = (
+        amount(f"{name} {size:g}", unit) + " of the study" * (bool(duty) and given is None)
+        for name, (size, given) in sizes.items()
+    )
+    parts: list[Any] = [f"tolerances: {', '.join(words)}", Table("Errors of first order", heads, rows)]
     data: dict[str, Any] = {
         "leg_error": legs,
         "joint_error": joints,

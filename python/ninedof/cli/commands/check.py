@@ -30,7 +30,8 @@ def check(options: _Options) -> Answer:
     """Check a certificate: of a bound of all designs, a machine that keeps its limits, or a set of designs."""
     path = options.certificate / FILE if options.certificate.is_dir() else options.certificate
     if not path.exists() and path != options.certificate:
-        raise ValueError(f"{options.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
+        makers = "of `ninedof optimize --certify`, or a file of `certify` or `admissible` with --certificate FILE"
+        raise ValueError(f"{options.certificate}: got a folder without {FILE}, expected that {makers}")
     with options.screen.bar("points", "reading the certificate") as bar:
         result = check_certificate(path, progress=bar)
     lines = [*result.study, UNIT] if result.study else []

@@ -13,7 +13,7 @@ from ninedof.cli.posed import PosesOptions, loads_option
 from ninedof.cli.screen import bold
 from ninedof.robot.idle import NEVER_CARRY, unloaded_names
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.request import masses_of, weight_of
+from ninedof.sheet.request import masses_besides_platform, masses_of, weight_of
 from ninedof.sheet.tables import load_words, weight_words
 from ninedof.tables import Table, columns, grouped
 from ninedof.tables.numbers import spread
@@ -47,8 +47,7 @@ def forces(options: _Options) -> Answer:
     least, most, tiny = result.min(axis=1), result.max(axis=1), 1e-12 * size
     rows = [(leg, *map(spread, least[:, k], most[:, k], tiny)) for k, leg in enumerate(LEGS)]
     parts: list[Any] = [load_words(k, row, at.unit) for k, row in enumerate(loads, start=1)]
-    if weight is not None:
-        parts.append(weight_words(weight, duty.tool))
+    parts += weight_words(weight, duty.tool, masses_besides_platform(duty) is not None)
     if masses is not None or not given:
         parts.append(f"from the study: {', '.join(['[loads]'] * (not given) + ['[masses]'] * (masses is not None))}")
     parts.append(Table("Forces, + pushes", heads, list(grouped(rows))))

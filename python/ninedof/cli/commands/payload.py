@@ -67,7 +67,9 @@ def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
         )
     if found.leg:
         yield f"worst pose: {chosen.words(found.configuration)}"
-        rows = [(leg, f"{force:.5g}") for leg, force in zip(LEGS, found.forces, strict=True)]
+        tiny = 1e-12 * np.abs(found.forces[np.isfinite(found.forces)]).max(initial=0.0)  # rounding beside the others
+        texts = ("0" if abs(force) <= tiny else f"{force:.5g}" for force in found.forces)
+        rows = list(zip(LEGS, texts, strict=True))
         under = "with the payload" if found.fits else "without a payload"
         yield Table(f"Leg forces there, {under}, + pushes", columns("leg", ">force"), list(grouped(rows)))
     if found.region is not None:
