@@ -34,23 +34,30 @@ T sum(const Vec9& factors, const Forms& forms_of) {
   return out;
 }
 
+/// A matrix of a number of each form.
+template <class T, class Number>
+Mat9 matrix_of(const Nine<Nine<T>>& f, const Number& number) {
+  Mat9 out;
+  for (std::size_t i = 0; i < 9; ++i)
+    for (std::size_t j = 0; j < 9; ++j) out(index(i), index(j)) = number(f[i][j]);
+  return out;
+}
+
 template <class T>
 double most_of(const T& f) {
-  return std::max(upper(f), -lower(f));
+  return upward * (std::abs(f.c) + radius(f));
 }
 
 }  // namespace
 
 template <class T>
 BoxSystem<T>::BoxSystem(const Nine<Nine<T>>& h) : h_(h) {
-  Mat9 middle;
-  for (std::size_t i = 0; i < 9; ++i)
-    for (std::size_t j = 0; j < 9; ++j) middle(index(i), index(j)) = h_[i][j].c;
-  inverse_ = middle.inverse();
+  inverse_ = matrix_of(h_, [](const T& f) { return f.c; }).inverse();
   for (std::size_t i = 0; i < 9; ++i)
     for (std::size_t j = 0; j < 9; ++j) {
       const T seen = sum<T>(inverse_.row(index(i)), [&](std::size_t k) -> auto& { return h_[k][j]; });
-      error_(index(i), index(j)) = most_of(T(i == j ? 1.0 : 0.0) - seen);
+      e_[i][j] = T(i == j ? 1.0 : 0.0) - seen;
+      error_(index(i), index(j)) = most_of(e_[i][j]);
     }
   // Near the eigenvector of the greatest eigenvalue: the norm that it weighs is the least.
   weight_.setOnes();
@@ -87,26 +94,54 @@ T BoxSystem<T>::component(int k, const Nine<T>& b) const {
 }
 
 template <class T>
+Mat9 BoxSystem<T>::slopes(std::size_t coordinate) const {
+  return matrix_of(e_, [&](const T& f) { return f.a[coordinate]; });
+}
+
+template <class T>
+std::array<double, T::size> BoxSystem<T>::moves() const {
+  std::array<double, T::size> out{};
+  if (!moved_.allFinite()) return out;
+  for (std::size_t k = 0; k < T::size; ++k)
+    out[k] = slopes(k).cwiseAbs().lazyProduct(weight_).cwiseQuotient(weight_).maxCoeff();
+  return out;
+}
+
+template <class T>
 Nine<Nine<T>> BoxSystem<T>::inverse() const {
-  Nine<Nine<T>> out, seen;
+  Nine<Nine<T>> out;
   if (!(shrinks_ < 1.0)) {
     for (Nine<T>& row : out) row.fill(T::unknown());
     return out;
   }
-  for (std::size_t i = 0; i < 9; ++i)
-    for (std::size_t j = 0; j < 9; ++j)
-      seen[i][j] =
-          T(i == j ? 2.0 : 0.0) - sum<T>(inverse_.row(index(i)), [&](std::size_t k) -> auto& { return h_[k][j]; });
-  for (std::size_t j = 0; j < 9; ++j) {
-    // |h^-1| is at most |inverse_| + |E| |h^-1|, as in `component`.
-    const Vec9 column = inverse_.col(index(j)).cwiseAbs();
-    const double most = column.cwiseQuotient(weight_).maxCoeff() / (1.0 - shrinks_);
-    const Vec9 rest = error_.lazyProduct(Vec9(error_.lazyProduct(Vec9(column + most * moved_))));
-    for (std::size_t i = 0; i < 9; ++i) {
-      out[i][j] = sum<T>(inverse_.col(index(j)), [&](std::size_t k) -> auto& { return seen[i][k]; });
-      out[i][j].r += upward * upward * rest[index(i)] + forms::tiny;
-    }
+  // E = L + R, where L is linear: E E C = L L C + L R C + R E C.
+  const Mat9 size = inverse_.cwiseAbs(), rest = matrix_of(e_, [](const T& f) { return std::abs(f.c) + f.r; });
+  const Mat9 moved = error_.lazyProduct(size), open = rest.lazyProduct(size);
+  Mat9 linear = Mat9::Zero(), middle = inverse_, second = Mat9::Zero();
+  std::array<Mat9, T::size> slope, of_c;
+  for (std::size_t k = 0; k < T::size; ++k) {
+    slope[k] = slopes(k);
+    of_c[k] = slope[k].lazyProduct(inverse_);
+    linear += slope[k].cwiseAbs();
+    const Mat9 half = 0.5 * slope[k].lazyProduct(of_c[k]);  // of t_k^2, which is 1/2 within 1/2
+    middle += half;
+    second += half.cwiseAbs();
+    for (std::size_t l = 0; l < k; ++l)
+      second += (slope[k].lazyProduct(of_c[l]) + slope[l].lazyProduct(of_c[k])).cwiseAbs();
   }
+  // |h^-1| is at most |C| + |E| |h^-1|, as in `component`.
+  const Mat9 all =
+      size + moved_ * size.cwiseQuotient(weight_.replicate<1, 9>()).colwise().maxCoeff() / (1.0 - shrinks_);
+  const Mat9 bound = second + open + linear.lazyProduct(open) + rest.lazyProduct(moved) +
+                     error_.lazyProduct(error_.lazyProduct(error_.lazyProduct(all).eval()).eval()) +
+                     2.0 * forms::grain * (size + moved + error_.lazyProduct(moved));
+  for (std::size_t i = 0; i < 9; ++i)
+    for (std::size_t j = 0; j < 9; ++j) {
+      T& f = out[i][j];
+      f.c = middle(index(i), index(j));
+      for (std::size_t k = 0; k < T::size; ++k) f.a[k] = of_c[k](index(i), index(j));
+      f.r = upward * upward * bound(index(i), index(j)) + forms::tiny;
+    }
   return out;
 }
 

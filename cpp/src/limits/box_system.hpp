@@ -21,12 +21,17 @@ class BoxSystem {
   ///     x_k = x~_k + y~.(b - A x~) + (e_k - A^T y~).A^-1 (b - A x~),
   /// of which the last is of second order. Unknown where h may be singular.
   T component(int k, const Nine<T>& b) const;
-  /// h^-1 by rows: with E = 1 - inverse_ h it is inverse_ + E inverse_ + E E h^-1. Unknown where h may be singular.
+  /// h^-1 by rows: with C = inverse_ it is C + E C + E E C + E E E h^-1. Unknown where h may be singular.
   Nine<Nine<T>> inverse() const;
+  /// How much of E each coordinate of the box moves, in the norm in which E shrinks; 0 where E is not known.
+  std::array<double, T::size> moves() const;
 
  private:
+  Mat9 slopes(std::size_t coordinate) const;
+
   Nine<Nine<T>> h_;
-  Mat9 inverse_;  ///< of h in the middle
+  Mat9 inverse_;  ///< C, of h in the middle
+  Nine<Nine<T>> e_;  ///< E = 1 - C h
   Mat9 error_;    ///< |E| is at most this, entry by entry
   // h^-1 = (1 - E)^-1 inverse_ with |E| weight_ <= moved_ <= shrinks_ weight_, entry by entry, for a positive weight_.
   Vec9 weight_, moved_;

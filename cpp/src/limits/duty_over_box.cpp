@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "conditioning/forms/gram.hpp"
 #include "limits/box_system.hpp"
 
 namespace ninedof {
@@ -31,7 +32,7 @@ KnownForms<Look>::KnownForms(const Look& look) : look_(look) {
   for (int k = 0; k < point_count; ++k) at_[at_index(k)] = look.at(k);
   for (int leg = 0; leg < 9; ++leg) {
     const LegEnds ends = leg_ends(leg);
-    direction_[at_index(leg)] = unit(at(ends.to) - at(ends.from));
+    direction_[at_index(leg)] = forms::direction_of(at(ends.to) - at(ends.from));
   }
 }
 

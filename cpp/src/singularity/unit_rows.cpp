@@ -1,5 +1,8 @@
 #include "singularity/unit_rows.hpp"
 
+#include <Eigen/LU>
+#include <cmath>
+
 #include "math/linear/jacobi_svd.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/robot/legs.hpp"
@@ -52,6 +55,9 @@ UnitRows unit_rows(const Spans& k) {
 
 bool regular(const Mat3& rows) {
   if (!rows.allFinite()) return false;
+  // |det| is the product of the singular values, of which two are at most |rows|: mostly this decides.
+  const double size = rows.norm();
+  if (std::abs(rows.determinant()) > 2.0 * negligible * size * size * size) return true;
   const Vec3 sigma = jacobi_svd(rows).sigma;
   return sigma[2] > negligible * sigma[0];
 }

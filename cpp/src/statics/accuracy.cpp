@@ -7,6 +7,7 @@
 #include "ninedof/kinematics/velocity.hpp"
 #include "ninedof/math/error.hpp"
 #include "singularity/unit_rows.hpp"
+#include "statics/corners.hpp"
 
 namespace ninedof {
 namespace {
@@ -18,17 +19,6 @@ void require_tolerance(const char* name, double value) {
 /// The joints at the lower and the upper end of leg k: indices into Tolerances::joints, -1 for O.
 constexpr std::array<std::array<int, 2>, 9> joints_of_leg{
     {{0, 6}, {1, 7}, {2, 8}, {9, -1}, {10, -1}, {11, -1}, {3, -1}, {4, -1}, {5, -1}}};
-
-/// Largest |columns * d| over the corners d of the box [-1, 1]^9: half of them, since d and -d give the same norm.
-double farthest_corner(const Eigen::Matrix<double, 3, 9>& columns) {
-  double largest = 0.0;
-  for (unsigned corner = 0; corner < 256; ++corner) {
-    Vec3 sum = columns.col(8);
-    for (unsigned k = 0; k < 8; ++k) sum += ((corner >> k & 1U) == 0U ? 1.0 : -1.0) * columns.col(k);
-    largest = std::max(largest, sum.squaredNorm());
-  }
-  return std::sqrt(largest);
-}
 
 }  // namespace
 

@@ -14,6 +14,7 @@
 #include "proof/region/worst.hpp"
 #include "proof/region/worst_machine.hpp"
 #include "robot/joint_cones.hpp"
+#include "statics/corners.hpp"
 
 namespace ninedof {
 namespace over_region {
@@ -32,18 +33,19 @@ class ErrorShare final : public IndexOverPoses {
         of_(of),
         home_(domain.machine().geometry, domain.machine().neutral,
               LimitOptions(Vec3::Zero(), std::make_shared<Duty>())) {
-    for (int leg = 0; leg < 9; ++leg) reading_[at_index(leg)] = reading_error(domain.machine().tolerances, leg);
+    for (int leg = 0; leg < 9; ++leg) reading_[leg] = reading_error(domain.machine().tolerances, leg);
     for (const Vec3& u : domain.machine().geometry.platform_external()) length_ = std::max(length_, u.norm());
   }
 
-  /// To first order, of the machine of the drawing, at a good corner of the errors.
+  /// To first order, of the machine of the drawing.
   double at(const Geometry& g, const Box& point) const override {
     const Mat9 map = error_map(g, domain().configuration(point));
     if (!map.allFinite()) return infinity;
     double out = 0.0;
     for (std::size_t k = 0; k < of_.size(); ++k)
       if (of_[k] < infinity)
-        out = std::max(out, far_corner(map.middleRows<3>(3 * static_cast<Eigen::Index>(k))) / of_[k]);
+        out = std::max(
+            out, farthest_corner(map.middleRows<3>(3 * static_cast<Eigen::Index>(k)) * reading_.asDiagonal()) / of_[k]);
     return out;
   }
   bool bounded(const Box& box, double bound, Moves& moves) const override {
@@ -57,12 +59,15 @@ class ErrorShare final : public IndexOverPoses {
     std::array<double, 9> off{};
     for (int leg = 0; leg < 9; ++leg) {
       h[at_index(leg)] = row_of(unit_force(known, leg), 1.0 / length_);
-      moves.add(known.direction(leg));
       const Ends<PoseForm> ends = look.ends(leg);
       const FormVector v = ends.to - ends.from;
-      off[at_index(leg)] = reading_[at_index(leg)] + rest(leg, most, lower(sqrt(dot(v, v))));
+      off[at_index(leg)] = reading_[leg] + rest(leg, most, lower(sqrt(dot(v, v))));
     }
-    const Nine<Nine<PoseForm>> map = BoxSystem(h).inverse();  // a turn is taken times `length_`
+    const BoxSystem system(h);
+    moves.along = system.moves();
+    for (int leg = 0; leg < 9; ++leg)
+      moves.add(known.direction(leg), 1e-9);  // where a leg may vanish nothing else is known
+    const Nine<Nine<PoseForm>> map = system.inverse();  // a turn is taken times `length_`
     most[0] *= length_ * (1.0 - 0x1p-50);
     for (std::size_t k = 0; k < most.size(); ++k)
       if (!within(map, off, 3 * k, most[k])) return false;
@@ -70,22 +75,6 @@ class ErrorShare final : public IndexOverPoses {
   }
 
  private:
-  /// The length of what the three rows make of a corner of the errors that lies far along its own image.
-  double far_corner(const Eigen::Matrix<double, 3, 9>& rows) const {
-    double out = 0.0;
-    const Vec3 starts[] = {{1.0, 0.0, 0.0},  {0.0, 1.0, 0.0},  {0.0, 0.0, 1.0}, {1.0, 1.0, 1.0},
-                           {1.0, 1.0, -1.0}, {1.0, -1.0, 1.0}, {-1.0, 1.0, 1.0}};
-    for (Vec3 image : starts) {
-      for (int n = 0; n < 3; ++n) {
-        const Vec9 along = rows.transpose() * image;
-        image.setZero();
-        for (Eigen::Index leg = 0; leg < 9; ++leg)
-          image += std::copysign(reading_[at_index(static_cast<int>(leg))], along[leg]) * rows.col(leg);
-      }
-      out = std::max(out, image.norm());
-    }
-    return out;
-  }
   /// At most what the length of a leg differs by from what is linear in (rotation vector, p, s), for errors up to
   /// these.
   double rest(int leg, const Errors& most, double length) const {
@@ -100,33 +89,30 @@ class ErrorShare final : public IndexOverPoses {
   /// box.
   bool within(const Nine<Nine<PoseForm>>& map, const std::array<double, 9>& off, std::size_t first, double most) const {
     std::array<Nine<PoseForm>, 3> rows;
+    Columns9 middle;
     Vec3 open = Vec3::Zero();
-    double size = 0.0;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t leg = 0; leg < 9; ++leg) {
         const PoseForm& f = rows[i][leg] = off[leg] * map[first + i][leg];
         open[static_cast<Eigen::Index>(i)] += radius(f);
-        size += std::abs(f.c);
+        middle(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(leg)) = f.c;
       }
     if (!(open.norm() < most)) return false;  // infinite and NaN too
-    const double room = most - (1.0 + 0x1p-40) * open.norm() - 0x1p-40 * size, squared = most * most * (1.0 - 0x1p-50);
-    for (unsigned corner = 0; corner < 256; ++corner) {  // one of two opposite ones
-      const auto sign = [corner](std::size_t leg) { return leg < 8 && corner >> leg & 1U ? -1.0 : 1.0; };
-      Vec3 middle = Vec3::Zero();
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t leg = 0; leg < 9; ++leg) middle[static_cast<Eigen::Index>(i)] += sign(leg) * rows[i][leg].c;
-      if (middle.norm() <= room) continue;
+    const double room = most - (1.0 + 0x1p-40) * open.norm() - 0x1p-40 * middle.lpNorm<1>();
+    return at_all_corners(middle, [&](const Vec9& signs, const Vec3& sum) {
+      if (sum.norm() <= room) return true;
       FormVector v;
-      for (std::size_t leg = 0; leg < 9; ++leg)
-        v = v + FormVector{sign(leg) * rows[0][leg], sign(leg) * rows[1][leg], sign(leg) * rows[2][leg]};
-      if (!(upper(dot(v, v)) <= squared)) return false;
-    }
-    return true;
+      for (std::size_t leg = 0; leg < 9; ++leg) {
+        const double sign = signs[static_cast<Eigen::Index>(leg)];
+        v = v + FormVector{sign * rows[0][leg], sign * rows[1][leg], sign * rows[2][leg]};
+      }
+      return upper(dot(v, v)) <= most * most * (1.0 - 0x1p-50);
+    });
   }
 
   Errors of_;
   FormHome home_;
-  std::array<double, 9> reading_;
+  Vec9 reading_;
   double length_ = 0.0;
 };
 

@@ -24,10 +24,10 @@ const Geometry& drawn_machine(const IndexOverPoses& index) {
 
 /// Moves along coordinates and along random directions while the index grows: the greatest condition numbers lie on
 /// ridges, where singular values meet, and along a ridge no coordinate leads upward.
-Met climbed(const IndexOverPoses& index, const Box& root, Met met) {
+Met climbed(const IndexOverPoses& index, const Box& root, Met met, double first_step, double last_step) {
   constexpr std::size_t ways = 36;  // two of each coordinate, the others random
   std::uint64_t drawn = 0;
-  for (double step = 0.25; step > 1e-6; step *= 0.5) {
+  for (double step = first_step; step > last_step; step *= 0.5) {
     bool better = true;
     while (better) {
       better = false;
@@ -55,7 +55,7 @@ Met climbed(const IndexOverPoses& index, const Box& root, Met met) {
 }  // namespace
 
 Met searched(const IndexOverPoses& index, int threads) {
-  constexpr std::size_t samples = 64, climbs = 24;
+  constexpr std::size_t samples = 64;
   struct Start {
     Met met;
     std::size_t root;
@@ -77,12 +77,18 @@ Met searched(const IndexOverPoses& index, int threads) {
       starts[static_cast<std::size_t>(n)] = {{index.at(drawn_machine(index), at), at}, from};
     }
   });
-  std::ranges::stable_sort(starts, [](const Start& a, const Start& b) { return a.met.value > b.met.value; });
-  starts.resize(std::min(starts.size(), climbs));
-  parallel_for(static_cast<long>(starts.size()), 1, threads, [&](long n, long) {
-    Start& start = starts[static_cast<std::size_t>(n)];
-    start.met = climbed(index, roots[start.root], start.met);
-  });
+  struct Climb {
+    std::size_t starts;
+    double first_step, last_step;
+  };
+  for (const Climb& climb : {Climb{24, 0x1p-2, 0x1p-7}, Climb{6, 0x1p-7, 0x1p-20}}) {  // few are worth the last digits
+    std::ranges::stable_sort(starts, [](const Start& a, const Start& b) { return a.met.value > b.met.value; });
+    starts.resize(std::min(starts.size(), climb.starts));
+    parallel_for(static_cast<long>(starts.size()), 1, threads, [&](long n, long) {
+      Start& start = starts[static_cast<std::size_t>(n)];
+      start.met = climbed(index, roots[start.root], start.met, climb.first_step, climb.last_step);
+    });
+  }
   Met best = std::ranges::max_element(starts, {}, [](const Start& one) { return one.met.value; })->met;
   const auto here = [&](const Geometry& g) { return index.at(g, best.at); };
   best.value = std::max(best.value, here(worst_machine(domain.machine(), here)));
