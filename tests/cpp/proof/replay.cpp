@@ -49,7 +49,8 @@ const std::vector<Kind> kinds{
 
 Duty duty_where(InternalMotion internal) {
   Duty out;
-  out.loads = {{Vec3(3.0, -2.0, 4.0), Vec3(5.0, 1.0, -10.0), Vec3(0.5, -1.0, 0.2)}, {{}, Vec3(-4.0, 6.0, 3.0), {}}};
+  out.loads = {{Vec3(3.0, -2.0, 4.0), Vec3(5.0, 1.0, -10.0), Vec3(0.5, -1.0, 0.2)},
+               {Vec3::Zero(), Vec3(-4.0, 6.0, 3.0), Vec3::Zero()}};
   out.gravity = Vec3(0.1, 0.2, -9.81);
   Masses& m = out.masses;
   m.platform = 0.7;
