@@ -47,6 +47,27 @@ const std::vector<Kind> kinds{
     {"general", {}, {0, 10, 22, 36}},
 };
 
+Duty duty_where(InternalMotion internal) {
+  Duty out;
+  out.loads = {{Vec3(3.0, -2.0, 4.0), Vec3(5.0, 1.0, -10.0), Vec3(0.5, -1.0, 0.2)},
+               {Vec3::Zero(), Vec3(-4.0, 6.0, 3.0), Vec3::Zero()}};
+  out.gravity = Vec3(0.1, 0.2, -9.81);
+  Masses& m = out.masses;
+  m.platform = 0.7;
+  m.centre = Vec3(0.1, -0.05, 0.2);
+  m.internal_point = 0.1;
+  for (int k = 0; k < 9; ++k) {
+    m.cylinder[k] = 0.02 + 0.01 * k;
+    m.cylinder_centre[k] = 0.3 + 0.1 * k;
+    m.rod[k] = k % 2 == 0 ? 0.05 : 0.0;
+    m.rod_centre[k] = 0.2;
+  }
+  out.motion.internal = internal;
+  out.motion.linear_speed = 0.8;
+  out.motion.angular_speed = 0.2;
+  return out;
+}
+
 /// Every limit that has bounds, poses of each kind.
 DesignQuestion question(const Kind& kind, Region::Shape shape, bool in_zp, double half) {
   DesignQuestion out;
@@ -98,7 +119,14 @@ DesignQuestion question(const Kind& kind, Region::Shape shape, bool in_zp, doubl
                         limited("height", 4.9, 5.1),
                         limited("footprint", 3.0, 4.0),
                         limited("joint_height", 0.0, 0.08, Unit::radius),
-                        limited("joint_spacing", 0.4, infinity, Unit::radius)};
+                        limited("joint_spacing", 0.4, infinity, Unit::radius),
+                        limited("force", 0.0, 40.0),
+                        limited("rate", 0.0, 1.3),
+                        limited("power", 0.0, 50.0),
+                        limited("upper_rate", 0.0, 0.6),
+                        limited("lower_force", 0.0, 20.0)};
+  const auto duty = std::make_shared<const Duty>(duty_where(static_cast<InternalMotion>(shape)));
+  for (std::size_t k = 18; k < out.problem.limits.size(); ++k) out.problem.limits[k].duty = duty;
   out.condition = 9.0;
   return out;
 }
@@ -153,6 +181,7 @@ double margin_of(const DesignQuestion& q, const Want& want, const DrawnDesign& d
   const LimitNumbers numbers(limit.name, g, home, limit.options());
   std::array<double, 21> all{};
   numbers.at(at, all.data());
+  if (want.about == Want::About::duty) return bound - *std::ranges::max_element(all);
   const bool internal = limit.name.ends_with("internal") || limit.name.starts_with("upper");
   const double value = all[static_cast<std::size_t>(internal ? want.item - 3 : want.item)];
   switch (want.about) {
@@ -217,7 +246,7 @@ TEST_SUITE("replay") {
   TEST_CASE("numbers over boxes hold those of designs and poses in them") {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
-    std::array<int, 8> known{}, broken{};
+    std::array<int, 9> known{}, broken{};
     for (const Kind& kind : kinds)
       for (const Region::Shape shape :
            {Region::Shape::box, Region::Shape::ball, Region::Shape::cylinder, Region::Shape::path})
@@ -264,8 +293,8 @@ TEST_SUITE("replay") {
               const double margin = margin_of(q, want, design, here, there);
               INFO(kind.family << " limit " << want.limit << " item " << want.item << " " << want.second << " half "
                                << half << " piece " << spot.at.piece << " margin " << margin << " low " << found.low);
-              const bool sign =
-                  want.about == Want::About::condition || want.limit == 0 || want.limit == 19;  // of another size
+              const bool sign = want.about == Want::About::condition || want.about == Want::About::duty ||
+                                want.limit == 0 || want.limit == 19;  // of another size
               const auto about = static_cast<std::size_t>(want.about);
               const double slack = 1e-12;
               if (!sign || found.low > 0.0) CHECK(margin > (sign ? -1e-9 : found.low - slack));

@@ -4,10 +4,10 @@ Oracle of what is still proved: margins of designs drawn from the boxes at poses
 """
 
 import math
-import zlib
 
 import numpy as np
 import pytest
+from forged import line_of, sealed, spelled, with_word
 from limit_oracle import limits_of, margins, robot_of
 from region_oracle import random_poses
 from sizes import size
@@ -15,7 +15,6 @@ from sizes import size
 import ninedof as nd
 from ninedof.design.region_poses import posed
 
-FIRST = "ninedof certificate of designs 1\nchecksum "
 STUDY = nd.Study(
     variables={"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0, "theta_z": 0.0},
     constraints={"leg_length": (2.0, 6.8), "stroke_ratio": (None, 1.22), "leg_clearance": (0.12, None)},
@@ -37,30 +36,15 @@ def lines(designs, tmp_path_factory):
 @pytest.fixture
 def verdict(tmp_path):
     def of(lines):
-        body = "".join(f"{line}\n" for line in lines).encode()
         path = tmp_path / "forged.certificate"
-        path.write_bytes(f"{FIRST}{zlib.crc32(body):x}\n".encode() + body)
+        path.write_bytes(sealed(lines))
         return nd.check_certificate(path)
 
     return of
 
 
-def spelled(x):
-    """As the file has it: hexadecimal without needless digits."""
-    if math.isinf(x):
-        return "inf" if x > 0.0 else "-inf"
-    mantissa, exponent = float(x).hex().split("p")
-    return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}p{exponent}"
-
-
 def boxes(lines, state):
     return [n for n, line in enumerate(lines) if line.startswith("box") and f" {state}" in line]
-
-
-def with_word(lines, n, place, word):
-    words = lines[n].split(" ")
-    words[place] = word
-    return [*lines[:n], " ".join(words), *lines[n + 1 :]]
 
 
 def in_state(lines, n, state):
@@ -74,10 +58,6 @@ def in_state(lines, n, state):
         k = 1 + ("inside", "outside", "undecided").index(place)
         out = with_word(out, shares, k, spelled(float.fromhex(out[shares].split(" ")[k]) + sign * volume))
     return out
-
-
-def line_of(lines, start):
-    return next(n for n, line in enumerate(lines) if line.startswith(start))
 
 
 def test_a_genuine_file_is_proved_and_says_what_it_is_about(designs, lines, verdict):

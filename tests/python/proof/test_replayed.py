@@ -1,14 +1,12 @@
 """Optima over poses and machines as files: replayed by the checker and, in balls, by another one; changed, refused."""
 
-import zlib
-
 import numpy as np
 import pytest
 import set_in_balls
+from forged import lines_of, sealed, spelled
 
 import ninedof as nd
 
-FIRST = "ninedof certificate of designs 1\nchecksum "
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0, "theta_z": 0.0}
 POSES = [{"position": (0.2, 0.0, 0.1)}, {"rotation": (0.1, 0.0, 0.05)}]
 STUDY = nd.Study(
@@ -19,20 +17,6 @@ STUDY = nd.Study(
 @pytest.fixture(scope="module")
 def result():
     return nd.optimize(STUDY)
-
-
-def sealed(lines):
-    body = "".join(f"{line}\n" for line in lines).encode()
-    return f"{FIRST}{zlib.crc32(body):x}\n".encode() + body
-
-
-def spelled(x):
-    mantissa, exponent = float(x).hex().split("p")
-    return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}p{exponent}"
-
-
-def lines_of(data):
-    return data.decode().splitlines()[2:]
 
 
 @pytest.fixture

@@ -31,6 +31,7 @@ class DesignLines {
     const StudyLength& length = problem.characteristic_length;
     line("characteristic_length", {length.choice == StudyLength::Choice::number ? length.value : 1.0});
     put_poses();
+    put_duty();
     put_limits();
     line("shares", {set_.inside, set_.outside, set_.undecided});
     // The boxes have the ends of variables in the order of the family.
@@ -78,6 +79,29 @@ class DesignLines {
     }
     for (const Pose& one : question_.problem.objective.poses)
       line("pose", {one.position, one.rotation, one.internal}, one.in_zp ? " zp" : " length");
+  }
+  /// Of limits of forces, rates and powers: one for all of them.
+  void put_duty() {
+    std::string first;
+    for (const Limit& one : question_.problem.limits) {
+      if (one.duty == nullptr) continue;
+      const std::size_t start = text_.size();
+      put_duty(*one.duty);
+      const std::string own = text_.substr(start);
+      if (first.empty()) first = own;
+      else text_.resize(start);
+      if (own != first) throw InvalidArgument(one.label(), "a duty of its own", "that of all other limits");
+    }
+  }
+  void put_duty(const Duty& duty) {
+    const Masses& m = duty.masses;
+    const Vec3 &g = duty.gravity, &c = m.centre;
+    line("weights", {g.x(), g.y(), g.z(), m.platform, c.x(), c.y(), c.z(), m.internal_point});
+    for (int k = 0; k < 9; ++k) line("leg", {m.cylinder[k], m.cylinder_centre[k], m.rod[k], m.rod_centre[k]});
+    for (const Load& load : duty.loads) line("load", {load.moment, load.force, load.force_at_o});
+    const char* internal =
+        std::array{" least", " held", " shifted", " carried"}[static_cast<std::size_t>(duty.motion.internal)];
+    line("speeds", {duty.motion.linear_speed, duty.motion.angular_speed}, internal);
   }
   void put_limits() {
     const Objective& objective = question_.problem.objective;

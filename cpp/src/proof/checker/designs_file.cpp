@@ -10,13 +10,17 @@ struct LineKind {
   const char* key;
   bool many, optional;
 };
-constexpr std::array<LineKind, 11> kinds{{{"family", false, false},
+constexpr std::array<LineKind, 15> kinds{{{"family", false, false},
                                           {"variable", true, false},
                                           {"tool", false, false},
                                           {"characteristic_length", false, false},
                                           {"region", false, false},
                                           {"corner", true, true},
                                           {"pose", true, true},
+                                          {"weights", false, true},
+                                          {"leg", true, true},
+                                          {"load", true, true},
+                                          {"speeds", false, true},
                                           {"limit", true, true},
                                           {"exempt", true, true},
                                           {"shares", false, false},
@@ -150,10 +154,32 @@ void add(const std::string& key, LineWords& line, DesignsFile& out) {
     PoseLine one{line.reals<3>(), line.reals<3>(), line.reals<3>()};
     one.in_zp = line.either("zp", "length");
     out.poses.push_back(one);
+  } else if (key == "weights") {
+    out.duty.gravity = line.reals<3>();
+    out.duty.platform = line.real();
+    out.duty.centre = line.reals<3>();
+    out.duty.internal_point = line.real();
+  } else if (key == "leg") out.duty.legs.push_back(line.reals<4>());
+  else if (key == "load") out.duty.loads.push_back({line.reals<3>(), line.reals<3>(), line.reals<3>()});
+  else if (key == "speeds") {
+    out.duty.linear = line.real();
+    out.duty.angular = line.real();
+    out.duty.internal = line.word();
   } else if (key == "limit") out.limits.push_back(limit_of(line));
   else if (key == "exempt") out.exempt.push_back(line.whole());
   else if (key == "shares") out.shares = line.reals<3>();
   else out.boxes.push_back(box_of(line, out));
+}
+
+/// A limit of the duty without one would hold for every design.
+void validate_duty(const DesignsFile& file) {
+  const DutyLines& duty = file.duty;
+  bool stated = false, known = duty.linear >= 0.0 && duty.angular >= 0.0;
+  for (const char* one : {"shifted", "carried", "held", "least"}) stated |= duty.internal == one;
+  known &= stated || (duty.internal.empty() && duty.legs.empty() && duty.loads.empty());
+  if (!known || (stated && (duty.legs.size() != 9 || duty.loads.empty()))) refuse("the duty of the machine is none");
+  for (const LimitLine& one : file.limits)
+    if (duties_of(one.name).count > 0 && !stated) refuse(one.name + " is a limit of a duty, and the file has none");
 }
 
 void validate(const DesignsFile& file) {
@@ -174,6 +200,7 @@ void validate(const DesignsFile& file) {
       refuse("the bound of " + one.name + " is no angle");
     if (!(one.range.a < inf && one.range.b > 0.0)) refuse("the bounds of " + one.name + " allow nothing");
   }
+  validate_duty(file);
   for (const int pair : file.exempt)
     if (pair < 0 || pair > 20) refuse("a pair of legs is not from 0 to 20");
   if (file.boxes.empty()) refuse("the file has no boxes");
@@ -226,6 +253,19 @@ std::vector<std::string> question_of(const DesignsFile& file) {
   for (const PoseLine& one : file.poses)
     out.push_back("at the pose shifted by " + plain(one.position) + in(one.in_zp) + turned_by(one.rotation) +
                   ", O shifted by " + plain(one.internal) + in(one.in_zp));
+  if (const DutyLines& duty = file.duty; !duty.internal.empty()) {
+    out.push_back("gravity " + plain(duty.gravity) + ", mass of the platform " + digits(duty.platform) + " at " +
+                  plain(duty.centre) + ", of O " + digits(duty.internal_point));
+    for (int leg = 0; leg < 9; ++leg)
+      if (const auto& m = duty.legs[static_cast<std::size_t>(leg)]; m != std::array<double, 4>{})
+        out.push_back(std::string(name_of_leg(leg)) + ": mass of the cylinder " + digits(m[0]) + " at " + digits(m[1]) +
+                      " from its start, of the rod " + digits(m[2]) + " at " + digits(m[3]) + " from its end");
+    for (const auto& load : duty.loads)
+      out.push_back("load of the moment " + plain(load[0]) + ", the force " + plain(load[1]) + ", the force on O " +
+                    plain(load[2]));
+    out.push_back("speeds up to " + digits(duty.linear) + " and " + digits(duty.angular) + in_degrees({duty.angular}) +
+                  " per time, O " + duty.internal);
+  }
   for (const LimitLine& one : file.limits) {
     std::string line = one.name;
     if (one.range.a > 0.0) line += " at least " + digits(one.range.a);
@@ -241,6 +281,15 @@ std::vector<std::string> question_of(const DesignsFile& file) {
     out.push_back(std::string(name_of_leg(a)) + "-" + name_of_leg(b) + " may meet: they share a joint");
   }
   return out;
+}
+
+LegDuties duties_of(const std::string& limit) {
+  const std::array<std::string, 4> kinds{"", "external_", "upper_", "lower_"};
+  for (int k = 0; k < 4; ++k)
+    for (const std::string what : {"force", "rate", "power"})
+      if (limit == kinds[static_cast<std::size_t>(k)] + what)
+        return {what != "rate", what != "force", k > 0 ? 3 * k - 3 : 0, k > 0 ? 3 : 9};
+  return {};
 }
 
 const char* name_of_leg(int leg) {

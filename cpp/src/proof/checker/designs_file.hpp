@@ -41,26 +41,44 @@ struct LimitLine {
   Triple axis{};  ///< of cones; zero: the direction of the leg at home
 };
 
+/// The duty of a machine, of which limits of forces, rates and powers are.
+struct DutyLines {
+  Triple gravity{}, centre{};  ///< the centre of the platform's mass in the frame of the pose
+  double platform = 0.0, internal_point = 0.0;
+  std::vector<std::array<double, 4>> legs;  ///< a cylinder, its centre from the leg's start, a rod, its from the end
+  std::vector<std::array<Triple, 3>> loads;  ///< a moment about p, a force on the platform, a force on O
+  double linear = 0.0, angular = 0.0;  ///< speeds of the platform, in any direction
+  std::string internal;  ///< how O moves then: "shifted", "carried", "held" or "least"
+};
+
 struct BoxLine {
   std::array<Range, most_varied_symbols> ends{};
   char state = 'u';  ///< 'i' inside, 'o' outside, 'u' undecided
-  int limit = 0;     ///< of those outside: 0 for singularities, 1 for 0 < zs < zp, then the limits from 2 on
-  Patch at, other;   ///< where all of the box break it; of a spread where a leg is longest and where shortest
+  int limit = 0;  ///< of those outside: 0 for singularities, 1 for 0 < zs < zp, then the limits from 2 on
+  Patch at, other;  ///< where all of the box break it; of a spread where a leg is longest and where shortest
 };
 
 struct DesignsFile {
   std::string family;
   std::vector<Bound> variables;
   std::vector<std::size_t> varied;  ///< the variables that have a range
-  std::array<double, 6> tool{};     ///< its point, its rotation vector
-  double length = 1.0;              ///< the characteristic length
+  std::array<double, 6> tool{};  ///< its point, its rotation vector
+  double length = 1.0;  ///< the characteristic length
   RegionLine region;
   std::vector<PoseLine> poses;
+  DutyLines duty;
   std::vector<LimitLine> limits;
   std::vector<int> exempt;  ///< pairs of legs that share a joint in all designs
   std::array<double, 3> shares{};
   std::vector<BoxLine> boxes;
 };
+
+/// What of which legs a limit of forces, rates or powers is about; no leg for another limit.
+struct LegDuties {
+  bool force = false, rate = false;
+  int first = 0, count = 0;
+};
+LegDuties duties_of(const std::string& limit);
 
 constexpr const char* kind_of_designs = "ninedof certificate of designs 1";
 

@@ -137,7 +137,7 @@ class DesignsReplay {
   void leaf(const BoxLine& box, std::size_t number, std::vector<Pending> pending) {
     if (reading_ && out_.leaves % 16 == 0) reading_(static_cast<std::size_t>(out_.leaves), file_.boxes.size());
     ++out_.leaves;
-    const std::string name = "box " + digits(number + 1);
+    const std::string name = dimensions() == 0 ? "the machine" : "box " + digits(number + 1);
     left_ = dimensions() == 0 ? spots_of_machine : spots_of_leaf;
     const long before = out_.recut;
     double volume = 1.0;
@@ -159,7 +159,8 @@ class DesignsReplay {
   }
 
   /// Divides boxes of poses until the designs move the legs more than the poses do, and leaves what is not known.
-  void narrow(const Cube& cube, std::vector<Pending>& pending, long most) {
+  /// All designs of a box that has a name are called inside: now and then one of them is tried.
+  void narrow(const Cube& cube, std::vector<Pending>& pending, long most, const std::string& name = "") {
     const Weigher weigher(file_, cube);
     for (Pending& one : pending) {
       std::vector<Spot> ahead, left;
@@ -172,7 +173,7 @@ class DesignsReplay {
         --left_;
         const Weighed found = weigher.weigh(*one.want, spot);
         if (found.low > 0.0) continue;
-        if (dimensions() == 0 && count % 64 == 63) show_broken(cube, {{one.want, {spot}, {}}}, "the machine");
+        if (!name.empty() && count % 64 == 63) show_broken(cube, {{one.want, {spot}, {}}}, name);
         double designs = 0.0;
         std::size_t k = 0;
         for (std::size_t n = 0; n < found.moves.size(); ++n)
@@ -199,7 +200,7 @@ class DesignsReplay {
   }
 
   bool inside(const Cube& cube, std::vector<Pending> pending, int halvings, const std::string& name) {
-    narrow(cube, pending, left_);
+    narrow(cube, pending, left_, name);
     if (pending.empty()) return true;
     if (halvings == 0 || left_ <= 0 || dimensions() == 0) {
       show_broken(cube, pending, name);

@@ -66,6 +66,7 @@ std::vector<Want> wants_of(const DesignsFile& file, std::vector<std::string>& un
       else if (one.name == "leg_ratio" && high) {
         for (int k = 0; k < 81; ++k) out.push_back({About::spread, n + 2, k / 9, k % 9});
       } else if (one.name == "condition_number" && high) add(About::condition, 1);
+      else if (duties_of(one.name).count > 0 && high) add(About::duty, 1);
       else if (one.name == "height" || one.name == "zs_fraction" || one.name == "footprint" ||
                one.name == "radius_ratio" || (one.name == "joint_height" && high) ||
                (one.name == "joint_spacing" && !high)) {
@@ -216,6 +217,16 @@ void Weigher::spread(const Want& want, const Spot& spot, Weighed& out) const {
   out.high = (upper_end(sum) + upper_end(of_poses)) + grain::of_product * std::abs(sum.c);
 }
 
+void Weigher::duty(const Want& want, const Posed& at, const Patch& patch, Weighed& out) const {
+  for (int leg = 0; leg < 9; ++leg) add_moves(at.leg(leg).along(), false, out);
+  out.low = out.high = inf;
+  for (const Linear& x : leg_duties(file_.duty, mount_, at.stand, duties_of(line(want).name)))
+    for (const Linear& room : {bound(want) - x, bound(want) + x}) {
+      out.low = std::min(out.low, least_over(file_, room, patch));
+      out.high = std::min(out.high, upper_end(room));  // what is not known does not count
+    }
+}
+
 /// Of every pose and of some joint: numbers of the design alone. `low` is that of what has to hold for all, and the
 /// best of what has to hold for one.
 void Weigher::design(const Want& want, Weighed& out) const {
@@ -283,6 +294,7 @@ Weighed Weigher::weigh(const Want& want, const Spot& spot) const {
   else {
     const Posed at{mount_, stand(file_, mount_, spot.at)};
     if (want.about == About::pair) pair(want, at, spot.at, out);
+    else if (want.about == About::duty) duty(want, at, spot.at, out);
     else if (want.about == About::condition) {
       for (int leg = 0; leg < 9; ++leg) add_moves(at.leg(leg).along(), false, out);
       const int found = condition_within(mount_, at.stand, file_.length, bound(want));

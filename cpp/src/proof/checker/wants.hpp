@@ -7,7 +7,7 @@ namespace ninedof::checker::sets {
 
 /// One number that has to be positive. Its limit is 0 for singularities, 1 for 0 < zs < zp, and counts from 2 on.
 struct Want {
-  enum class About { height, length, cone, pair, determinant, spread, condition, design };
+  enum class About { height, length, cone, pair, determinant, spread, condition, duty, design };
   About about;
   int limit = 0;
   int item = 0;    ///< a leg, a pair, a determinant, the leg that is longest; of the design which piece
@@ -47,6 +47,7 @@ class Weigher {
   Linear number(const Want& want, const Posed& at, Weighed& out) const;
   void pair(const Want& want, const Posed& at, const Patch& patch, Weighed& out) const;
   void spread(const Want& want, const Spot& spot, Weighed& out) const;
+  void duty(const Want& want, const Posed& at, const Patch& patch, Weighed& out) const;
   void design(const Want& want, Weighed& out) const;
   Linear determinant(const Posed& at, int which, bool of_units) const;
   const LimitLine& line(const Want& want) const { return file_.limits[static_cast<std::size_t>(want.limit - 2)]; }
@@ -62,5 +63,8 @@ class Weigher {
 
 /// Whether kappa <= K over the box (1), kappa > K for all designs at the single pose (-1), or neither is known (0).
 int condition_within(const Mount& m, const Stand& at, double length, double most);
+
+/// Forces, greatest rates or powers of legs, for each load: of what moduli the limit is.
+std::vector<Linear> leg_duties(const DutyLines& duty, const Mount& m, const Stand& at, const LegDuties& of);
 
 }  // namespace ninedof::checker::sets

@@ -1,0 +1,154 @@
+"""Certificates of sets of designs with limits of forces, rates and powers: replayed; changed, refused or true.
+
+Oracle of what is still proved: forces and rates in numpy of designs drawn from the boxes, at poses from the region.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from duty_oracle import DUTY
+from forged import line_of, lines_of, sealed, spelled, with_word
+from limit_oracle import limits_of, margins, robot_of
+from region_oracle import random_poses
+from sizes import size
+
+import ninedof as nd
+from ninedof.design.region_poses import posed
+
+SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0, "theta_z": 0.0}
+LIMITS = {"force": (None, 85.0), "rate": (None, 1.6), "power": (None, 112.0), "lower_force": (None, 83.0)}
+REGION = {"box": (0.1, 0.05, 0.05)}  # O is carried
+
+
+@pytest.fixture(scope="module")
+def lines(tmp_path_factory):
+    study = nd.Study(variables=SIZES, constraints=LIMITS, objective={"region": REGION}, **DUTY)
+    designs = nd.admissible(study, ("a2", "b1"), resolution=0.06)
+    return lines_of(designs.save_certificate(tmp_path_factory.mktemp("set") / "designs.certificate").read_bytes())
+
+
+@pytest.fixture
+def verdict(tmp_path):
+    def of(lines):
+        path = tmp_path / "one.certificate"
+        path.write_bytes(sealed(lines))
+        return nd.check_certificate(path)
+
+    return of
+
+
+def test_a_set_with_limits_of_forces_and_rates_is_replayed(lines, verdict):
+    found = verdict(lines)
+    assert found.proved, found.words
+    assert "force at most 85" in found.study
+    assert "gravity 0.4, 0, -9.81, mass of the platform 3 at 0.1, -0.2, 0.3, of O 0.1" in found.study
+    assert "load of the moment 30, -20, 5, the force 20, 10, -20, the force on O 0, 0, 0" in found.study
+    assert "speeds up to 0.7 and 0.4 rad (22.9183 deg) per time, O carried" in found.study
+    for state in ("inside", "outside"):
+        assert sum(f" {state}" in line for line in lines) > 20
+
+
+def test_a_machine_that_keeps_its_forces_and_rates_is_replayed(tmp_path):
+    fixed = SIZES | {"a2": 6.0, "b1": 3.0}
+    region = REGION | {"tilt": 0.1, "yaw": 0.1, "internal_point": "held"}
+    limits = {"force": (None, 200.0), "rate": (None, 4.0), "upper_rate": (None, 4.0)}
+    result = nd.optimize(nd.Study(variables=fixed, constraints=limits, objective={"region": region}, **DUTY))
+    path = result.save_certificate(result.certify(gap=0.5), tmp_path / "machine.certificate")
+    assert nd.check_certificate(path).proved
+
+
+@pytest.mark.parametrize(
+    ("start", "new"),
+    [
+        ("weights", None),
+        ("leg", None),
+        ("load", None),
+        ("speeds", None),
+        ("speeds", "speeds 0x1p+0 0x0p+0 hope"),
+        ("speeds", "speeds -0x1p+0 0x0p+0 carried"),
+        ("speeds", "speeds 0x1p+0 inf carried"),
+        ("leg", "leg 0x0p+0 0x0p+0 0x0p+0"),
+    ],
+)
+def test_a_duty_that_is_none_is_refused(start, new, lines, verdict):
+    """Without loads every force would be small enough."""
+    first = line_of(lines, start)
+    last = first + (new is not None or sum(line.startswith(f"{start} ") for line in lines))
+    found = verdict([*lines[:first], *[new] * (new is not None), *lines[last:]])
+    assert not found.proved
+    assert not found.incomplete
+
+
+def test_no_duty_at_all_is_refused(lines, verdict):
+    found = verdict([line for line in lines if line.split(" ")[0] not in ("weights", "leg", "load", "speeds")])
+    assert "force is a limit of a duty, and the file has none" in found.words
+
+
+@pytest.mark.parametrize("name", ["force", "rate"])
+def test_a_tighter_limit_is_refused(name, lines, verdict):
+    n = line_of(lines, f"limit {name} ")
+    bound = float.fromhex(lines[n].split(" ")[3])
+    found = verdict(with_word(lines, n, 3, spelled(0.9 * bound)))
+    assert not found.proved
+    assert f"breaks {name}" in found.words
+
+
+def numbers(lines, start):
+    return [[float.fromhex(x) for x in line.split(" ")[1:] if "0x" in x] for line in lines if line.startswith(start)]
+
+
+def holds(lines, rng):
+    """Whether no design of the boxes inside breaks a limit of the lines, as far as samples show."""
+    weights, leg, (linear, angular) = (
+        numbers(lines, "weights ")[0],
+        numbers(lines, "leg ")[0],
+        *numbers(lines, "speeds "),
+    )
+    names = ("cylinder", "cylinder_centre", "rod", "rod_centre")
+    fixed = {w[1]: float.fromhex(w[2]) for w in (line.split(" ") for line in lines) if w[0] == "variable"}
+    study = nd.Study(
+        variables=SIZES | {name: x for name, x in fixed.items() if name not in ("a2", "b1")},
+        constraints={w[1]: (None, float.fromhex(w[3])) for w in (line.split(" ") for line in lines) if w[0] == "limit"},
+        loads={"gravity": weights[:3], "wrenches": [load[:6] for load in numbers(lines, "load ")]},
+        masses={"platform": weights[3], "centre": weights[4:7], "internal_point": weights[7]}
+        | dict(zip(names, leg, strict=True)),
+        speeds={"linear": linear, "angular": angular},
+        objective={"region": {"box": numbers(lines, "region ")[0][:3]}},
+    )
+    inside = [line.split(" ") for line in lines if line.endswith(" inside")]
+    for words in (inside[k] for k in rng.integers(0, len(inside), 4)):
+        ends = [float.fromhex(x) for x in words[1:5]]
+        design = fixed | {"a2": rng.uniform(*ends[:2]), "b1": rng.uniform(*ends[2:])}
+        there = posed(study, random_poses(study.objective.region, 12, rng))
+        robot = robot_of(there, design)
+        if any(np.min(margins(limit, robot)) < -1e-9 for limit in limits_of(there)):
+            return False
+    return True
+
+
+def test_what_is_proved_of_changed_loads_masses_speeds_and_limits_is_true(lines, verdict):
+    """A number before the boxes, moved by some percent; of the legs, all nine."""
+    rng = np.random.default_rng(17)
+    places = [
+        (n, k)
+        for n, line in enumerate(lines)
+        if line.split(" ")[0] in ("weights", "leg", "load", "speeds", "limit", "region")
+        for k, word in enumerate(line.split(" "))
+        if word.lstrip("-").startswith("0x") and float.fromhex(word) != 0.0
+    ]
+    proved = refused = 0
+    for _ in range(size(25, 400)):
+        n, k = places[rng.integers(len(places))]
+        word = spelled(float.fromhex(lines[n].split(" ")[k]) * math.exp(0.05 * rng.normal()))
+        forged = lines
+        for m in range(len(lines)):
+            if m == n or (lines[n].startswith("leg ") and lines[m].startswith("leg ")):
+                forged = with_word(forged, m, k, word)
+        if not verdict(forged).proved:
+            refused += 1
+            continue
+        proved += 1
+        assert holds(forged, rng), forged[n]
+    assert proved > 2
+    assert refused > 2
