@@ -31,7 +31,7 @@ Rows random_rows(std::mt19937& engine, double size) {
 
 }  // namespace
 
-TEST_SUITE("box system") {
+TEST_SUITE("box_system") {
   TEST_CASE("the inverse of every matrix of the box is within its forms, which are of second order") {
     for (unsigned seed = 0; seed < 20; ++seed) {
       double before = 0.0;
