@@ -114,8 +114,7 @@ def _of(study: Study, result: Any, first: Any) -> Any:
     """Return a result as one of the study itself, with the actuators that were chosen before."""
     chosen = first.actuators
     if chosen is not None and result.best is not None and result is not first:
-        combination = replace(chosen.chosen, objective=result.best.objective)
-        chosen = replace(chosen, chosen=combination, notes=(*chosen.notes, "actuators were chosen without the reserve"))
+        chosen = replace(chosen, notes=(*chosen.notes, "actuators were chosen and compared without the reserve"))
     return replace(result, study=study, actuators=chosen)
 
 

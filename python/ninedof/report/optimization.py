@@ -102,7 +102,7 @@ def _key_figures(result: Result, sheet: Sheet | None) -> list[tuple[object, obje
 def _sentence(text: str) -> str:
     """Return a message as a sentence; names of symbols keep their letter."""
     ended = text if text.endswith((".", "?", "!")) else f"{text}."
-    first = ended.split(maxsplit=1)[0]
+    first = ended.split(maxsplit=1)[0].rstrip(":")
     return ended[0].upper() + ended[1:] if first.isalpha() and len(first) > 1 else ended
 
 

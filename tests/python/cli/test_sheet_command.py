@@ -39,6 +39,7 @@ def test_the_sheet_of_a_run(run, machine, tmp_path, monkeypatch):
         "stiffness",
     ):
         assert words in out
+    assert "legs.csv" in "".join(out.split())
     assert (tmp_path / "legs.csv").read_text().startswith("leg,shortest,longest,neutral,stroke,stroke_ratio,idle,")
     status, out, _ = run(line + " --turn-deg 30 --json")
     data, expected = json.loads(out), load(machine).sheet()

@@ -82,3 +82,4 @@ def sheet(options: _Options) -> None:
     screen.data(result.to_dict())
     if options.csv is not None:  # last: a full disk does not lose the rest
         write_whole(options.csv, result.to_csv().encode())
+        screen.print(f"legs {options.csv}")
