@@ -12,7 +12,7 @@ namespace ninedof {
 /// What three rows make of the nine errors of legs.
 using Columns9 = Eigen::Matrix<double, 3, 9>;
 
-/// Whether `holds(signs, columns * signs)` at every corner of [-1, 1]^9; of two opposite corners one is looked at. From
+/// Whether `holds(signs, columns * signs)` at every corner of [-1, 1]^9: at 256, one of two opposite corners. From
 /// one to the next a single sign changes (Gray code): the sum is within 2^-42 of that of all moduli.
 template <class Holds>
 bool at_all_corners(const Columns9& columns, const Holds& holds) {

@@ -74,10 +74,11 @@ class DesignRange:
         )
 
     def eased(self, share: float) -> DesignRange:
-        """Return the same question with every limit wider by a share of it."""
+        """Return the same question with every limit wider by a share of it, or narrower where that is negative."""
         sides = {"min": 1.0 - share, "max": 1.0 + share}
+        crossed = {one.label for one in self.study.limits if one.low * sides["min"] > one.high * sides["max"]}
         condition = None if self.condition_number is None else self.condition_number * sides["max"]
-        study = with_scaled_limits(self.study, lambda _, side: sides[side])
+        study = with_scaled_limits(self.study, lambda label, side: 1.0 if label in crossed else sides[side])
         return replace(self, study=study, condition_number=condition)
 
     def values(self, names: Collection[str]) -> str:

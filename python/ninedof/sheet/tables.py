@@ -217,15 +217,14 @@ def _powers(sheet: Any) -> Table:
 
 def weight_words(weight: Any, tool: Any, legs: bool) -> list[str]:
     """Return which weights act beside the loads; the centre of the platform's in the frame of the plate."""
-    words = ["each with the weights of the legs and of O"] * legs
-    if weight is None:
-        return words
-    x, y, z = tool.own(weight.centre).tolist()
-    return [
-        f"each with the weight of a mass of {weight.mass:g}, centre {vector_words((x, y, z))} in the frame of the "
-        f"plate, gravity {vector_words(weight.gravity)}",
-        *words,
-    ]
+    words = []
+    if weight is not None:
+        x, y, z = tool.own(weight.centre).tolist()
+        words.append(
+            f"each with the weight of a mass of {weight.mass:g}, centre {vector_words((x, y, z))} in the frame of the "
+            f"plate, gravity {vector_words(weight.gravity)}"
+        )
+    return [*words, *["each with the weights of the legs and of O"] * legs]
 
 
 def load_words(number: int, load: Any, unit: str) -> str:

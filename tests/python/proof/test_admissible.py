@@ -356,6 +356,16 @@ def test_a_design_on_a_limit_has_no_room():
         found.around({"zp": 5.0 * (1.0 + 1e-5)})
 
 
+def test_a_limit_without_width_is_no_error_of_the_design():
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "zp": (2.0, 8.0), "zs": 1.5},
+        constraints={"height": (5.0, 5.0)},
+    )
+    found = nd.admissible(study, ("zp",), at={"zp": 5.0}, resolution=0.1)
+    with pytest.raises(ValueError, match="expected one around which a box is proved to be inside"):
+        found.around({"zp": 5.0})
+
+
 def test_a_design_outside_of_the_range_is_told():
     study = nd.Study(variables={"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "zp": 5.0, "zs": 3.0})
     found = nd.admissible(study, {"a2": (7.0, 9.0)}, resolution=0.1)

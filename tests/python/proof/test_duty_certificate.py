@@ -56,6 +56,13 @@ def test_a_machine_that_keeps_its_forces_and_rates_is_replayed(tmp_path):
     result = nd.optimize(nd.Study(variables=fixed, constraints=limits, objective={"region": region}, **DUTY))
     path = result.save_certificate(result.certify(gap=0.5), tmp_path / "machine.certificate")
     assert nd.check_certificate(path).proved
+    lines = lines_of(path.read_bytes())
+    for start in ("weights ", "leg ", "load ", "speeds "):
+        path.write_bytes(sealed([line for line in lines if not line.startswith(start)]))
+        assert "the duty lacks its weights, its nine legs, its loads or its speeds" in nd.check_certificate(path).words
+    n = line_of(lines, "weights")
+    path.write_bytes(sealed(with_word(lines, n, 4, spelled(-3.0))))
+    assert "the masses or speeds of the duty are none" in nd.check_certificate(path).words
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ constexpr double one_place = 1e-9;    // of the region: nearer poses are one
 constexpr double follows_known = 1e-2;  // in coordinates of the solver
 constexpr double no_better = 2e-6;      // relative gain that is not worth the last rounds
 constexpr int most_exact = 3;  // solutions without Newton's method, each from the last one, whose slack is too large
-constexpr double left = 5e-8;  // what may be left to gain after them: slack and it have to fit in most_gain
+constexpr double may_be_left = 5e-8;  // to gain after them: half of most_gain
 constexpr int first_comparison = 4;   // round from which a design is compared with the best known
 
 }  // namespace
@@ -86,11 +86,12 @@ bool Exchange::hopeless(const Settled& here, const Settled* known) const {
   return (c.coordinates(here.best.variables) - c.coordinates(known->best.variables)).norm() < follows_known;
 }
 
-void Exchange::tell(const Settled& here, const Imposed& at, double excess) const {
+void Exchange::tell(const Settled& here, const Imposed& at) const {
   if (!settings_.phase) return;
   const std::size_t poses = at.nodes.size() + at.at.size();
   std::string text = "round " + std::to_string(rounds_) + ", at " + std::to_string(poses) + " poses";
-  if (here.rounds > 1 && excess > passed) text += so_far(here.best.objective, excess, here.rounds - 1, passed);
+  if (const double excess = here.look.excess; here.rounds > 1 && excess > passed)
+    text += so_far(here.best.objective, excess, here.rounds - 1, passed);
   settings_.phase(text);
 }
 
@@ -102,7 +103,7 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
   while (out.rounds < most_exchanges && !control_.stop.stop_requested()) {
     ++out.rounds;
     ++rounds_;
-    tell(out, imposed, out.look.excess);
+    tell(out, imposed);
     Candidate next = solved(imposed, x, exact > 0);
     if (control_.stop.stop_requested()) {
       if (out.rounds == 1) out.rounds = 0;  // there is no design yet
@@ -116,7 +117,7 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     x = out.best.variables;
     if (hopeless(out, known)) break;
     const auto holds = [&] {  // little of a dear limit is much
-      return out.look.excess <= passed && gain_of(out) <= (exact < most_exact ? passed : left);
+      return out.look.excess <= passed && gain_of(out) <= (exact < most_exact ? passed : may_be_left);
     };
     try {
       out.look = look(out, quick_samples, control_);

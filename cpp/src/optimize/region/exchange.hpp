@@ -48,7 +48,7 @@ class Exchange {
   /// The optimum at the poses alone; `exactly`: until its slack is as small as what may be passed between the poses.
   Candidate solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly);
   bool hopeless(const Settled& here, const Settled* known) const;
-  void tell(const Settled& here, const Imposed& at, double excess) const;
+  void tell(const Settled& here, const Imposed& at) const;
 
   const Problem& problem_;
   const Region& region_;

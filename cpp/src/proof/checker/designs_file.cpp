@@ -159,6 +159,7 @@ void add(const std::string& key, LineWords& line, DesignsFile& out) {
     out.duty.platform = line.real();
     out.duty.centre = line.reals<3>();
     out.duty.internal_point = line.real();
+    out.duty.weighed = true;
   } else if (key == "leg") out.duty.legs.push_back(line.reals<4>());
   else if (key == "load") out.duty.loads.push_back({line.reals<3>(), line.reals<3>(), line.reals<3>()});
   else if (key == "speeds") {
@@ -171,13 +172,17 @@ void add(const std::string& key, LineWords& line, DesignsFile& out) {
   else out.boxes.push_back(box_of(line, out));
 }
 
-/// A limit of the duty without one would hold for every design.
+/// Without loads and masses every design would keep its limits of forces.
 void validate_duty(const DesignsFile& file) {
   const DutyLines& duty = file.duty;
-  bool stated = false, known = duty.linear >= 0.0 && duty.angular >= 0.0;
+  bool stated = false,
+       known = duty.linear >= 0.0 && duty.angular >= 0.0 && duty.platform >= 0.0 && duty.internal_point >= 0.0;
+  for (const auto& [cylinder, cylinder_centre, rod, rod_centre] : duty.legs) known &= cylinder >= 0.0 && rod >= 0.0;
   for (const char* one : {"shifted", "carried", "held", "least"}) stated |= duty.internal == one;
-  known &= stated || (duty.internal.empty() && duty.legs.empty() && duty.loads.empty());
-  if (!known || (stated && (duty.legs.size() != 9 || duty.loads.empty()))) refuse("the duty of the machine is none");
+  known &= stated || duty.internal.empty();
+  if (!known) refuse("the masses or speeds of the duty are none");
+  if (stated != duty.weighed || stated != (duty.legs.size() == 9) || stated == duty.loads.empty())
+    refuse("the duty lacks its weights, its nine legs, its loads or its speeds");
   for (const LimitLine& one : file.limits)
     if (duties_of(one.name).count > 0 && !stated) refuse(one.name + " is a limit of a duty, and the file has none");
 }
@@ -264,7 +269,8 @@ std::vector<std::string> question_of(const DesignsFile& file) {
       out.push_back("load of the moment " + plain(load[0]) + ", the force " + plain(load[1]) + ", the force on O " +
                     plain(load[2]));
     out.push_back("speeds up to " + digits(duty.linear) + " and " + digits(duty.angular) + in_degrees({duty.angular}) +
-                  " per time, O " + duty.internal);
+                  " per time, O " +
+                  (duty.internal == "least" ? "where the squared rates of the inner legs are least" : duty.internal));
   }
   for (const LimitLine& one : file.limits) {
     std::string line = one.name;
@@ -287,7 +293,7 @@ LegDuties duties_of(const std::string& limit) {
   const std::array<std::string, 4> kinds{"", "external_", "upper_", "lower_"};
   for (int k = 0; k < 4; ++k)
     for (const std::string what : {"force", "rate", "power"})
-      if (limit == kinds[static_cast<std::size_t>(k)] + what)
+      if (limit == kinds[static_cast<std::size_t>(k)] + what && (k == 0 || what != "power"))
         return {what != "rate", what != "force", k > 0 ? 3 * k - 3 : 0, k > 0 ? 3 : 9};
   return {};
 }

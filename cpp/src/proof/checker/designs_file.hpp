@@ -45,6 +45,7 @@ struct LimitLine {
 struct DutyLines {
   Triple gravity{}, centre{};  ///< the centre of the platform's mass in the frame of the pose
   double platform = 0.0, internal_point = 0.0;
+  bool weighed = false;                     ///< whether the file says so
   std::vector<std::array<double, 4>> legs;  ///< a cylinder, its centre from the leg's start, a rod, its from the end
   std::vector<std::array<Triple, 3>> loads;  ///< a moment about p, a force on the platform, a force on O
   double linear = 0.0, angular = 0.0;  ///< speeds of the platform, in any direction

@@ -45,7 +45,12 @@ class Equations {
       for (std::size_t k = 0; k < N; ++k) left[i] = left[i] - y[k] * a_[i][k];
     for (std::size_t i = 0; i < N; ++i) {
       for (std::size_t k = 0; k < N; ++k) out[i] = out[i] + c_[i][k] * left[k];
-      most = std::max(most, most_of(out[i]));
+      // Of numbers that overflow nothing is known, of the others neither.
+      most = std::max(most_of(out[i]), most);
+      if (!(most_of(out[i]) < inf)) {
+        out.fill(unknown_number());
+        return out;
+      }
     }
     most /= 1.0 - shrinks_;
     for (std::size_t i = 0; i < N; ++i) out[i] = y[i] + out[i] + Linear(0.0, e_[i] * most * grain::up);
@@ -156,7 +161,10 @@ class Machine {
       a = a + own.at_o;
       if (duty_.internal == "carried") b = b + cross(at_.s - at_.p, own.at_o);
     }
-    return duty_.linear * norm_of(a) + duty_.angular * norm_of(b);
+    Linear out;
+    if (duty_.linear > 0.0) out = out + duty_.linear * norm_of(a);
+    if (duty_.angular > 0.0) out = out + duty_.angular * norm_of(b);
+    return out;
   }
 
  private:

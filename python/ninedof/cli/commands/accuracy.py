@@ -64,7 +64,7 @@ def accuracy(options: _Options) -> Answer:
         heads, rows = heads[:3], [row[:3] for row in rows]
     sizes = {"legs": (legs, options.leg_error), "joints": (joints, options.joint_error)}
     words = (
-        amount(f"{name} {size:g}", unit) + " of the study" * (bool(duty) and given is None)
+        amount(f"{name} {size:g}", unit) + " of the study" * (given is None and size > 0.0)
         for name, (size, given) in sizes.items()
     )
     parts: list[Any] = [f"tolerances: {', '.join(words)}", Table("Errors of first order", heads, rows)]
