@@ -76,6 +76,7 @@ def test_a_machine_that_keeps_its_forces_and_rates_is_replayed(tmp_path):
         ("speeds", "speeds -0x1p+0 0x0p+0 carried"),
         ("speeds", "speeds 0x1p+0 inf carried"),
         ("leg", "leg 0x0p+0 0x0p+0 0x0p+0"),
+        ("leg", "leg 0x1p+1023 0x1p-1 0x0p+0 0x0p+0"),  # what overflows was divided for minutes
     ],
 )
 def test_a_duty_that_is_none_is_refused(start, new, lines, verdict):

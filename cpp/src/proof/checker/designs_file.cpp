@@ -61,11 +61,11 @@ class LineWords {
     at_ = end + 1;
     return out;
   }
-  /// Each number has one spelling.
+  /// Each number has one spelling. Products of larger ones overflow, and what is not known is divided for minutes.
   double real(bool finite = true) {
     const std::string text = word();
     const double out = number(text);
-    if (finite && std::isinf(out)) refuse(quoted(line_) + " has a number that is infinite");
+    if (finite && !(std::abs(out) <= 1e100)) refuse(quoted(line_) + " has a number above 1e100");
     if (hexadecimal(out) != text) refuse(quoted(text) + " is not spelled as " + quoted(hexadecimal(out)));
     return out;
   }
