@@ -12,6 +12,7 @@ import pytest
 from interrupts import InterruptedPhase
 from region_oracle import random_poses, worst_at_random
 from sizes import LONG, size
+from tall_machine import VARIABLES
 
 import ninedof as nd
 from ninedof.design.region_poses import posed
@@ -185,19 +186,12 @@ def test_what_a_dear_limit_buys_is_not_left_over():
     assert 0.0 <= result.region.gain <= 1e-7
 
 
-@pytest.mark.skipif(not LONG, reason="twenty seconds: NINEDOF_LONG=1")
+@pytest.mark.skipif(not LONG, reason="a minute, near the least stroke that there is: NINEDOF_LONG=1")
 def test_the_least_stroke_of_a_tall_machine_ends():
     """Rounds went on for minutes between 2e-8 and the 1e-7 that may be left to gain: a limit costs 100 times itself."""
     study = nd.Study(
         "symmetric",
-        variables={
-            "base_external_radius": (100.0, 500.0),
-            "base_internal_radius": (100.0, 500.0),
-            "platform_external_radius": (180.0, 220.0),
-            "platform_internal_radius": (50.0, 220.0),
-            "zp": (300.0, 700.0),
-            "zs": (50.0, 650.0),
-        },
+        variables=VARIABLES,
         constraints={
             "base_cone": {"max_deg": 45} | UPRIGHT,
             "platform_cone": {"max_deg": 45, "axis": [0.0, 0.0, -1.0]},

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from forged import line_of, sealed, spelled, with_word
+from forged import line_of, lines_of, sealed, spelled, verdict_of, with_word
 from limit_oracle import limits_of, margins, robot_of
 from region_oracle import random_poses
 from sizes import size
@@ -30,17 +30,12 @@ def designs():
 @pytest.fixture(scope="module")
 def lines(designs, tmp_path_factory):
     path = designs.save_certificate(tmp_path_factory.mktemp("set") / "designs.certificate")
-    return path.read_text().splitlines()[2:]
+    return lines_of(path.read_bytes())
 
 
 @pytest.fixture
 def verdict(tmp_path):
-    def of(lines):
-        path = tmp_path / "forged.certificate"
-        path.write_bytes(sealed(lines))
-        return nd.check_certificate(path)
-
-    return of
+    return lambda lines: verdict_of(sealed(lines), tmp_path)
 
 
 def boxes(lines, state):

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 from duty_oracle import DUTY
-from forged import line_of, lines_of, sealed, spelled, with_word
+from forged import line_of, lines_of, sealed, spelled, verdict_of, with_word
 from limit_oracle import limits_of, margins, robot_of
 from region_oracle import random_poses
 from sizes import size
@@ -30,12 +30,7 @@ def lines(tmp_path_factory):
 
 @pytest.fixture
 def verdict(tmp_path):
-    def of(lines):
-        path = tmp_path / "one.certificate"
-        path.write_bytes(sealed(lines))
-        return nd.check_certificate(path)
-
-    return of
+    return lambda lines: verdict_of(sealed(lines), tmp_path)
 
 
 def test_a_set_with_limits_of_forces_and_rates_is_replayed(lines, verdict):

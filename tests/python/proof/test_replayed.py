@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import set_in_balls
-from forged import lines_of, sealed, spelled
+from forged import line_of, lines_of, sealed, spelled, verdict_of, with_word
 
 import ninedof as nd
 
@@ -21,12 +21,7 @@ def result():
 
 @pytest.fixture
 def verdict(tmp_path):
-    def of(data):
-        path = tmp_path / "one.certificate"
-        path.write_bytes(data)
-        return nd.check_certificate(path)
-
-    return of
+    return lambda data: verdict_of(data, tmp_path)
 
 
 @pytest.fixture(scope="module")
@@ -59,10 +54,8 @@ def test_the_last_gap_that_was_proved_has_a_file(result, verdict):
 
 def test_no_better_bound_is_proved_by_the_same_boxes(optimum, verdict):
     lines = lines_of(optimum.certificate)
-    n = next(n for n, line in enumerate(lines) if line.startswith("limit condition_number"))
-    words = lines[n].split(" ")
-    words[3] = spelled(float.fromhex(words[3]) * 1.1)
-    forged = sealed([*lines[:n], " ".join(words), *lines[n + 1 :]])
+    n = line_of(lines, "limit condition_number")
+    forged = sealed(with_word(lines, n, 3, spelled(float.fromhex(lines[n].split(" ")[3]) * 1.1)))
     assert not verdict(forged).proved
 
 
@@ -76,10 +69,8 @@ def test_a_machine_is_replayed_by_both_checkers(machine, verdict):
 @pytest.mark.parametrize(("name", "factor"), [("condition_number", 0.75)])
 def test_a_machine_with_a_tighter_limit_is_refused(name, factor, machine, verdict):
     lines = lines_of(machine)
-    n = next(n for n, line in enumerate(lines) if line.startswith(f"limit {name}"))
-    words = lines[n].split(" ")
-    words[3] = spelled(float.fromhex(words[3]) * factor)
-    forged = sealed([*lines[:n], " ".join(words), *lines[n + 1 :]])
+    n = line_of(lines, f"limit {name}")
+    forged = sealed(with_word(lines, n, 3, spelled(float.fromhex(lines[n].split(" ")[3]) * factor)))
     found = verdict(forged)
     assert not found.proved
     assert f"breaks {name}" in found.words

@@ -2,17 +2,10 @@
 
 import numpy as np
 import pytest
+from tall_machine import VARIABLES
 
 import ninedof as nd
 
-VARIABLES = {
-    "base_external_radius": (100.0, 500.0),
-    "base_internal_radius": (100.0, 500.0),
-    "platform_external_radius": (180.0, 220.0),
-    "platform_internal_radius": (50.0, 220.0),
-    "zp": (300.0, 700.0),
-    "zs": (50.0, 650.0),
-}
 UP, DOWN = [0, 0, 1], [0, 0, -1]
 
 

@@ -3,6 +3,8 @@
 import math
 import zlib
 
+import ninedof as nd
+
 FIRST = "ninedof certificate of designs 1\nchecksum "
 
 
@@ -10,6 +12,13 @@ def sealed(lines):
     """The bytes of a file of these lines."""
     body = "".join(f"{line}\n" for line in lines).encode()
     return f"{FIRST}{zlib.crc32(body):x}\n".encode() + body
+
+
+def verdict_of(data, folder):
+    """What the checker says of the bytes of a file."""
+    path = folder / "forged.certificate"
+    path.write_bytes(data)
+    return nd.check_certificate(path)
 
 
 def lines_of(data):

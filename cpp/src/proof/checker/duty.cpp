@@ -45,12 +45,12 @@ class Equations {
       for (std::size_t k = 0; k < N; ++k) left[i] = left[i] - y[k] * a_[i][k];
     for (std::size_t i = 0; i < N; ++i) {
       for (std::size_t k = 0; k < N; ++k) out[i] = out[i] + c_[i][k] * left[k];
-      // Of numbers that overflow nothing is known, of the others neither.
-      most = std::max(most_of(out[i]), most);
-      if (!(most_of(out[i]) < inf)) {
+      const double size = most_of(out[i]);
+      if (!(size < inf)) {  // of numbers that overflow nothing is known, of the others neither
         out.fill(unknown_number());
         return out;
       }
+      most = std::max(most, size);
     }
     most /= 1.0 - shrinks_;
     for (std::size_t i = 0; i < N; ++i) out[i] = y[i] + out[i] + Linear(0.0, e_[i] * most * grain::up);
