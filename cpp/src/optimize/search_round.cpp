@@ -256,7 +256,7 @@ void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Ei
 
 bool starts_disagree(const SearchRound& round, const std::vector<Candidate>& candidates) {
   const std::optional<Candidate> feasible = best_feasible(round);
-  if (!feasible) return false;
+  if (!feasible) return round.done < enough;
   if (candidates.empty() || feasible->objective < candidates.front().objective * (1.0 - noticeable_gain)) return true;
   const int reached = candidates.front().reached;
   return reached < enough && reached <= agreement * (round.done - round.runs_abandoned);

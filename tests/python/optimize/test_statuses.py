@@ -281,3 +281,23 @@ def test_legs_that_meet_in_one_design_only_collide():
     coupled = nd.optimize(nd.Study(variables={"a1": 0.0, "b2": 0.0}, **wanted))
     assert coupled.status == "optimal"
     assert nd.check(coupled, perturbations=size(500, 4000)).passed
+
+
+@pytest.mark.parametrize(("starts", "seed"), [(2, 3), (2, 7), (3, 3)])
+def test_few_starts_that_find_nothing_are_followed_by_others(starts, seed):
+    """The first of them end where no design is regular, or outside of the limits: others find one."""
+    study = nd.Study(
+        variables={k: (0.2, 8.0) for k in ("a1", "a2")}
+        | {k: (0.2, 4.0) for k in ("b1", "b2")}
+        | {"zp": (0.5, 6.0), "zs": (0.1, 5.5)},
+        constraints={
+            "leg_ratio": (None, 1.2),
+            "leg_clearance": {"radius": 0.2},
+            "base_cone": {"max_deg": 25, "axis": [0, 0, 1]},
+        },
+        starts=starts,
+        seed=seed,
+    )
+    result = nd.optimize(study)
+    assert result.status == "optimal"
+    assert starts < result.starts_done <= 16 + starts

@@ -17,7 +17,8 @@ constexpr double one_place = 1e-9;    // of the region: nearer poses are one
 constexpr double follows_known = 1e-2;  // in coordinates of the solver
 constexpr double no_better = 2e-6;      // relative gain that is not worth the last rounds
 constexpr int most_exact = 3;  // solutions without Newton's method, each from the last one, whose slack is too large
-constexpr double may_be_left = 5e-8;  // to gain after them: half of most_gain
+constexpr double may_be_left = 5e-8;  // to gain after them, without the slack: half of most_gain
+constexpr int last_exact = 8;         // of them; then what is left is said
 constexpr int first_comparison = 4;   // round from which a design is compared with the best known
 
 }  // namespace
@@ -128,7 +129,7 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     }
     if (holds()) {
       out.slack = slack(out);
-      out.settled = exact >= most_exact || out.slack <= passed;
+      out.settled = out.slack <= passed || (exact >= most_exact && gain_of(out) <= most_gain) || exact >= last_exact;
       if (out.settled) break;
     }
     exact += exact > 0 || out.look.excess <= passed;
