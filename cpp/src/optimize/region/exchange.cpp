@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "math/numbers.hpp"
 #include "optimize/polish/active_set.hpp"
@@ -19,7 +20,8 @@ constexpr double no_better = 2e-6;      // relative gain that is not worth the l
 constexpr int most_exact = 3;  // solutions without Newton's method, each from the last one, whose slack is too large
 constexpr double may_be_left = 5e-8;  // to gain after them, without the slack: half of most_gain
 constexpr int last_exact = 8;         // of them; then what is left is said
-constexpr int first_comparison = 4;   // round from which a design is compared with the best known
+constexpr int most_drops = 20;  // rounds that drop poses: then none is left out and imposed again for ever
+constexpr int first_comparison = 4;  // round from which a design is compared with the best known
 
 }  // namespace
 
@@ -73,6 +75,33 @@ double Exchange::slack(const Settled& of) const {
   return least_slack(p, p.coordinates.coordinates(of.best.variables));
 }
 
+Candidate Exchange::at_imposed(const Imposed& imposed, const Eigen::VectorXd& x) const {
+  const Problem there = posed(problem_, poses_of(problem_, region_, imposed));
+  const PreparedProblem p(there, size_limits(there).back());
+  return candidate_at(p, p.coordinates.coordinates(x));
+}
+
+Imposed Exchange::holding(const Imposed& imposed, const Eigen::VectorXd& x) const {
+  const Problem there = posed(problem_, poses_of(problem_, region_, imposed));
+  const PreparedProblem p(there, size_limits(there).back());
+  DesignEvaluation design;
+  const Eigen::VectorXd y = p.with_auxiliary(p.coordinates.coordinates(x));
+  design.state.length_joint = p.pieces(y).front();
+  const ActiveSet active = evaluate_active(p, y, Contact::exact, design);
+  const ActiveSet support = stationarity(p, design, active).support;
+  std::set<int> poses;
+  for (const RowLevel& u : p.row_levels)  // the worst, for the objective to the last digit
+    if (design.objective_rows[u.row] == design.levels[u.level]) poses.insert(p.pose_of(u.row));
+  for (const int k : support.row_levels) poses.insert(p.pose_of(p.row_levels[at_index(k)].row));
+  for (const int k : support.margins)
+    for (const int pose : poses_of_margin(p, design.state, k)) poses.insert(p.objective_pose(pose));
+  const auto first = static_cast<int>(there.objective.poses.size() - imposed.at.size());
+  Imposed out{imposed.nodes, {}};
+  for (const int pose : poses)
+    if (pose >= first) out.at.push_back(imposed.at[at_index(pose - first)]);
+  return out;
+}
+
 Look Exchange::look(const Settled& of, long samples, const Control& control) const {
   const auto seed = settings_.seed + static_cast<std::uint64_t>(rounds_);
   return look_over(problem_, region_, of.imposed, of.best.variables,
@@ -96,9 +125,20 @@ void Exchange::tell(const Settled& here, const Imposed& at) const {
   settings_.phase(text);
 }
 
+void Exchange::drop(const Eigen::VectorXd& x, std::size_t first, std::size_t last, Imposed& imposed) const {
+  const Imposed few = holding(imposed, x);
+  if (!at_imposed(few, x).stationary()) return;
+  std::vector<Vec6> kept;
+  for (std::size_t k = 0; k < imposed.at.size(); ++k)
+    if (k < first || k >= last || std::ranges::find(few.at, imposed.at[k]) != few.at.end())
+      kept.push_back(imposed.at[k]);
+  imposed.at = std::move(kept);
+}
+
 Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, const Settled* known) {
   Settled out;
   Imposed imposed = first;
+  std::size_t known_before = first.at.size();  // poses that did not join in the last round
   Eigen::VectorXd x = start;
   int exact = 0;  // rounds without Newton's method
   while (out.rounds < most_exchanges && !control_.stop.stop_requested()) {
@@ -133,6 +173,8 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
       if (out.settled) break;
     }
     exact += exact > 0 || out.look.excess <= passed;
+    if (out.rounds <= most_drops) drop(x, first.at.size(), known_before, imposed);
+    known_before = imposed.at.size();
     for (const Vec6& at : out.look.worst)
       if (std::ranges::none_of(imposed.at,
                                [&](const Vec6& other) { return distance_in(region_, at, other) <= one_place; }))

@@ -41,12 +41,21 @@ class Exchange {
   /// See Settled::slack.
   double slack(const Settled& of) const;
 
+  /// A design judged at the imposed poses alone.
+  Candidate at_imposed(const Imposed& imposed, const Eigen::VectorXd& x) const;
+
+  /// Of the imposed poses those that hold the design: the optimum at these alone is the same one.
+  Imposed holding(const Imposed& imposed, const Eigen::VectorXd& x) const;
+
   int rounds() const { return rounds_; }
   long evaluations() const { return evaluations_; }
 
  private:
   /// The optimum at the poses alone; `exactly`: until its slack is as small as what may be passed between the poses.
   Candidate solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly);
+  /// Leaves out the imposed poses from `first` up to `last` that do not hold the design. One that comes to decide is
+  /// imposed again.
+  void drop(const Eigen::VectorXd& x, std::size_t first, std::size_t last, Imposed& imposed) const;
   bool hopeless(const Settled& here, const Settled* known) const;
   void tell(const Settled& here, const Imposed& at) const;
 

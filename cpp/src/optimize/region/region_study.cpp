@@ -2,12 +2,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "math/numbers.hpp"
 #include "math/time_limit.hpp"
 #include "ninedof/math/error.hpp"
-#include "optimize/polish/active_set.hpp"
 #include "optimize/region/conflict_poses.hpp"
 #include "optimize/region/exchange.hpp"
 #include "optimize/region/mean.hpp"
@@ -214,41 +212,15 @@ class RegionStudy {
     std::vector<Vec6> kept = nearly_deciding(problem_, region_, best_.imposed.at, best_.best.variables, ruling);
     if (kept.empty() && best_.imposed.nodes.empty()) kept.push_back(best_.imposed.at.front());
     best_.imposed.at = std::move(kept);
-    Candidate now = at_imposed(best_.imposed);
-    const Imposed few = holding();
-    if (Candidate among_few = at_imposed(few); among_few.stationary()) {
-      best_.imposed = few;
+    const Eigen::VectorXd x = best_.best.variables;
+    Candidate now = exchange_.at_imposed(best_.imposed, x);
+    Imposed few = exchange_.holding(best_.imposed, x);
+    if (Candidate among_few = exchange_.at_imposed(few, x); among_few.stationary()) {
+      best_.imposed = std::move(few);
       now = std::move(among_few);
     }
     now.reached = best_.best.reached;
     best_.best = std::move(now);
-  }
-  Candidate at_imposed(const Imposed& imposed) const {
-    const Problem there = posed(problem_, poses_of(problem_, region_, imposed));
-    const PreparedProblem p(there, size_limits(there).back());
-    return candidate_at(p, p.coordinates.coordinates(best_.best.variables));
-  }
-
-  /// Of the imposed poses those that hold the design: the optimum at these alone is the same one.
-  Imposed holding() const {
-    const Problem there = posed(problem_, poses_of(problem_, region_, best_.imposed));
-    const PreparedProblem p(there, size_limits(there).back());
-    DesignEvaluation design;
-    const Eigen::VectorXd y = p.with_auxiliary(p.coordinates.coordinates(best_.best.variables));
-    design.state.length_joint = p.pieces(y).front();
-    const ActiveSet active = evaluate_active(p, y, Contact::exact, design);
-    const ActiveSet support = stationarity(p, design, active).support;
-    std::set<int> poses;
-    for (const RowLevel& u : p.row_levels)  // the worst, for the objective to the last digit
-      if (design.objective_rows[u.row] == design.levels[u.level]) poses.insert(p.pose_of(u.row));
-    for (const int k : support.row_levels) poses.insert(p.pose_of(p.row_levels[at_index(k)].row));
-    for (const int k : support.margins)
-      for (const int pose : poses_of_margin(p, design.state, k)) poses.insert(p.objective_pose(pose));
-    const auto first = static_cast<int>(there.objective.poses.size() - best_.imposed.at.size());
-    Imposed out{best_.imposed.nodes, {}};
-    for (const int pose : poses)
-      if (pose >= first) out.at.push_back(best_.imposed.at[at_index(pose - first)]);
-    return out;
   }
 
   const Problem& problem_;
