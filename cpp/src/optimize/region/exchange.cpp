@@ -20,7 +20,7 @@ constexpr double no_better = 2e-6;      // relative gain that is not worth the l
 constexpr int most_exact = 3;  // solutions without Newton's method, each from the last one, whose slack is too large
 constexpr double may_be_left = 5e-8;  // to gain after them, without the slack: half of most_gain
 constexpr int last_exact = 8;         // of them; then what is left is said
-constexpr int most_drops = 20;  // rounds that drop poses: then none is left out and imposed again for ever
+constexpr double replaces = 0.02;  // of the region: a later pose as near as this
 constexpr int first_comparison = 4;  // round from which a design is compared with the best known
 
 }  // namespace
@@ -129,9 +129,12 @@ void Exchange::drop(const Eigen::VectorXd& x, std::size_t first, std::size_t las
   const Imposed few = holding(imposed, x);
   if (!at_imposed(few, x).stationary()) return;
   std::vector<Vec6> kept;
-  for (std::size_t k = 0; k < imposed.at.size(); ++k)
-    if (k < first || k >= last || std::ranges::find(few.at, imposed.at[k]) != few.at.end())
-      kept.push_back(imposed.at[k]);
+  for (std::size_t k = 0; k < imposed.at.size(); ++k) {
+    const Vec6& at = imposed.at[k];
+    const bool replaced = std::any_of(imposed.at.begin() + static_cast<std::ptrdiff_t>(k) + 1, imposed.at.end(),
+                                      [&](const Vec6& other) { return distance_in(region_, at, other) <= replaces; });
+    if (k < first || k >= last || !replaced || std::ranges::find(few.at, at) != few.at.end()) kept.push_back(at);
+  }
   imposed.at = std::move(kept);
 }
 
@@ -173,7 +176,7 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
       if (out.settled) break;
     }
     exact += exact > 0 || out.look.excess <= passed;
-    if (out.rounds <= most_drops) drop(x, first.at.size(), known_before, imposed);
+    drop(x, first.at.size(), known_before, imposed);
     known_before = imposed.at.size();
     for (const Vec6& at : out.look.worst)
       if (std::ranges::none_of(imposed.at,
