@@ -215,7 +215,8 @@ def prove_over_poses(
     that at the neutral pose: where that is in the region, the proof of the class comes first, as it takes fewer boxes.
     """
     begin, boxes, bound = perf_counter(), 0, 1.0
-    home, left_out = _at_home(study), ()
+    home = _at_home(study)
+    left_out: tuple[str, ...] = ()
     where = "over the region" if study.objective.region is not None else "at its poses" if study.objective.poses else ""
     better, left, interrupted, aim, certificate = None, 0, False, condition_number * (1.0 - gap), b""
     steps = STEPS if len(_free(study)) <= FEW else (*COARSE, *STEPS)
