@@ -13,7 +13,7 @@ from robots import NONPLANAR
 
 import ninedof as nd
 from ninedof.design.region_poses import posed
-from ninedof.proof.optimum import left_out_of
+from ninedof.proof.optimum import _at_home, left_out_of
 
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0}
 LIMITS = {"base_cone": {"max_deg": 55, "axis": (0, 0, 1)}, "stroke_ratio": (None, 1.5)}
@@ -107,6 +107,41 @@ def test_without_time_nothing_is_proved():
     proof = nd.prove_optimum(REGION, 4.0, time_limit=1e-9)
     assert (proof.lower_bound, proof.complete, proof.better) == (1.0, False, None)
     assert proof.open > 0
+
+
+SIX = replace(REGION, variables={**SIZES, "a1": (0.0, 6.0), "b2": (0.0, 3.0), "zp": (3.0, 7.0), "zs": (1.0, 5.0)})
+
+
+def test_the_neutral_pose_proves_wide_gaps_of_six_free_variables(tmp_path):
+    best = nd.optimize(SIX).condition_number
+    proof = nd.prove_optimum(SIX, best, gap=0.4)
+    assert proof.complete
+    assert proof.lower_bound == pytest.approx(0.6 * best, rel=1e-12)
+    assert proof.boxes < 200_000
+    assert proof.where == "over the region"
+    assert set(proof.left_out) == set(LIMITS)
+    assert nd.check_certificate(proof.save(tmp_path / "optimum.certificate")).proved
+    rng = np.random.default_rng(2)
+    free = {name: ends for name, ends in SIX.variables.items() if isinstance(ends, tuple)}
+    for _ in range(1000):
+        x = {name: float(rng.uniform(*ends)) for name, ends in free.items()}
+        if x["zs"] < x["zp"]:
+            assert worst_index(SIX, {"theta_z": 0.0} | x, 1, rng)[0] >= proof.lower_bound, x
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"tool": {"position": (0.1, 0.0, -0.5)}},
+        {"objective": {"region": {"path": [(0.1, 0.0, 0.0), (0.3, 0.0, 0.0)]}}, "constraints": {}},
+        {"objective": {"poses": [{"position": (0.2, 0.0, 0.1)}]}},
+    ],
+    ids=["tool", "path", "poses"],
+)
+def test_elsewhere_the_neutral_pose_proves_nothing(change):
+    """Of a tool, or where it need not be one of the poses."""
+    assert _at_home(replace(REGION, **change)) is None
+    assert _at_home(REGION) is not None
 
 
 def test_threads_do_not_change_it():
