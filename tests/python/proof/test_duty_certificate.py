@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+import set_in_balls
 from duty_oracle import DUTY
 from forged import line_of, lines_of, sealed, spelled, verdict_of, with_word
 from limit_oracle import limits_of, margins, robot_of
@@ -78,14 +79,60 @@ def test_a_duty_that_is_none_is_refused(start, new, lines, verdict):
     """Without loads every force would be small enough."""
     first = line_of(lines, start)
     last = first + (new is not None or sum(line.startswith(f"{start} ") for line in lines))
-    found = verdict([*lines[:first], *[new] * (new is not None), *lines[last:]])
+    forged = [*lines[:first], *[new] * (new is not None), *lines[last:]]
+    found = verdict(forged)
     assert not found.proved
     assert not found.incomplete
+    assert set_in_balls.check(sealed(forged)).startswith("refused")
 
 
 def test_no_duty_at_all_is_refused(lines, verdict):
     found = verdict([line for line in lines if line.split(" ")[0] not in ("weights", "leg", "load", "speeds")])
     assert "force is a limit of a duty, and the file has none" in found.words
+
+
+def machine(lines, rule):
+    """One design of a box inside, whose O moves by another rule."""
+    words = next(line for line in lines if line.endswith(" inside")).split(" ")
+    lines = [line for line in lines if not line.startswith("box ")]
+    for name, value in (("a2", words[1]), ("b1", words[3])):
+        lines[line_of(lines, f"variable {name} ")] = f"variable {name} {value} {value}"
+    lines[line_of(lines, "shares")] = "shares 0x1p+0 0x0p+0 0x0p+0"
+    return [*with_word(lines, line_of(lines, "speeds"), 3, rule), "box inside"]
+
+
+@pytest.mark.parametrize("rule", ["carried", "held", "shifted", "least"])
+def test_forces_and_rates_are_shown_in_balls_too(rule, lines, verdict):
+    """By a balance of platform and O and by 3 x 3 systems; the checker's numbers are those of nine equations."""
+    one = machine(lines, rule)
+    assert verdict(one).proved
+    assert set_in_balls.check(sealed(one)) == "proved"
+
+
+@pytest.mark.parametrize(
+    ("start", "place", "value"),
+    [
+        ("weights", 3, -60.0),
+        ("weights", 4, 30.0),
+        ("weights", 5, 20.0),
+        ("weights", 8, 60.0),
+        ("leg", 1, 60.0),
+        ("leg", 3, 60.0),
+        ("load", 6, -300.0),
+        ("load", 9, 2000.0),
+        ("speeds", 1, 4.0),
+        ("speeds", 2, 6.0),
+        ("limit force", 3, 20.0),
+        ("limit rate", 3, 0.4),
+        ("limit power", 3, 10.0),
+        ("limit lower_force", 3, 10.0),
+    ],
+)
+def test_a_changed_duty_that_a_machine_does_not_bear_is_proved_by_neither(start, place, value, lines, verdict):
+    one = machine(lines, "carried")
+    forged = with_word(one, line_of(one, start), place, spelled(value))
+    assert "breaks" in verdict(forged).words
+    assert set_in_balls.check(sealed(forged)) == "incomplete"
 
 
 @pytest.mark.parametrize("name", ["force", "rate"])

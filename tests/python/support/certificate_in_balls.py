@@ -3,14 +3,11 @@
 import math
 import struct
 
+import numpy as np
+from balls import Form
 from flint import arb, ctx
 
 U, X, ETA, O, TAU, Y, Z = range(7)
-
-
-def ball(low, high):
-    low, high = arb(low), arb(high)
-    return ((low + high) / 2).union(low).union(high)
 
 
 def parts(path):
@@ -43,57 +40,19 @@ def leaves(root, tree, hexagonal=True):
     assert at == len(tree)
 
 
-class Slope:
-    """A ball and its derivatives along the logarithms of the coordinates."""
-
-    def __init__(self, value, along=None):
-        self.value, self.along = arb(value), along or [arb(0)] * 7
-
-    def __add__(self, other):
-        other = other if isinstance(other, Slope) else Slope(other)
-        return Slope(self.value + other.value, [a + b for a, b in zip(self.along, other.along, strict=True)])
-
-    __radd__ = __add__
-
-    def __mul__(self, other):
-        other = other if isinstance(other, Slope) else Slope(other)
-        pairs = zip(self.along, other.along, strict=True)
-        return Slope(self.value * other.value, [a * other.value + b * self.value for a, b in pairs])
-
-    __rmul__ = __mul__
-
-    def __sub__(self, other):
-        return self + (-1) * other
-
-    def __rsub__(self, other):
-        return (-1) * self + other
-
-    def inverse(self):
-        return Slope(1 / self.value, [-a / self.value**2 for a in self.along])
-
-    def __truediv__(self, other):
-        return self * (other.inverse() if isinstance(other, Slope) else 1 / arb(other))
-
-    def root(self):
-        r = self.value.sqrt()
-        return Slope(r, [a / (2 * r) for a in self.along])
-
-    def log(self):
-        return Slope(self.value.log(), [a / self.value for a in self.along])
-
-
-def logarithms(box):
-    """log sigma: axial max and min, transverse max and min."""
-    v = [Slope(b, [b if j == k else arb(0) for j in range(7)]) for k, b in enumerate(box)]
-    u, x, eta, o, tau = v[:5]
-    y, z = (x, Slope(1)) if len(box) == 5 else v[5:]
+def logarithms(v):
+    """log sigma of forms of five or seven coordinates: axial max and min, transverse max and min."""
+    u, x, eta, o, tau = (v[k] for k in range(5))
+    one = 0 * x + 1
+    y, z = (v[Y], v[Z]) if len(v.x) > 5 else (x, one)
     c = (1 - tau * tau) / (1 + tau * tau)
     s2 = 4 * tau * tau / ((1 + tau * tau) * (1 + tau * tau))
-    q, t = (1 + o).inverse(), o / (1 + o)
+    t = o / (1 + o)
+    q = one / (1 + o)
     n = (x - 1) * (x - 1) + 2 * x * (1 - c) + eta * eta
     up, low = q * eta, t * eta
-    w0 = (2 + z * z / (up * up) + y * y / (low * low)).inverse()
-    w1 = (2 + up * up / (z * z) + low * low / (y * y)).inverse()
+    w0 = one / (2 + z * z / (up * up) + y * y / (low * low))
+    w1 = one / (2 + up * up / (z * z) + low * low / (y * y))
     stretch = 1 + up * up * u * u
     h2 = (t + q * x * c) * (t + q * x * c) + q * q * x * x * s2
     p = 1 - c * x + q * eta * eta * u * u
@@ -111,16 +70,15 @@ def logarithms(box):
 def excluded(ends, target, weights):
     """Whether no design of the box has a condition number below the target, by the weights of a combination."""
     middles = [math.sqrt(a) * math.sqrt(b) for a, b in ends]
-    box, point = [ball(a, b) for a, b in ends], [arb(m) for m in middles]
+    v = Form.coordinates(middles, ends, range(len(ends)))
+    v.x[:, 2:] *= v.x[:, 1:2]  # slopes along the logarithms
+    half = [
+        max((arb(b) / m).log().abs_upper(), (m / arb(a)).log().abs_upper())
+        for (a, b), m in zip(ends, middles, strict=True)
+    ]
     a, b = (arb(w) for w in weights[:2])
-    mix = (1 - a, -(1 - b), a, -b)
-    at_middle = sum((w * row.value for w, row in zip(mix, logarithms(point), strict=True)), arb(0))
-    slopes = logarithms(box)
-    for k, m in enumerate(middles):
-        slope = sum((w * row.along[k] for w, row in zip(mix, slopes, strict=True)), arb(0))
-        reach = max((box[k] / m).log().abs_upper(), (m / box[k]).log().abs_upper())
-        at_middle -= slope.abs_upper() * reach
-    return at_middle.lower() >= arb(target).log()
+    mix = sum(w * row for w, row in zip((1 - a, -(1 - b), a, -b), logarithms(v), strict=True))
+    return (mix - arb(target).log()).ends(np.array(half))[0] >= 0.0
 
 
 def closed(ends, target, weights, depth=15):
