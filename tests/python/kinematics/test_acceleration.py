@@ -31,11 +31,6 @@ def second_derivative(function, h):
     return (270 * pair[0] - 27 * pair[1] + 2 * pair[2] - 490 * function(0.0)) / (180 * h**2)
 
 
-def derivative(function, h):
-    pair = [function(k * h) - function(-k * h) for k in (1, 2, 3)]
-    return (45 * pair[0] - 9 * pair[1] + pair[2]) / (60 * h)
-
-
 @given(SEEDS)
 def test_inverse_acceleration_is_the_second_derivative_of_leg_lengths(seed):
     m, rng = random_robot(seed)

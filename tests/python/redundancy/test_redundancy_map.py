@@ -243,6 +243,3 @@ def test_a_grid_of_one_pose_and_an_empty_grid(published):
     none = nd.best_internal_map(published, np.empty((0, 4, 3)))
     assert none.value.shape == none.status.shape == (0, 4)
     assert none.audit == nd.MapAudit(0, 0, 0.0)
-
-
-# --- Arguments --------------------------------------------------------------------------------------------------------
