@@ -160,7 +160,11 @@ class Oracle:
         self.data, self.design, self.variables = data, data["design"], data["variables"]
         self.objective = data.get("objective", {})
         self.poses = listed_poses(self.objective)
-        self.meets = self.joints_that_meet()
+        base, platform = self.joints_that_meet()
+        apart = [(0, 1), (0, 2), (1, 2)]
+        apart += [(i, 3 + j) for i in range(3) for j in range(3) if not platform[i, j]]
+        apart += [(i, 6 + j) for i in range(3) for j in range(3) if not base[i, j]]
+        self.apart = np.array(apart)  # pairs of legs without a common joint
 
     def joints_that_meet(self):
         """For base and platform (3, 3): whether external joint i is internal joint j in every design of the study."""
@@ -217,12 +221,8 @@ class Oracle:
     def margins(self, names, x):
         """The smallest margin of each limit at x (len(names),)."""
         _, geometry, home, places = self.at(names, x)
-        base, platform = self.meets
-        apart = [(0, 1), (0, 2), (1, 2)]
-        apart += [(i, 3 + j) for i in range(3) for j in range(3) if not platform[i, j]]
-        apart += [(i, 6 + j) for i in range(3) for j in range(3) if not base[i, j]]
         poses = nd.Configuration(*(np.stack(part) for part in zip(*places, strict=True)))
-        case = Robot(nd.Geometry(*geometry), nd.Configuration(*home), poses, 1.0, np.array(apart))
+        case = Robot(nd.Geometry(*geometry), nd.Configuration(*home), poses, 1.0, self.apart)
         limits = limits_of(nd.Study.from_dict(self.data))
         return {limit.label: float(margins(limit, case).min()) for limit in limits}
 
