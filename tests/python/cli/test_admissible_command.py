@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import main
 
 STUDY = """
 [variables]
@@ -153,15 +152,11 @@ def test_more_threads_and_going_on_change_nothing_that_is_proved():
         nd.admissible(study, ranges, condition_number=9.0, resume=coarse)
 
 
-def test_the_designs_of_another_question_are_kept(tmp_path, capsys):
-    file = tmp_path / "paper.toml"
-    file.write_text(STUDY)
-    asked = ["admissible", str(file), "--vary", "a2=5.5:6.5", "--vary", "b1=2.5:3.5", "--time", "0.2"]
-    asked += ["--set", "zp=5", "--set", "zs=3", "--out"]
+def test_the_designs_of_another_question_are_kept(run, study, tmp_path):
+    line = f"admissible {study} --vary a2=5.5:6.5 --vary b1=2.5:3.5 --time 0.2 --set zp=5 --set zs=3"
     for bound in ("4", "5"):
-        with pytest.raises(SystemExit):
-            main([*asked, str(tmp_path / "sets"), "--condition", bound])
-    assert "the designs of another question are kept as" in capsys.readouterr().out
+        _, out, _ = run(f"{line} --out {tmp_path / 'sets'} --condition {bound}")
+    assert "the designs of another question are kept as" in out
     assert (tmp_path / "sets" / "admissible-a2-b1-earlier.npz").is_file()
     assert (tmp_path / "sets" / "admissible-a2-b1.npz").is_file()
 

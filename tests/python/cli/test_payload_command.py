@@ -1,14 +1,12 @@
 """`ninedof payload`, and what forces and paths take from a study with masses."""
 
 import json
-import shlex
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import main
 
 DUTY = {
     "loads": {"wrenches": [[0.0, 0.0, 0.0, 12.0, 0.0, 0.0]]},
@@ -34,18 +32,8 @@ def mass(folder):
     return nd.largest_payload(nd.load(folder), 60.0).mass
 
 
-@pytest.fixture
-def run(capsys):
-    def line(words):
-        with pytest.raises(SystemExit) as end:
-            main(shlex.split(words))
-        return end.value.code, capsys.readouterr().out
-
-    return line
-
-
 def test_the_payload(folder, mass, run):
-    status, out = run(f"payload {folder} --force 60 --json")
+    status, out, _ = run(f"payload {folder} --force 60 --json")
     assert status == 0
     data = json.loads(out)
     assert data["mass"] == pytest.approx(mass, rel=1e-12)
@@ -59,7 +47,7 @@ def test_the_payload(folder, mass, run):
     alone = " ".join(run(f"payload {folder} --force 60 --centre 0 0 1 --load '0 0 0 0 0 -5'")[1].split())
     assert "at (0, 0, 1) in the frame of the plate (--centre); gravity" in alone
     assert "force (0, 0, -5) and" in alone
-    status, out = run(f"payload {folder} --force 1")
+    status, out, _ = run(f"payload {folder} --force 1")
     assert status == 3
     assert "no payload" in out
 
@@ -79,7 +67,7 @@ def test_the_force_is_that_of_the_study_where_it_has_one(folder, mass, run, tmp_
     limited = replace(machine, study=replace(machine.study, constraints=limits))
     nd.save(limited, tmp_path / "limited")
     assert nd.largest_payload(limited).mass == pytest.approx(mass, rel=1e-12)
-    status, out = run(f"payload {tmp_path / 'limited'}")
+    status, out, _ = run(f"payload {tmp_path / 'limited'}")
     assert status == 0
     assert "from the study: force at most 60" in out
     assert "from the study" not in run(f"payload {tmp_path / 'limited'} --force 50")[1]
@@ -103,7 +91,7 @@ def test_forces_and_paths_have_the_masses_of_the_study(folder, run, tmp_path):
     data = json.loads(run(f"forces {folder} --json")[1])
     expected = nd.inverse_dynamics(machine.geometry, machine.configuration, masses=machine.study.masses, load=wrench)
     assert data["forces"][0][0] == pytest.approx(expected.forces.tolist(), abs=1e-9)
-    status, out = run(f"path {folder} --line 0.1 0 0.1 --points 51 --no-figures --json --out {tmp_path / 'along'}")
+    status, out, _ = run(f"path {folder} --line 0.1 0 0.1 --points 51 --no-figures --json --out {tmp_path / 'along'}")
     assert status == 0
     legs = json.loads(out)["motion"]["legs"]
     assert legs["r1"]["work"] > 0.0
@@ -119,7 +107,7 @@ def test_a_path_tells_the_forces_of_every_load_of_the_study(folder, run, tmp_pat
     study = replace(machine.study, loads={"wrenches": wrenches}, constraints={"force": {"max": 50.0}})
     nd.save(replace(machine, study=study), tmp_path / "two")
     line = "--line 0.1 0 0.1 --points 51"
-    status, out = run(f"path {tmp_path / 'two'} {line} --out {tmp_path / 'along'}")
+    status, out, _ = run(f"path {tmp_path / 'two'} {line} --out {tmp_path / 'along'}")
     assert "largest of 2 loads" in out
     assert "from the study: 2 loads of [loads], [masses]" in out
     motion = nd.load(tmp_path / "along")

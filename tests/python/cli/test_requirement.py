@@ -1,11 +1,8 @@
 """From a requirement to a machine in five commands, as docs/requirement.md has them, for a smaller machine."""
 
 import json
-import shlex
 
 import pytest
-
-from ninedof.cli.app import main
 
 MACHINE = """
 [design]
@@ -44,20 +41,18 @@ def folder(tmp_path_factory):
 
 
 @pytest.mark.slow
-def test_five_commands(folder, monkeypatch, capsys):
+def test_five_commands(run, folder, monkeypatch):
     monkeypatch.chdir(folder)
     monkeypatch.setenv("COLUMNS", "120")
     (folder / "machine.toml").write_text(MACHINE)
     printed, data = [], []
     for line in COMMANDS:
-        figures = [] if line.startswith(("sheet", "optimize")) else ["--out", line.split()[0]]
-        quick = ["--no-figures"] if line.startswith(("optimize", "pareto")) else []
-        with pytest.raises(SystemExit) as end:
-            main([*shlex.split(line), *figures, *quick, "--json"])
-        captured = capsys.readouterr()
-        assert end.value.code == 0, (line, captured.err)
-        printed.append(" ".join(captured.err.split()))
-        data.append(json.loads(captured.out))
+        figures = "" if line.startswith(("sheet", "optimize")) else f"--out {line.split()[0]}"
+        quick = "--no-figures" if line.startswith(("optimize", "pareto")) else ""
+        status, out, err = run(f"{line} {figures} {quick} --json")
+        assert status == 0, (line, err)
+        printed.append(" ".join(err.split()))
+        data.append(json.loads(out))
     optimum, sheet, path, reach, front = data
     best = optimum["optimization"]["candidates"][0]
     # the sheet agrees with the run
@@ -84,23 +79,21 @@ def test_five_commands(folder, monkeypatch, capsys):
     assert (folder / "workspace" / "workspace.png").exists()
 
 
-def test_a_run_without_a_limit_of_price_needs_against(folder, monkeypatch, capsys):
+def test_a_run_without_a_limit_of_price_needs_against(run, folder, monkeypatch):
     monkeypatch.chdir(folder)
     loose = MACHINE.replace("max = 1.217", "max = 2.0")
     (folder / "loose.toml").write_text(loose)
-    for line, status in (("optimize loose.toml --no-figures --out loose", 0), ("pareto loose --out front", 2)):
-        with pytest.raises(SystemExit) as end:
-            main(shlex.split(line))
-        assert end.value.code == status
-    assert "--against: got none" in capsys.readouterr().err
+    assert run("optimize loose.toml --no-figures --out loose")[0] == 0
+    status, _, err = run("pareto loose --out front")
+    assert status == 2
+    assert "--against: got none" in err
 
 
-def test_o_in_the_workspace_of_a_region(folder, monkeypatch, capsys):
+def test_o_in_the_workspace_of_a_region(run, folder, monkeypatch):
     monkeypatch.chdir(folder)
     if not (folder / "machine").exists():
         (folder / "machine.toml").write_text(MACHINE)
-        with pytest.raises(SystemExit):
-            main(shlex.split("optimize machine.toml --no-figures --out machine"))
+        run("optimize machine.toml --no-figures --out machine")
     quick = "--no-figures --resolution 4 --tolerance 0.2"
     for line, words in (
         (f"workspace machine {quick}", "of its frame; without turns as shifted"),
@@ -108,7 +101,4 @@ def test_o_in_the_workspace_of_a_region(folder, monkeypatch, capsys):
         (f"workspace machine --internal-point held {quick}", "O: held in the base, at (0, 0, "),
         (f"workspace machine --legs 100 900 {quick}", "limit: all legs 100 to 900"),
     ):
-        capsys.readouterr()
-        with pytest.raises(SystemExit):
-            main(shlex.split(line))
-        assert words in " ".join(capsys.readouterr().out.split())
+        assert words in " ".join(run(line)[1].split())

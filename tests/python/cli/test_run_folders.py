@@ -8,13 +8,6 @@ from pathlib import Path
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import main
-
-
-def ran(capsys, *arguments):
-    with pytest.raises(SystemExit) as end:
-        main(list(arguments))
-    return end.value.code, capsys.readouterr()
 
 
 def test_a_backend_of_matplotlib_that_is_not_there_does_not_matter(tmp_path):
@@ -38,15 +31,15 @@ def test_a_backend_of_matplotlib_that_is_not_there_does_not_matter(tmp_path):
         ("none/s.csv", "expected a file in a folder that exists"),
     ],
 )
-def test_a_file_that_cannot_be_written_is_told_before_the_work(tmp_path, capsys, monkeypatch, place, words):
+def test_a_file_that_cannot_be_written_is_told_before_the_work(run, tmp_path, place, words):
     (tmp_path / "folder.csv").mkdir()
     (tmp_path / "mine.csv").write_text("mine")
     before = sorted(tmp_path.iterdir())
     (tmp_path / "design.toml").write_text("")
-    code, said = ran(capsys, "sheet", str(tmp_path / "design.toml"), "--csv", str(tmp_path / place))
+    code, _, err = run(f"sheet {tmp_path / 'design.toml'} --csv {tmp_path / place}")
     assert code == 2
-    assert said.err.startswith(f"ninedof: --csv: got {tmp_path / place}, ")
-    assert words in said.err
+    assert err.startswith(f"ninedof: --csv: got {tmp_path / place}, ")
+    assert words in err
     (tmp_path / "design.toml").unlink()
     assert sorted(tmp_path.iterdir()) == before
     assert (tmp_path / "mine.csv").read_text() == "mine"

@@ -1,13 +1,9 @@
 """`ninedof optimize --time`: the best design so far, and an exit status that says whether it can be used."""
 
 import json
-import shlex
 from dataclasses import replace
 
-import pytest
-
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, exit_status
 
 STUDY = """
@@ -26,22 +22,18 @@ starts = 1
 """
 
 
-def run(line):
-    with pytest.raises(SystemExit) as end:
-        main(shlex.split(line))
-    return end.value.code
-
-
-def test_the_same_command_solves_what_the_time_ended(tmp_path, monkeypatch, capsys):
+def test_the_same_command_solves_what_the_time_ended(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "study.toml").write_text(STUDY)
     line = "optimize study.toml --no-figures --json --out run"
-    assert run(f"{line} --time 1e-9") in (DONE, NO_RESULT)  # by whether a start was quicker
-    ended = json.loads(capsys.readouterr().out)["optimization"]
+    status, out, _ = run(f"{line} --time 1e-9")
+    assert status in (DONE, NO_RESULT)  # by whether a start was quicker
+    ended = json.loads(out)["optimization"]
     assert (ended["status"], ended["interrupted"]) == ("stopped", False)
     assert not list((tmp_path / "run" / "pieces").iterdir())
-    assert run(f"{line} --time 600") == DONE
-    assert json.loads(capsys.readouterr().out)["optimization"]["status"] == "optimal"
+    status, out, _ = run(f"{line} --time 600")
+    assert status == DONE
+    assert json.loads(out)["optimization"]["status"] == "optimal"
     assert nd.load("run").status == nd.Status.OPTIMAL
 
 

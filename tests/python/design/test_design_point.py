@@ -1,8 +1,6 @@
-"""Single designs of studies: objective, condition numbers, margins and all gradients, for every family and option.
+"""Single designs of studies: objective, condition numbers and margins, for every family and option.
 
 Oracle: design_oracle, which rebuilds everything from the tables of the study file and shares no formula with the core.
-Gradients are compared with central differences, of the oracle's objective and of the core's margins, which the oracle
-confirms; the few places where a kink lies within a step are left out, and counted.
 """
 
 import itertools
@@ -192,9 +190,6 @@ def test_a_study_evaluates_as_its_problem(family):
     assert point.condition_number == max(point.conditions)
     assert_allclose(point.conditions, expected["conditions"], rtol=1e-8)
     assert point.margins == pytest.approx(margins, rel=1e-8, abs=1e-8)
-
-
-# --- Units ------------------------------------------------------------------------------------------------------------
 
 
 # --- Shared joints ----------------------------------------------------------------------------------------------------

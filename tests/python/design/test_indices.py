@@ -32,17 +32,11 @@ def test_an_added_index_is_swept(added, published):
     assert found["height"].tolist() == [3.0, 4.0]
 
 
-def test_an_added_index_is_evaluated(added, capsys):
-    from ninedof.cli.app import main
-
+def test_an_added_index_is_evaluated(added, run):
     assert indices(hexagonal_design(PUBLISHED, 2.0))["height"] == 1.9914
-    line = ["evaluate", *(part for name, value in PUBLISHED.items() for part in (f"--{name}", str(value)))]
-    with pytest.raises(SystemExit):
-        main(line)
-    assert "height of the platform" in capsys.readouterr().out
-    with pytest.raises(SystemExit):
-        main([*line, "--json"])
-    assert json.loads(capsys.readouterr().out)["height"] == 3.9828
+    line = " ".join(["evaluate", *(f"--{name} {value}" for name, value in PUBLISHED.items())])
+    assert "height of the platform" in run(line)[1]
+    assert json.loads(run(f"{line} --json")[1])["height"] == 3.9828
 
 
 def test_an_added_index_with_a_gradient_is_an_objective(added):

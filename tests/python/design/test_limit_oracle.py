@@ -12,10 +12,8 @@ from limit_oracle import (
     determinants,
     margins,
     measured,
-    rotation_vector,
 )
 from scipy.optimize import minimize
-from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
@@ -129,12 +127,6 @@ def test_determinants_change_sign_through_a_singularity():
     assert np.all(c > 0.0)
     assert least(r, "singularity_free", low=1e-3) < -0.01
     assert least(robot(), "singularity_free", low=1e-3) == pytest.approx(start.min() - 1e-3)
-
-
-def test_rotation_vectors_agree_with_scipy():
-    vectors = np.random.default_rng(1).uniform(-1.8, 1.8, size=(50, 3))  # shorter than pi
-    vectors[0] = 0.0
-    assert rotation_vector(Rotation.from_rotvec(vectors).as_matrix()) == pytest.approx(vectors, abs=1e-12)
 
 
 @pytest.mark.parametrize("name", ["radius_ratio", "leg_ratio", "height", "footprint", "stroke_ratio", "stroke"])

@@ -1,7 +1,6 @@
-"""Limits at the neutral pose alone, beside those at all poses: forms, values by hand, gradients.
+"""Limits at the neutral pose alone, beside those at all poses: forms, and values and gradients bit by bit.
 
-The values by hand come from the joints, the neutral configuration and numpy alone: nothing of the core's margins and
-nothing of limit_oracle.py but the distance of two segments, which test_limit_oracle.py holds against a search.
+What the values are is held against limit_oracle.py in test_design_point.py.
 """
 
 import copy
@@ -12,7 +11,6 @@ import numpy as np
 import pytest
 from design_oracle import is_angle
 from duty_oracle import DUTY
-from limit_oracle import between_segments
 from sizes import size
 
 import ninedof as nd
@@ -99,73 +97,6 @@ def cases():
 
 
 CASES = list(cases())
-
-
-# --- By hand ----------------------------------------------------------------------------------------------------------
-
-
-def hand(name, options, g, c):
-    """The limited values of a constraint at one configuration."""
-    zp = c.position[2]
-    base, platform = (np.vstack(pair) for pair in (
-        (g.base_external, g.base_internal), (g.platform_external, g.platform_internal)
-    ))  # fmt: skip
-    wide = [np.hypot(*body[:, :2].T).max() for body in (base, platform)]
-    moved = c.position + platform @ c.rotation.T
-    start = np.vstack([base[:3], moved[3:], base[3:]])
-    end = np.vstack([moved[:3], [c.internal_point] * 6])
-    along = end - start
-    lengths = np.linalg.norm(along, axis=1)
-    unit = {"zp": zp, "radius": max(wide)}.get(options.get("of"), 1.0)
-
-    def angles(legs):
-        axis = np.array(options["axis"]) / np.linalg.norm(options["axis"])
-        return np.arccos(np.clip(legs @ axis / np.linalg.norm(legs, axis=1), -1.0, 1.0))
-
-    def apart(body, size):
-        return [np.linalg.norm(a - b) / size for k, a in enumerate(body) for b in body[:k]]
-
-    def from_o(joints):
-        return [(x - c.internal_point) / np.linalg.norm(x - c.internal_point) for x in joints]
-
-    def determinants():
-        e = along / lengths[:, None]
-        turning = [np.cross(d, w) for d, w in zip(from_o(base[:3]), from_o(moved[:3]), strict=True)]
-        return [abs(np.linalg.det(rows)) for rows in (e[6:], e[3:6], np.array(turning))]
-
-    def locked():
-        e, zero, arm = along / lengths[:, None], np.zeros((3, 3)), moved - c.position
-        external, upper = np.cross(arm[:3], e[:3]), np.cross(arm[3:], e[3:6])
-        rates = np.block([[external, e[:3], zero], [-upper, -e[3:6], e[3:6]], [zero, zero, e[6:]]])
-        twists = np.linalg.inv(rates)[:6]  # of a characteristic length of 1
-        sigma = [np.linalg.svd(np.delete(twists, leg, axis=1), compute_uv=False) for leg in range(3, 9)]
-        return [one[0] / one[5] for one in sigma]
-
-    sizes = wide if options.get("of") == "radius" else (1.0, 1.0)
-    pairs = [(i, j) for i in range(3) for j in range(i + 1, 9)]
-    values = {
-        "radius_ratio": lambda: [wide[0] / wide[1]],
-        "leg_ratio": lambda: [lengths.max() / lengths.min()],
-        "zs_fraction": lambda: [c.internal_point[2] / zp],
-        "leg_length": lambda: lengths / unit,
-        "external_length": lambda: lengths[:3] / unit,
-        "upper_length": lambda: lengths[3:6] / unit,
-        "lower_length": lambda: lengths[6:] / unit,
-        "height": lambda: [zp],
-        "footprint": lambda: [wide[0]],
-        "joint_height": lambda: np.abs(np.concatenate([base[:, 2], platform[:, 2]])) / unit,
-        "joint_spacing": lambda: apart(base, sizes[0]) + apart(platform, sizes[1]),
-        "leg_clearance": lambda: [between_segments(start[i], end[i], start[j], end[j]) / unit for i, j in pairs],
-        "base_cone": lambda: angles(np.vstack([along[:3], along[6:]])),
-        "platform_cone": lambda: angles(np.vstack([-along[:3], along[3:6]]) @ c.rotation),
-        "base_cone_external": lambda: angles(along[:3]),
-        "base_cone_internal": lambda: angles(along[6:]),
-        "platform_cone_external": lambda: angles(-along[:3] @ c.rotation),
-        "platform_cone_internal": lambda: angles(along[3:6] @ c.rotation),
-        "singularity_free": determinants,
-        "fault_tolerant": locked,
-    }
-    return np.array(values[name]())
 
 
 def test_the_lists_name_every_constraint():

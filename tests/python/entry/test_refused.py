@@ -69,7 +69,7 @@ KINDS = {  # values that are refused, arguments that have the kind
     "side": ([INF, "1", None, 1j, 10**400], "a1 a2 b1 b2 zp zs theta_z"),
     "function": ([3, "x", True], "progress"),
 }
-OTHER_KINDS = {  # of one call: a row, what is refused, its arguments
+OTHER_KINDS = {  # of some calls: rows, what is refused, their arguments
     "triple": ("Geometry", NO_TRIPLES, "base_external base_internal platform_external platform_internal"),
     "triple on a line": ("Geometry", [np.diag([0, 0, 1.0])], "base_internal platform_internal"),
     "orbit": ("Geometry.symmetric", NO_ORBITS, "base_external base_internal platform_external platform_internal"),
@@ -77,11 +77,31 @@ OTHER_KINDS = {  # of one call: a row, what is refused, its arguments
     "leg lengths": ("forward_position", [-np.ones(9), np.zeros(9), np.full(9, NAN), np.full(9, 1e120)], "leg_lengths"),
     "leg lengths on the way": ("track", [-np.ones(9), np.full(9, 1e120)], "leg_lengths"),
     "configuration": ("track", [np.ones(15)], "start"),
-    "weights": ("internal_velocity", [0.0 * np.ones(9), -np.ones(9), np.full(9, NAN)], "weights"),
-    "limits": ("best_internal_point", [3.0, (3.0, 2.0), (np.ones(4), 2.0)], "limits"),
+    "weights": (
+        "internal_velocity, inverse_velocity: O chosen",
+        [np.where(np.arange(9) == 4, bad, 1.0) for bad in (0.0, -1.0, NAN, INF)] + [np.full(9, NAN)],
+        "weights",
+    ),
+    "limits": (
+        "best_internal_point, best_internal_map",
+        [3.0, (3.0, 2.0), (np.ones(4), 2.0), (np.ones((2, 9)), 3.0)],
+        "limits",
+    ),
+    "two lengths": (
+        "jacobian, velocity_matrices, jacobian_rate, axis_singular_values, condition_number, velocity_ellipsoid, "
+        "force_ellipsoid, best_internal_point, best_internal_map",
+        [[1.0, 2.0]],
+        "characteristic_length",
+    ),
+    "norm": ("condition_number", ["1", "fro", "", INF], "norm"),
+    "threads": ("condition_number", [0, 2**40], "threads"),
+    "kind": ("characteristic_length", ["", "mean leg", "OPTIMAL"], "kind"),
+    "part": ("velocity_ellipsoid, force_ellipsoid", ["translations", "", ["twist"]], "part"),
+    "tolerance of motions": ("uncontrolled_motions", [0.0, [1e-9, 1e-9]], "tolerance"),
     "side or height": ("Configuration.neutral", [1e200], "zp zs"),
     "place": ("Configuration", [[0.0, -2e100, 0.0], [[0.0, 0.0, 1.0], [0.0, -2e100, 0.0]]], "position internal_point"),
-    "start": ("best_internal_point", [[1.0, 2.0], np.zeros((2, 3)), "x"], "start"),
+    "start": ("best_internal_point, best_internal_map", [[1.0, 2.0], np.zeros((2, 3)), "x"], "start"),
+    "start of a path": ("best_internal_path", [np.zeros((5, 3))], "start"),
     "one configuration": ("self_stress", [it.stack()], "configuration"),
     "one configuration, moving": ("uncontrolled_motions", [it.stack()], "configuration"),
     "one configuration, erring": ("error_samples", [it.stack()], "configuration"),
@@ -109,7 +129,12 @@ EXCEPT = {  # rows and arguments where one of these values has a meaning, or ano
 }
 CASES = [
     *((row, argument, kind, bad) for kind, (bad, names) in KINDS.items() for argument in names.split() for row in ROWS),
-    *((row, argument, kind, bad) for kind, (row, bad, names) in OTHER_KINDS.items() for argument in names.split()),
+    *(
+        (row, argument, kind, bad)
+        for kind, (rows, bad, names) in OTHER_KINDS.items()
+        for row in rows.split(", ")
+        for argument in names.split()
+    ),
 ]
 CASES = [case for case in CASES if case[1] in ROWS[case[0]].arguments() and f"{case[0]} {case[1]}" not in EXCEPT]
 
@@ -315,3 +340,13 @@ def test_entries_apart(row, entries, words, tmp_path, monkeypatch):
     with bounded(), pytest.raises(ValueError, match=rf"(?s)^{words}") as refused:
         ROWS[row].call(**(ROWS[row].arguments() | entries))
     assert "\n" not in str(refused.value)
+
+
+def test_shapes_that_do_not_broadcast_are_named():
+    stack = it.c().moved(np.zeros((5, 9)))
+    motion = dict.fromkeys(("omega", "pdot", "sdot", "alpha", "pddot", "sddot"), np.zeros(3))
+    for name in motion:
+        with pytest.raises(ValueError, match=rf"leading dimensions do not broadcast.*{name} \(2,\)"):
+            nd.inverse_acceleration(it.g(), stack, **{**motion, name: np.ones((2, 3))})
+    with pytest.raises(ValueError, match="leading dimensions do not broadcast"):
+        nd.track(it.g(), np.ones((3, 9)), stack)

@@ -8,7 +8,6 @@ import pytest
 from written_designs import HEXAGON, PAPER, general, limited, text_of
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.export import csv as written
 
 DESIGNS = {"paper": PAPER, "hexagon": HEXAGON, "general": general(), "tiny": general(1, "ft", 1e-7)}
@@ -130,11 +129,10 @@ def test_files_that_cannot_be_read(tmp_path):
         nd.load(tmp_path / "picture.csv")
 
 
-def test_commands_take_such_a_file_as_design(tmp_path, capsys, monkeypatch):
+def test_commands_take_such_a_file_as_design(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "joints.csv").write_text(BY_HAND)
     for command in ("evaluate", "sheet"):
-        with pytest.raises(SystemExit) as end:
-            main([command, "joints.csv", "--json"])
-        assert end.value.code == 0
-        assert json.loads(capsys.readouterr().out)["unit"] == "mm"
+        status, out, _ = run(f"{command} joints.csv --json")
+        assert status == 0
+        assert json.loads(out)["unit"] == "mm"

@@ -10,7 +10,6 @@ from scipy.spatial.transform import Rotation
 from sizes import LONG
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.export.export import formats
 from ninedof.export.model import model_of
 
@@ -46,7 +45,7 @@ FORMAT = Format("toy", ".toy", "length of the first leg", text)
 """
 
 
-def test_a_new_format_is_one_module(tmp_path, monkeypatch, capsys):
+def test_a_new_format_is_one_module(run, tmp_path, monkeypatch):
     """Beside its test and its section of docs/exports.md, which test_page.py asks for."""
     (tmp_path / "toy_format.py").write_text(TOY)
     monkeypatch.setattr(room, "__path__", [*room.__path__, str(tmp_path)])
@@ -57,10 +56,9 @@ def test_a_new_format_is_one_module(tmp_path, monkeypatch, capsys):
         path = nd.export(design, "toy", tmp_path / "robot.toy", digits=2)
         assert path.read_text() == f"written by ninedof robot {first:.2f}"
         design_file = nd.save(design, tmp_path / "design.toml")
-        with pytest.raises(SystemExit) as ended:
-            main(["export", str(design_file), "--out", str(path)])
-        assert ended.value.code == 0
-        assert "length of the first leg" in capsys.readouterr().out
+        status, out, _ = run(f"export {design_file} --out {path}")
+        assert status == 0
+        assert "length of the first leg" in out
         assert path.read_text() == f"written by ninedof robot {first:.3f}"
     finally:
         formats.cache_clear()
@@ -117,13 +115,12 @@ def test_the_unit_of_a_candidate_must_be_said():
         assert model_of(design, unit="").unit == ""
 
 
-def test_a_suffix_of_another_format_is_refused(tmp_path, capsys):
+def test_a_suffix_of_another_format_is_refused(run, tmp_path):
     """Else MuJoCo would be given a file of SDFormat."""
     nd.export(exported.machine(), "csv", tmp_path / "j.csv")
-    with pytest.raises(SystemExit) as ended:
-        main(["export", str(tmp_path / "j.csv"), "--to", "sdf", "--out", str(tmp_path / "j.urdf")])
-    assert ended.value.code == 2
-    assert "with --to sdf, expected a file that ends in .sdf" in " ".join(capsys.readouterr().err.split())
+    status, _, err = run(f"export {tmp_path / 'j.csv'} --to sdf --out {tmp_path / 'j.urdf'}")
+    assert status == 2
+    assert "with --to sdf, expected a file that ends in .sdf" in " ".join(err.split())
     assert not (tmp_path / "j.urdf").exists()
 
 
@@ -135,11 +132,9 @@ def test_what_cannot_be_read_back_is_named(tmp_path):
         nd.load(tmp_path / "j.urdf")
 
 
-def test_a_design_is_not_overwritten(tmp_path, monkeypatch):
+def test_a_design_is_not_overwritten(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     nd.export(nd.optimize(nd.Study.paper(), starts=1), "csv", "joints.csv")
     before = (tmp_path / "joints.csv").read_bytes()
-    with pytest.raises(SystemExit) as ended:
-        main(["export", "joints.csv", "--to", "csv"])
-    assert ended.value.code == 2
+    assert run("export joints.csv --to csv")[0] == 2
     assert (tmp_path / "joints.csv").read_bytes() == before

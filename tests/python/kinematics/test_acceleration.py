@@ -9,7 +9,7 @@ import numpy_model as model
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
-from robots import random_robot
+from robots import regular
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
@@ -31,14 +31,9 @@ def second_derivative(function, h):
     return (270 * pair[0] - 27 * pair[1] + 2 * pair[2] - 490 * function(0.0)) / (180 * h**2)
 
 
-def derivative(function, h):
-    pair = [function(k * h) - function(-k * h) for k in (1, 2, 3)]
-    return (45 * pair[0] - 9 * pair[1] + pair[2]) / (60 * h)
-
-
 @given(SEEDS)
 def test_inverse_acceleration_is_the_second_derivative_of_leg_lengths(seed):
-    m, rng = random_robot(seed)
+    m, rng = regular(seed)
     motion = 0.5 * rng.normal(size=(6, 3))
     outcome = nd.inverse_acceleration(m.geometry(), m.configuration(), *motion)
     scale = 1.0 / model.lengths(m).min() ** 3

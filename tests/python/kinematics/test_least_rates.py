@@ -9,7 +9,7 @@ import numpy_model as model
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
-from robots import random_robot
+from robots import regular
 
 import ninedof as nd
 
@@ -28,7 +28,7 @@ def least(m, omega, pdot, weights=1.0):
 
 @given(SEEDS, st.floats(1.0, 1e3))
 def test_weighted_least_squares(seed, spread):
-    m, rng = random_robot(seed)
+    m, rng = regular(seed)
     g, c, (omega, pdot) = m.geometry(), m.configuration(), rng.normal(size=(2, 3))
     weights = spread ** rng.uniform(-1.0, 1.0, size=9)
     sdot = nd.internal_velocity(g, c, omega, pdot, weights)

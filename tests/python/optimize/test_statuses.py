@@ -43,14 +43,6 @@ def test_leg_ratio_makes_the_problem_bounded():
     assert far.condition_number == pytest.approx(near.condition_number, rel=1e-9)
 
 
-def test_value_at_sides_of_1e5():
-    """2.53645 in the theory note; heights ten times the sides do not bind."""
-    heights = (0.05, 1e6)
-    result = solve(dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, 1e5)) | {"zp": heights, "zs": heights})
-    assert result.condition_number == pytest.approx(2.53645, abs=5e-6)
-    assert result.status == "optimal"
-
-
 @pytest.mark.parametrize("limit", [30.0, 100.0, 1000.0])
 def test_no_optimum_lies_on_an_internal_bound(limit):
     """However the run treats open bounds inside: a wider study is never worse, and what is called active must exist."""
@@ -126,6 +118,7 @@ def test_infeasible(variables, constraints, causes):
 def test_causes_name_only_what_is_in_conflict():
     """No design has a longest leg of half its shortest: no bound of any variable has a part in that."""
     assert solve({}, {"leg_ratio": (None, 0.5)}).causes == ("leg_ratio",)
+    assert set(solve({}, {"zs_fraction": (1.0, None)}).causes) == {"zs_fraction", "zp > zs"}
     variables, constraints, causes = CONFLICTS["base too large"]
     pinned = {"zp": (3.0, 3.0 + 1e-9), "zs": (1.0, 1.0 + 1e-9)}  # on their bounds wherever they go, and innocent
     named = set(solve(variables | pinned, constraints).causes)
@@ -140,13 +133,6 @@ def test_internal_point_in_the_base_breaks_9b():
 
 
 # --- Nothing to look for ----------------------------------------------------------------------------------------------
-
-
-def test_one_free_variable():
-    result = solve(PUBLISHED | {"zs": (0.1, 3.9)})
-    assert result.status == "optimal"
-    assert result.condition_number == pytest.approx(3.9070664, abs=5e-7)
-    assert result.active == ()
 
 
 def test_sides_that_may_both_vanish_are_no_error():
@@ -165,12 +151,6 @@ def test_no_candidate_leaves_a_bound_however_large(high):
         for c in result.candidates:
             for name, (low, top) in variables.items():
                 assert low <= c.variables[name] <= top
-
-
-def test_zs_fraction_of_one_is_infeasible():
-    result = solve({}, {"zs_fraction": (1.0, None)})
-    assert result.status == "infeasible"
-    assert set(result.causes) == {"zs_fraction", "zp > zs"}
 
 
 def test_limits_of_the_box_that_named_nothing():

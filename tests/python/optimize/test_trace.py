@@ -1,11 +1,7 @@
-"""Single runs from chosen starts: the minimax form converges from every start, the plain one stops at kinks.
-
-Oracle: the proved least value. The shares (100 % and about three quarters) are those of the conditioning note.
-"""
+"""Single runs from chosen starts: the minimax form converges from each. Oracle: the proved least value."""
 
 import math
 
-import numpy as np
 import pytest
 
 import ninedof as nd
@@ -13,15 +9,6 @@ import ninedof as nd
 LEAST = 3.762659078596047
 STUDY = nd.Study.paper()
 START = {"a1": 1.0, "a2": 2.0, "b1": 3.0, "b2": 1.0, "zp": 3.0, "zs": 1.0}
-
-
-@pytest.fixture(scope="module")
-def starts():
-    rng = np.random.default_rng(42)
-    zp = rng.uniform(0.05, 80.0, size=200)
-    sides = rng.uniform(0.0, 60.0, size=(4, 200))
-    rows = zip(*sides, zp, rng.uniform(0.05, zp), strict=True)
-    return [dict(zip(START, map(float, row), strict=True)) for row in rows]
 
 
 def test_the_first_design_is_the_start():

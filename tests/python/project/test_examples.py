@@ -7,8 +7,6 @@ from pathlib import Path
 import pytest
 from sizes import size
 
-from ninedof.cli.app import main
-
 EXAMPLES = Path(__file__).parents[3] / "examples"
 STATUS = {
     "01_paper.toml": 0,
@@ -64,20 +62,18 @@ def test_no_example_is_left_out():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", STATUS)
-def test_study(name, tmp_path, capsys):
-    starts = size(FEW_STARTS.get(name, []), [])
-    with pytest.raises(SystemExit) as end:
-        main(["optimize", str(EXAMPLES / name), "--no-figures", "--json", "--out", str(tmp_path / "run"), *starts])
-    assert end.value.code == STATUS[name]
-    best = json.loads(capsys.readouterr().out)["optimization"]["candidates"][0]
+def test_study(name, run, tmp_path):
+    starts = " ".join(size(FEW_STARTS.get(name, []), []))
+    status, out, _ = run(f"optimize {EXAMPLES / name} --no-figures --json --out {tmp_path / 'run'} {starts}")
+    assert status == STATUS[name]
+    best = json.loads(out)["optimization"]["candidates"][0]
     assert best["objective"] <= AT_MOST.get(name, math.inf)
 
 
-def test_design(capsys):
-    with pytest.raises(SystemExit) as end:
-        main(["evaluate", str(EXAMPLES / "04_design.toml"), "--json"])
-    assert end.value.code == 0
-    assert json.loads(capsys.readouterr().out)["condition_number"] == pytest.approx(3.9070663, abs=5e-7)
+def test_design(run):
+    status, out, _ = run(f"evaluate {EXAMPLES / '04_design.toml'} --json")
+    assert status == 0
+    assert json.loads(out)["condition_number"] == pytest.approx(3.9070663, abs=5e-7)
 
 
 @pytest.mark.parametrize("name", SCRIPTS)

@@ -127,27 +127,21 @@ def test_a_guide_shows_what_its_example_prints(page):
     assert [line.rstrip() for line in printed.getvalue().splitlines()] == shown.splitlines()
 
 
-def test_the_paper_reread_has_the_rows_of_the_command(capsys):
-    from ninedof.cli.app import main
-
-    with pytest.raises(SystemExit) as end:
-        main(["paper", "--json"])
-    assert end.value.code == 0
+def test_the_paper_reread_has_the_rows_of_the_command(run):
+    status, out, _ = run("paper --json")
+    assert status == 0
     text = (DOCS / "paper.md").read_text(encoding="utf-8").replace("`", "")
-    for row in json.loads(capsys.readouterr().out):
+    for row in json.loads(out):
         assert f"| {row['where']} | {row['printed']} | {row['ours']} | {row['verdict']} |" in text
 
 
-def test_the_first_study_is_solved(tmp_path, capsys):
-    from ninedof.cli.app import main
-
+def test_the_first_study_is_solved(run, tmp_path):
     text = (DOCS / "first-design.md").read_text(encoding="utf-8")
     (study,) = re.findall(r"```toml\n(.*?)```", text, flags=re.DOTALL)
     (tmp_path / "mine.toml").write_text(study, encoding="utf-8")
-    with pytest.raises(SystemExit) as end:
-        main(["optimize", str(tmp_path / "mine.toml"), "--out", str(tmp_path / "mine"), "--no-figures"])
-    assert end.value.code == 0
-    assert "a2 (mm)" in capsys.readouterr().out
+    status, out, _ = run(f"optimize {tmp_path / 'mine.toml'} --out {tmp_path / 'mine'} --no-figures")
+    assert status == 0
+    assert "a2 (mm)" in out
 
 
 def test_the_python_of_the_first_design_runs(tmp_path, monkeypatch, capsys):

@@ -7,10 +7,11 @@ reach with the lengths of the drawing, by `error_samples`, which tracks poses an
 import numpy as np
 import numpy_model as model
 import pytest
-from proved_machine import LIMITS, REGIONS, VARIABLES, angles, apart, at_pose, proved, sampled
+from proved_machine import LIMITS, REGIONS, VARIABLES, apart, at_pose, proved, sampled
 from region_poses import disc
 from singular_robots import unit_rows
 from sizes import size
+from workspace_oracle import angles
 
 import ninedof as nd
 
@@ -48,9 +49,9 @@ def test_no_machine_within_tolerances_passes_what_is_proved(shape):
         assert read.max() / read.min() <= by_name["leg_ratio", "max"].value[1]
         determinants = np.linalg.det(np.stack(unit_rows(m))) * side[:, None].reshape(3, 1)
         assert determinants.min() >= by_name["no singularity", "min"].value[0]
-        assert angles(m, start, None, False, None).max() <= by_name["base_cone", "max"].value[1]
+        assert angles(m, False, home=start).max() <= by_name["base_cone", "max"].value[1]
         axis = np.array(LIMITS["platform_cone"]["axis"])
-        assert angles(m, start, None, True, axis).max() <= by_name["platform_cone", "max"].value[1]
+        assert angles(m, True, axis).max() <= by_name["platform_cone", "max"].value[1]
         first = m.at(slice(0, 3_000))
         assert model.condition_number(first, 150.0).max() <= certificate.condition[1]
         assert apart(first, rng).min() >= by_name["leg_clearance", "min"].value[0]
@@ -113,7 +114,7 @@ def test_what_is_violated_a_machine_within_tolerances_passes():
     assert before[1] < after[0] <= after[1]
 
     def largest(m):
-        return angles(m, start, None, False, None).max()
+        return angles(m, False, home=start).max()
 
     tight = 0.5 * (before[1] + after[0])  # that of the drawing keeps it
     *_, certificate = proved(

@@ -13,9 +13,10 @@ from pathlib import Path
 import numpy as np
 import numpy_model as model
 import pytest
-from proved_machine import LIMITS, REGIONS, VARIABLES, angles, apart, at_pose, proved, sampled, study
+from proved_machine import LIMITS, REGIONS, VARIABLES, apart, at_pose, proved, sampled, study
 from singular_robots import unit_rows
 from sizes import LONG, size
+from workspace_oracle import angles
 
 import ninedof as nd
 from ninedof import _core
@@ -49,10 +50,10 @@ def test_no_sampled_pose_of_a_proved_region_passes_what_is_proved(shape):
         side = np.sign(np.linalg.det(np.stack(unit_rows(start))))
         determinants = np.linalg.det(np.stack(unit_rows(m))) * side
         assert determinants.min() >= by_name["no singularity", "min"].value[0]
-        base = angles(m, start, None, False, None)
+        base = angles(m, False, home=start)
         assert base.max() <= by_name["base_cone", "max"].value[1]
         axis = np.array(LIMITS["platform_cone"]["axis"])
-        assert angles(m, start, None, True, axis).max() <= by_name["platform_cone", "max"].value[1]
+        assert angles(m, True, axis).max() <= by_name["platform_cone", "max"].value[1]
         assert apart(first, rng).min() >= by_name["leg_clearance", "min"].value[0]
         reached["condition"] = max(reached["condition"], condition.max())
         reached["longest"] = np.maximum(reached["longest"], lengths.max(axis=0))
@@ -66,7 +67,7 @@ def test_no_sampled_pose_of_a_proved_region_passes_what_is_proved(shape):
 
 PLANTED = {
     "leg_length": lambda m, start: model.lengths(m).max(),
-    "base_cone": lambda m, start: angles(m, start, None, False, None).max(),
+    "base_cone": lambda m, start: angles(m, False, home=start).max(),
     "stroke": None,
     "leg_clearance": None,
 }

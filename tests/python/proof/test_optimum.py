@@ -14,7 +14,6 @@ import pytest
 from sizes import LONG
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.proof.optimum_proof import FILE, OptimumProof
 from ninedof.report.proof import of_result as report_proof
 
@@ -127,43 +126,38 @@ def test_records_keep_the_proof_and_the_certificate(proved, tmp_path):
 
 
 @pytest.mark.slow
-def test_the_command_proves_and_checks(tmp_path, capsys):
+def test_the_command_proves_and_checks(run, tmp_path):
     study = tmp_path / "study.toml"
     study.write_text(
         "[constraints]\nradius_ratio = { max = 1.2 }\nleg_clearance = { min = 0.01 }\n[solver]\nstarts = 4\n"
     )
-    run = tmp_path / "run"
-    with pytest.raises(SystemExit) as ended:
-        main(["optimize", str(study), "--certify", "--no-figures", "--out", str(run)])
-    assert ended.value.code == 0
-    said = " ".join(capsys.readouterr().out.split())
+    folder = tmp_path / "run"
+    status, out, _ = run(f"optimize {study} --certify --no-figures --out {folder}")
+    assert status == 0
+    said = " ".join(out.split())
     assert "Proved: no machine of this class has a condition number below 4.09165066" in said
     assert "The proof does without leg_clearance" in said
     assert FILE in said
 
-    data = bytearray((run / FILE).read_bytes())
+    data = bytearray((folder / FILE).read_bytes())
     data[len(data) // 2] ^= 4
     (tmp_path / "damaged").write_bytes(data)
-    with pytest.raises(SystemExit) as ended:
-        main(["check", str(tmp_path / "damaged")])
-    assert ended.value.code == 1
-    assert "Refused: the checksum does not agree" in " ".join(capsys.readouterr().out.split())
-    with pytest.raises(SystemExit) as ended:
-        main(["check", str(tmp_path / "nothing")])
-    assert ended.value.code == 2
-    assert "expected a file that can be read" in capsys.readouterr().err
+    status, out, _ = run(f"check {tmp_path / 'damaged'}")
+    assert status == 1
+    assert "Refused: the checksum does not agree" in " ".join(out.split())
+    status, _, err = run(f"check {tmp_path / 'nothing'}")
+    assert status == 2
+    assert "expected a file that can be read" in err
 
 
-def test_a_small_certificate_is_checked(tmp_path, capsys):
+def test_a_small_certificate_is_checked(run, tmp_path):
     proof = nd.prove_optimum(PAPER, BEST, gap=0.3)
     path = proof.save(tmp_path / "small")
     found = nd.check_certificate(path)
     assert found.proved
     assert found.words.startswith("no design of this study has a condition number below 2.6338613550")
-    with pytest.raises(SystemExit) as ended:
-        main(["check", str(path)])
-    assert ended.value.code == 0
-    said = capsys.readouterr().out
+    status, said, _ = run(f"check {path}")
+    assert status == 0
     assert "study of the certificate:\n  hexagonal designs with 0 < zs < zp" in said
     assert "  a1 from 0 to 60\n" in said
     assert "  radius_ratio from 0 to 2\n" in said
@@ -186,16 +180,15 @@ def test_an_interrupted_proof_says_so():
     assert not nd.prove_optimum(PAPER, BEST, gap=0.3, progress=lambda *_: None).interrupted
 
 
-def test_an_interrupted_proof_ends_the_command_as_one(tmp_path, monkeypatch, capsys):
+def test_an_interrupted_proof_ends_the_command_as_one(run, tmp_path, monkeypatch):
     """The design found stays, with what is proved of it."""
     cut_short = nd.prove_optimum(PAPER, BEST, progress=interrupt)
     monkeypatch.setattr(import_module("ninedof.optimize.optimize"), "prove_optimum", lambda *_, **__: cut_short)
     study = tmp_path / "study.toml"
     study.write_text("[constraints]\nradius_ratio = { max = 2.0 }\n[solver]\nstarts = 2\n")
-    with pytest.raises(SystemExit) as ended:
-        main(["optimize", str(study), "--certify", "--no-figures", "--out", str(tmp_path / "run")])
-    assert ended.value.code == 130
-    assert "the search was interrupted before" in " ".join(capsys.readouterr().out.split())
+    status, out, _ = run(f"optimize {study} --certify --no-figures --out {tmp_path / 'run'}")
+    assert status == 130
+    assert "the search was interrupted before" in " ".join(out.split())
     assert nd.load(tmp_path / "run").proof.interrupted
     assert not (tmp_path / "run" / FILE).exists()
 
@@ -213,19 +206,17 @@ def test_reading_a_certificate_is_reported_and_can_be_interrupted(tmp_path):
         nd.check_certificate(path, progress=3)
 
 
-def test_what_is_no_certificate_is_said_in_a_line(tmp_path, capsys):
+def test_what_is_no_certificate_is_said_in_a_line(run, tmp_path):
     (tmp_path / "run").mkdir()
     for name, code, words in (
         ("run", 2, f"run: got a folder without {FILE}, expected that of `ninedof optimize --certify`"),
         ("note", 1, "Refused: this is no certificate"),
     ):
         (tmp_path / "note").write_text("nothing")
-        with pytest.raises(SystemExit) as ended:
-            main(["check", str(tmp_path / name)])
-        assert ended.value.code == code
-        said = capsys.readouterr()
-        assert words in " ".join((said.out + said.err).split())
-        assert "0 boxes" not in said.out
+        status, out, err = run(f"check {tmp_path / name}")
+        assert status == code
+        assert words in " ".join((out + err).split())
+        assert "0 boxes" not in out
 
 
 @pytest.mark.skipif(not LONG, reason="ten seconds: NINEDOF_LONG=1")

@@ -13,7 +13,6 @@ from region_poses import drawn
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.design.region_poses import Placing
 from ninedof.proof.point_rule import rule_of
 
@@ -94,7 +93,7 @@ def test_an_interrupted_fit_raises(at):
 
 
 @pytest.mark.slow
-def test_a_study_with_o_placed_is_certified_by_a_rule(tmp_path, capsys):
+def test_a_study_with_o_placed_is_certified_by_a_rule(run, tmp_path):
     study = nd.Study(
         constraints={"radius_ratio": (None, 2.0), "stroke_ratio": (None, 1.6)},
         objective={"region": {"box": [0.05, 0.05, 0.0], "unit": "zp", **BEST}},
@@ -102,11 +101,9 @@ def test_a_study_with_o_placed_is_certified_by_a_rule(tmp_path, capsys):
     )
     result = nd.optimize(study)
     nd.save(result, tmp_path / "run")
-    with pytest.raises(SystemExit) as end:
-        main(["certify", str(tmp_path / "run"), "--gap", "0.02"])
-    assert end.value.code == 0
-    said = " ".join(capsys.readouterr().out.split())
-    assert "O follows the rule stored in the certificate" in said
+    status, out, _ = run(f"certify {tmp_path / 'run'} --gap 0.02")
+    assert status == 0
+    assert "O follows the rule stored in the certificate" in " ".join(out.split())
     certificate = nd.load_certificate(tmp_path / "run")
     assert certificate.proved
     assert certificate.rule is not None
@@ -114,9 +111,7 @@ def test_a_study_with_o_placed_is_certified_by_a_rule(tmp_path, capsys):
     assert result.condition_number * (1.0 - 1e-5) <= certificate.condition[1]
     assert certificate.condition[0] <= result.condition_number * 1.02
     assert "O follows the rule" in nd.report(tmp_path / "run", tmp_path / "page.html").read_text()
-    with pytest.raises(SystemExit) as end:
-        main(["certify", str(tmp_path / "run"), "--time", "1"])
-    assert end.value.code == 0
+    assert run(f"certify {tmp_path / 'run'} --time 1")[0] == 0
     again = nd.load_certificate(tmp_path / "run")
     assert again.rule == certificate.rule
     assert again.condition[1] <= certificate.condition[1]

@@ -84,10 +84,13 @@ def test_damage_is_told(tmp_path, best, kind):
             read(file)
 
 
-@pytest.mark.parametrize("text", ["", "[1]", "{}", '{"format": "other"}', "not json", "\0"], ids=repr)
-def test_other_files_are_refused_by_name(tmp_path, text):
+OTHERS = [b"", b"[1]", b"{}", b'{"format": "other"}', b"not json", b"\0", b"PK\x03\x04", b"\x93NUMPY"]
+
+
+@pytest.mark.parametrize("contents", OTHERS, ids=repr)
+def test_other_files_are_refused_by_name(tmp_path, contents):
     for name, read in (("record.json", load_record), ("a.npz", nd.SweepResult.load)):
-        (tmp_path / name).write_text(text)
+        (tmp_path / name).write_bytes(contents)
         with pytest.raises(ValueError, match=name):
             read(tmp_path / name)
     for read in (load_record, nd.SweepResult.load):
@@ -96,6 +99,9 @@ def test_other_files_are_refused_by_name(tmp_path, text):
 
 
 def test_a_file_of_another_format_is_refused(tmp_path, best):
+    np.savez(tmp_path / "numbers.npz", a=np.zeros(3))
+    with pytest.raises(ValueError, match=r"numbers\.npz: got no"):
+        nd.SweepResult.load(tmp_path / "numbers.npz")
     (tmp_path / "a.json").write_bytes(json_bytes({"format": "other"}))
     with pytest.raises(ValueError, match="got another format than 'ninedof-record-4'"):
         load_record(tmp_path / "a.json")

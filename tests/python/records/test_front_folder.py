@@ -7,7 +7,6 @@ from dataclasses import replace
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.optimize.check import check
 from ninedof.pareto import Front, pareto, solving
 from ninedof.records.record import load_run as load
@@ -49,15 +48,14 @@ def test_a_front_without_designs_is_read_back(tmp_path):
 # --- The command ------------------------------------------------------------------------------------------------------
 
 
-def command(tmp_path, line):
-    with pytest.raises(SystemExit) as end:
-        main(["pareto", "--out", str(tmp_path / "run"), *line.split()])
-    return end.value.code
+@pytest.fixture
+def command(run, tmp_path):
+    return lambda line: run(f"pareto --out {tmp_path / 'run'} {line}")
 
 
-def test_the_command_prints_and_records(tmp_path, capsys):
-    assert command(tmp_path, "--value 1.5 --value 2") == 0
-    out = capsys.readouterr().out
+def test_the_command_prints_and_records(command, tmp_path):
+    status, out, _ = command("--value 1.5 --value 2")
+    assert status == 0
     for words in ("3.762659", "3.941177", "condition number against radius ratio", "front.png"[:5], "run folder"):
         assert words in out
     names = {path.name for path in (tmp_path / "run").iterdir()}
@@ -65,20 +63,22 @@ def test_the_command_prints_and_records(tmp_path, capsys):
     assert load(tmp_path / "run").limits == (1.5, 2.0)
 
 
-def test_the_command_prints_json(tmp_path, capsys):
-    assert command(tmp_path, "--value 1.5 --value 2 --json --no-figures") == 0
-    data = json.loads(capsys.readouterr().out)
+def test_the_command_prints_json(command, tmp_path):
+    status, out, _ = command("--value 1.5 --value 2 --json --no-figures")
+    assert status == 0
+    data = json.loads(out)
     assert [row["limit"] for row in data["front"]["rows"]] == [1.5, 2.0]
     assert data["record"].endswith("record.json")
     assert {path.name for path in (tmp_path / "run").iterdir()} == {"record.json", "question.json", "pieces"}
 
 
-def test_the_command_reports_an_infeasible_study(tmp_path, capsys):
-    assert command(tmp_path, "--against leg_ratio --value 0.5 --starts 16") == 3
-    assert "infeasible" in capsys.readouterr().out
+def test_the_command_reports_an_infeasible_study(command):
+    status, out, _ = command("--against leg_ratio --value 0.5 --starts 16")
+    assert status == 3
+    assert "infeasible" in out
 
 
-def test_the_command_continues_after_an_interruption(tmp_path, monkeypatch, capsys):
+def test_the_command_continues_after_an_interruption(command, tmp_path, monkeypatch):
     """The first time the second limit is cut short: what is solved is printed and kept, and drawn at the end."""
     calls = []
 
@@ -88,13 +88,14 @@ def test_the_command_continues_after_an_interruption(tmp_path, monkeypatch, caps
 
     monkeypatch.setattr(solving, "optimize", cut)
     line = "--value 1.5 --value 2"
-    assert command(tmp_path, line) == 130
-    words = " ".join(capsys.readouterr().out.split())
+    status, out, _ = command(line)
+    assert status == 130
+    words = " ".join(out.split())
     assert "interrupted: 1 limit is solved so far and kept in" in words
     assert "solved so far and kept in" in words
     assert not (tmp_path / "run" / "front.png").exists()
     assert load(tmp_path / "run").limits == (2.0,)
-    assert command(tmp_path, line) == 0
+    assert command(line)[0] == 0
     assert len(calls) == 5  # four, and the one that was cut short
     assert (tmp_path / "run" / "front.png").is_file()
     assert load(tmp_path / "run").limits == (1.5, 2.0)

@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 from sizes import size
 from workspace_oracle import robots
+from workspace_oracle import signs as signs_of
 
 import ninedof as nd
 
@@ -47,17 +48,13 @@ class Pose:
         return nd.best_internal_point(self.g, self.p, self.q, limits=limits, **more)
 
     def signs_and_values(self, s):
-        """Signs of det B, det C and det N, and the condition number where the limits hold, for s of shape (n, 3)."""
+        """Signs of det N, det B and det C, and the condition number where the limits hold, for s of shape (n, 3)."""
         m = robots(self.g, np.broadcast_to(self.p, s.shape), self.q, s)
-        _, b, c, _ = numpy_model.matrices(m)
-        x, _, _, u, _ = numpy_model.legs(m)
-        w = u + (m.p - m.s)[:, None]
-        signs = np.stack([np.sign(np.linalg.det(a)) for a in (b, c, np.cross(w - x, w))], axis=-1)
         lengths = np.linalg.norm(s[:, None] - self.joints, axis=-1)
         legal = ((lengths >= self.low) & (lengths <= self.high)).all(axis=1)
         values = np.full(len(s), np.inf)
         values[legal] = numpy_model.condition_number(m.at(np.flatnonzero(legal)))
-        return signs, values
+        return signs_of(m), values
 
     def values(self, s, signs):
         there, values = self.signs_and_values(s)

@@ -7,6 +7,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 from sizes import size
+from workspace_oracle import robots
+from workspace_oracle import signs as signs_of
 
 import ninedof as nd
 
@@ -24,24 +26,10 @@ def random_case(rng, hexagonal):
 
 
 def signs_and_values(g, p, q, s):
-    """Signs of det B, det C and det N, and the condition number, by plain numpy for points s, shape (n, 3)."""
-    n = len(s)
-    m = numpy_model.Robot(
-        *(
-            np.broadcast_to(t, (n, 3, 3))
-            for t in (g.base_external, g.base_internal, g.platform_external, g.platform_internal)
-        ),
-        np.broadcast_to(p, (n, 3)),
-        np.broadcast_to(q, (n, 3, 3)),
-        s,
-    )
-    _, b, c, _ = numpy_model.matrices(m)
-    x, _, _, u, _ = numpy_model.legs(m)
-    w = u + (m.p - m.s)[:, None]
-    d = w - x
-    signs = [np.sign(np.linalg.det(a)) for a in (b, c, np.cross(d, w))]
+    """Signs of det N, det B and det C, and the condition number, by plain numpy for points s, shape (n, 3)."""
+    m = robots(g, np.broadcast_to(p, s.shape), q, s)
     with np.errstate(all="ignore"):
-        return np.stack(signs, axis=-1), numpy_model.condition_number(m)
+        return signs_of(m), numpy_model.condition_number(m)
 
 
 def penalised(x, g, p, q, signs):
@@ -277,9 +265,6 @@ def test_no_point_of_a_grid_is_better_with_limits():
             ).all()
         compared += 1
     assert compared > size(15, 300)
-
-
-# --- Arguments --------------------------------------------------------------------------------------------------------
 
 
 def test_a_symmetric_machine_does_not_flicker_along_z():

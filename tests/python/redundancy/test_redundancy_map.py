@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.spatial.transform import Rotation
 from sizes import size
 from workspace_oracle import robots as robots_at
+from workspace_oracle import signs
 
 import ninedof as nd
 
@@ -68,21 +69,13 @@ def test_no_point_of_a_fine_grid_is_better(published):
             np.broadcast_to(best.configuration.rotation[k], (*box.shape, 3)),
             np.zeros(box.shape),
         )
-        signs = [dets(robots(published, where, s + t * (box - s))) for t in np.linspace(0.0, 1.0, size(20, 30))]
-        same_chamber = np.all([np.sign(x) == np.sign(signs[0]) for x in signs], axis=(0, 2))
+        way = [signs(robots(published, where, s + t * (box - s))) for t in np.linspace(0.0, 1.0, size(20, 30))]
+        same_chamber = np.all([x == way[0] for x in way], axis=(0, 2))
         with np.errstate(all="ignore"):
             values = numpy_model.condition_number(robots(published, where, box))
         assert same_chamber.sum() > 1000
         assert values[same_chamber].min() >= best.value[k] * (1.0 - 1e-9)
         assert values[same_chamber].min() <= best.value[k] * 1.05  # the box is about O
-
-
-def dets(m):
-    """Determinants of B, C and N (rows d_i x w_i)."""
-    _, b, c, _ = numpy_model.matrices(m)
-    x, _, _, u, _ = numpy_model.legs(m)
-    w = u + (m.p - m.s)[:, None]
-    return np.stack([np.linalg.det(a) for a in (b, c, np.cross(w - x, w))], axis=-1)
 
 
 def test_value_is_that_of_the_configuration(published):
@@ -243,6 +236,3 @@ def test_a_grid_of_one_pose_and_an_empty_grid(published):
     none = nd.best_internal_map(published, np.empty((0, 4, 3)))
     assert none.value.shape == none.status.shape == (0, 4)
     assert none.audit == nd.MapAudit(0, 0, 0.0)
-
-
-# --- Arguments --------------------------------------------------------------------------------------------------------

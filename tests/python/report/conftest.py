@@ -1,5 +1,6 @@
 """One region study, its run folder and its page, solved and written once; the sheet of a design is computed once."""
 
+import chromium
 import pytest
 
 import ninedof as nd
@@ -49,3 +50,12 @@ def folder(result, tmp_path_factory):
 @pytest.fixture(scope="module")
 def page(folder, _sheets_are_computed_once):
     return nd.report(folder)
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    pytest.importorskip("websockets", reason="needs websockets, of the extra viewer")
+    profile = tmp_path_factory.mktemp("chromium") / "profile"
+    with chromium.page("about:blank", profile, options=chromium.FLAT) as opened:
+        opened.listen()
+        yield opened

@@ -189,15 +189,6 @@ USED = """(async () => {
 PICTURES = "[...document.images].filter((one) => !one.complete || !one.naturalWidth).length"
 
 
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    pytest.importorskip("websockets", reason="needs websockets, of the extra viewer")
-    profile = tmp_path_factory.mktemp("chromium") / "profile"
-    with chromium.page("about:blank", profile, options=chromium.FLAT) as opened:
-        opened.listen()
-        yield opened
-
-
 @needs_chromium
 def test_every_control_works_under_the_policy(browser, page, tmp_path):
     """Of the page of an optimization, with a drawing that has a style of its own, as matplotlib writes it."""

@@ -35,15 +35,6 @@ BROKEN = "[...document.querySelectorAll('tr')].filter((r) => getComputedStyle(r)
 
 
 @pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    pytest.importorskip("websockets", reason="needs websockets, of the extra viewer")
-    profile = tmp_path_factory.mktemp("chromium") / "profile"
-    with chromium.page("about:blank", profile, options=chromium.FLAT) as opened:
-        opened.listen()
-        yield opened
-
-
-@pytest.fixture(scope="module")
 def pages(page, tmp_path_factory):
     """The pages of an optimization, a front and a workspace."""
     place = tmp_path_factory.mktemp("pages")

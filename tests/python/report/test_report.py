@@ -256,17 +256,14 @@ def reach():
     return nd.workspace(g, box, criteria={"leg_limits": (2.5, 6.5)}, home=home, tolerance=0.1)
 
 
-def test_a_job_ends_with_its_report(tmp_path, capsys):
+def test_a_job_ends_with_its_report(run, tmp_path):
     place = tmp_path / "reach"
     options = "--legs 2.5 6.5 --tolerance 0.05 --no-figures --out"
-    with pytest.raises(SystemExit) as ended:
-        main(["workspace", *options.split(), str(place)])
-    assert ended.value.code == 0
+    assert run(f"workspace {options} {place}")[0] == 0
     assert not (place / "report.html").exists()
-    with pytest.raises(SystemExit) as ended:
-        main(["report", str(place)])
-    assert ended.value.code == 0
-    assert "report.html" in capsys.readouterr().out.replace("\n", "")  # a long path is folded
+    status, out, _ = run(f"report {place}")
+    assert status == 0
+    assert "report.html" in out.replace("\n", "")  # a long path is folded
     text, _, words = read(place / "report.html")
     record = nd.load(place)
     assert f"{record.volume:.6g}" in words
@@ -290,11 +287,10 @@ def test_a_workspace_that_was_saved_has_no_question_and_no_machine(tmp_path, rea
     assert "Proved: " not in words
 
 
-def test_an_orientation_workspace_is_shown_in_degrees(tmp_path):
+def test_an_orientation_workspace_is_shown_in_degrees(run, tmp_path):
     place = tmp_path / "turns"
     options = "--archetype orientation --angle-deg 60 --legs 1.5 6.5 --tolerance 0.1 --no-figures --out"
-    with pytest.raises(SystemExit):
-        main(["workspace", *options.split(), str(place)])
+    run(f"workspace {options} {place}")
     _, _, words = read(nd.report(place))
     found = nd.load(place)
     words = " ".join(words.split())
@@ -306,12 +302,11 @@ def test_an_orientation_workspace_is_shown_in_degrees(tmp_path):
     assert "(rad)" not in words
 
 
-def test_optimize_writes_its_report_and_lists_it(tmp_path):
+def test_optimize_writes_its_report_and_lists_it(run, tmp_path):
     study = tmp_path / "study.toml"
     study.write_text("[constraints]\nradius_ratio = { max = 2.0 }\nheight = { max = 0.001 }\n[solver]\nstarts = 4\n")
-    for name, more in (("with", []), ("without", ["--no-report"])):
-        with pytest.raises(SystemExit):
-            main(["optimize", str(study), "--out", str(tmp_path / name), *more])
+    for name, more in (("with", ""), ("without", "--no-report")):
+        run(f"optimize {study} --out {tmp_path / name} {more}")
         listed = json.loads((tmp_path / name / "record.json").read_text())["files"]
         assert ("report.html" in listed) == (name == "with") == (tmp_path / name / "report.html").is_file()
 
@@ -336,7 +331,7 @@ def test_the_page_shows_the_command_that_made_the_run(command):
         (ZeroDivisionError("division"), "ZeroDivisionError('division')"),
     ],
 )
-def test_a_report_that_fails_does_not_fail_the_job(tmp_path, monkeypatch, capsys, error, said):
+def test_a_report_that_fails_does_not_fail_the_job(run, tmp_path, monkeypatch, error, said):
     def fails(folder):
         raise error
 
@@ -347,10 +342,9 @@ def test_a_report_that_fails_does_not_fail_the_job(tmp_path, monkeypatch, capsys
     monkeypatch.setattr("ninedof.cli.answer.report", fails)
     monkeypatch.setattr("ninedof.cli.commands.pareto._draw", lambda front, screen, folder: drawn(folder))
     place = tmp_path / "run"
-    with pytest.raises(SystemExit) as ended:
-        main(["pareto", "--against", "radius_ratio", "--value", "2", "--starts", "2", "--out", str(place)])
-    assert ended.value.code == 0
-    assert f"the report could not be written: {said}\n" in capsys.readouterr().out
+    status, out, _ = run(f"pareto --against radius_ratio --value 2 --starts 2 --out {place}")
+    assert status == 0
+    assert f"the report could not be written: {said}\n" in out
     assert json.loads((place / "record.json").read_text())["files"] == ["front.svg"]
     assert not (place / "report.html").exists()
     assert len(nd.load(place)) == 1
@@ -369,11 +363,10 @@ def test_the_page_of_an_interrupted_run_does_not_outlive_it(tmp_path, monkeypatc
     assert not (tmp_path / "report.html").exists()
 
 
-def test_the_command_names_its_option(folder, capsys):
-    with pytest.raises(SystemExit) as ended:
-        main(["report", str(folder), "--out", str(folder / "none" / "it.html")])
-    assert ended.value.code == 2
-    assert "--out: got" in capsys.readouterr().err
+def test_the_command_names_its_option(run, folder):
+    status, _, err = run(f"report {folder} --out {folder / 'none' / 'it.html'}")
+    assert status == 2
+    assert "--out: got" in err
 
 
 @pytest.mark.parametrize(

@@ -55,13 +55,6 @@ def test_hexagonal_is_one_case_of_symmetric():
         assert_allclose(getattr(g, name), getattr(h, name), rtol=0.0, atol=1e-14)
 
 
-# --- Validation: the message names the argument, the value received and the value expected ----------------------------
-
-
-def message(argument):
-    return rf"(?s)^{argument}: got .+, expected .+"
-
-
 # --- Value semantics --------------------------------------------------------------------------------------------------
 
 

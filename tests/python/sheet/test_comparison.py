@@ -8,14 +8,13 @@ import pytest
 
 import ninedof as nd
 from ninedof import plot
-from ninedof.cli.app import main
 
 LIMITS = {"leg_ratio": (None, 3.0), "stroke_ratio": (None, 1.3)}
 REGION = {"region": {"box": [0.3, 0.3, 0.2], "tilt_deg": 5.0}}
 
 
 @pytest.fixture(scope="module")
-def run():
+def machine():
     variables = {"a1": 0.0, "a2": (1.0, 6.0), "b1": (1.0, 3.0), "b2": 0.0, "zp": (2.0, 5.0), "zs": (0.5, 4.0)}
     study = nd.Study(variables=variables | {"theta_z": 0.0}, constraints=LIMITS, objective=REGION, unit="mm", starts=4,
                      characteristic_length=1.0)  # fmt: skip
@@ -23,20 +22,23 @@ def run():
 
 
 @pytest.fixture(scope="module")
-def changed(run):
-    return run.with_changes(b1="+10%")
+def changed(machine):
+    return machine.with_changes(b1="+10%")
 
 
 @pytest.fixture(scope="module")
-def compared(run, changed):
-    return nd.compare(run, changed)
+def compared(machine, changed):
+    return nd.compare(machine, changed)
 
 
-def test_the_worst_of_a_change_is_never_passed_at_sampled_poses_and_is_attained(run, changed, compared):
+def test_the_worst_of_a_change_is_never_passed_at_sampled_poses_and_is_attained(machine, changed, compared):
     worst = compared.numbers["worst condition number"][1]
     # An evaluation of its own: p in the box, tilts about horizontal axes, O shifted with p.
     rng = np.random.default_rng(5)
-    home, g = changed.configuration, nd.Geometry.hexagonal(0.0, changed.variables["a2"], 1.1 * run.variables["b1"], 0.0)
+    home, g = (
+        changed.configuration,
+        nd.Geometry.hexagonal(0.0, changed.variables["a2"], 1.1 * machine.variables["b1"], 0.0),
+    )
     corners = np.array(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3)).reshape(3, -1).T
     shifts = np.vstack([rng.uniform(-1.0, 1.0, (4000, 3)), np.repeat(corners, 200, axis=0)]) * [0.3, 0.3, 0.2]
     angle, about = np.radians(5.0) * np.sqrt(rng.random(len(shifts))), rng.uniform(0.0, 2.0 * np.pi, len(shifts))
@@ -51,32 +53,32 @@ def test_the_worst_of_a_change_is_never_passed_at_sampled_poses_and_is_attained(
     assert sampled.max() >= worst * (1.0 - 2e-3)
 
 
-def test_the_limits_that_a_change_breaks_are_named(run):
-    both = nd.compare(run, run.with_changes(a2="+10%"), names=("run", "changed"))
+def test_the_limits_that_a_change_breaks_are_named(machine):
+    both = nd.compare(machine, machine.with_changes(a2="+10%"), names=("run", "changed"))
     assert both.broken[0] == ()
     assert "leg_ratio max" in both.broken[1]
     assert "changed breaks" in str(both)
 
 
-def test_values_outside_of_the_bounds_of_their_study_are_named(run):
-    changed = run.with_changes(a2=6.5, b1=2.0, theta_z_deg=10.0)
-    both = nd.compare(run, changed, names=("run", "changed"))
+def test_values_outside_of_the_bounds_of_their_study_are_named(machine):
+    changed = machine.with_changes(a2=6.5, b1=2.0, theta_z_deg=10.0)
+    both = nd.compare(machine, changed, names=("run", "changed"))
     assert both.outside == ({}, {"a2": (6.5, 1.0, 6.0), "theta_z": (pytest.approx(np.radians(10.0)), 0.0, 0.0)})
     words = "changed is outside of the bounds of its study: a2 = 6.5 mm (1 to 6), theta_z = 10° (fixed at 0)"
     assert words in str(both)
     assert both.to_dict()["outside"][1]["a2"] == (6.5, 1.0, 6.0)
 
 
-def test_a_change_of_nothing_changes_nothing_and_what_differs_in_the_studies(run):
-    same = run.with_changes(b1=run.variables["b1"])
+def test_a_change_of_nothing_changes_nothing_and_what_differs_in_the_studies(machine):
+    same = machine.with_changes(b1=machine.variables["b1"])
     other = replace(same, study=replace(same.study, constraints=LIMITS | {"leg_ratio": (None, 2.9)}))
-    both = nd.compare(run, other)
+    both = nd.compare(machine, other)
     assert all(one == pytest.approx(other, rel=1e-9) for one, other in both.numbers.values())
     assert both.differences == {"constraints.leg_ratio.max": (3.0, 2.9)}
     assert "outside" not in str(both)
 
 
-def test_changes_that_do_not_fit_are_refused(run):
+def test_changes_that_do_not_fit_are_refused(machine):
     for changes, words in (
         ({"b1": -1.0}, "b1: got -1"),
         ({"radius": 1.0}, "expected one of a1, a2"),
@@ -89,14 +91,14 @@ def test_changes_that_do_not_fit_are_refused(run):
         ({"theta_z": 30.0}, "theta_z: got 30 rad, expected at most a turn, or theta_z_deg"),
     ):
         with pytest.raises(ValueError, match=words):
-            run.with_changes(**changes)
+            machine.with_changes(**changes)
 
 
-def test_lengths_are_in_the_unit_of_the_first_and_all_have_one(run):
-    design = nd.Design(run.geometry, run.configuration, 1.0, "mm")
+def test_lengths_are_in_the_unit_of_the_first_and_all_have_one(machine):
+    design = nd.Design(machine.geometry, machine.configuration, 1.0, "mm")
     metres = nd.Design(
-        nd.Geometry.hexagonal(0.0, run.variables["a2"] / 1e3, run.variables["b1"] / 1e3, 0.0),
-        nd.Configuration.neutral(run.variables["zp"] / 1e3, run.variables["zs"] / 1e3),
+        nd.Geometry.hexagonal(0.0, machine.variables["a2"] / 1e3, machine.variables["b1"] / 1e3, 0.0),
+        nd.Configuration.neutral(machine.variables["zp"] / 1e3, machine.variables["zs"] / 1e3),
         1e-3,
         "m",
     )
@@ -107,25 +109,18 @@ def test_lengths_are_in_the_unit_of_the_first_and_all_have_one(run):
         nd.compare(design, design._replace(unit=""))
 
 
-def test_both_commands_fit_on_80_columns_and_draw(run, tmp_path, capsys, monkeypatch):
+def test_both_commands_fit_on_80_columns_and_draw(machine, run, tmp_path, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
-    nd.save(run, tmp_path / "run")
+    nd.save(machine, tmp_path / "run")
     name, picture = str(tmp_path / "run"), tmp_path / "plates.png"
-    neutral = str(nd.save(nd.Design(run.geometry, run.configuration, 1.0, "mm"), tmp_path / "neutral.toml"))
-    for words in (
-        ["evaluate", name, "--set", "b1=+10%", "--plot", str(picture)],
-        ["compare", name, neutral, neutral],
-    ):
-        with pytest.raises(SystemExit) as end:
-            main(words)
-        lines = capsys.readouterr().out.splitlines()
-        assert end.value.code == 0
-        assert max(len(line) for line in lines if str(tmp_path) not in line) <= 80
+    neutral = str(nd.save(nd.Design(machine.geometry, machine.configuration, 1.0, "mm"), tmp_path / "neutral.toml"))
+    for line in (f"evaluate {name} --set b1=+10% --plot {picture}", f"compare {name} {neutral} {neutral}"):
+        status, out, _ = run(line)
+        assert status == 0
+        assert max(len(line) for line in out.splitlines() if str(tmp_path) not in line) <= 80
     assert picture.read_bytes().startswith(b"\x89PNG")
-    with pytest.raises(SystemExit):
-        main(["evaluate", name, "--set", "b1=+10%", "--json"])
-    data = json.loads(capsys.readouterr().out)
-    assert data["numbers"]["b1"][1] == pytest.approx(1.1 * run.variables["b1"])
+    data = json.loads(run(f"evaluate {name} --set b1=+10% --json")[1])
+    assert data["numbers"]["b1"][1] == pytest.approx(1.1 * machine.variables["b1"])
 
 
 def test_plates_are_in_one_scale(compared):

@@ -9,14 +9,13 @@ import numpy as np
 import numpy_model as model
 import pytest
 from limit_oracle import limits_of, measured, robot_of
-from robots import rates
+from robots import rates, robots_at_poses
 from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.cli.app import main
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.posed import PoseOptions
 from ninedof.design.limit_numbers import PARTS, apart
@@ -27,18 +26,6 @@ from ninedof.sheet.sheet import Extreme
 from ninedof.sheet.tables import sheet_parts
 
 LEGS = [f"{kind}{i}" for kind in "lqr" for i in (1, 2, 3)]
-
-
-def robots_at_poses(seed, poses=5):
-    """A random geometry at poses near a first one, the numpy models of all of them, and the generator."""
-    rng = np.random.default_rng(seed)
-    robots = model.random_robots(rng, 8)
-    m = robots.at(int(np.argmin(model.condition_number(robots))))
-    turns = Rotation.from_rotvec(np.vstack([np.zeros(3), 0.1 * rng.normal(size=(poses - 1, 3))])).as_matrix()
-    shift = np.vstack([np.zeros(6), 0.1 * rng.normal(size=(poses - 1, 6))])
-    c = nd.Configuration(m.p + shift[:, :3], turns @ m.Q, m.s + shift[:, 3:])
-    g = m.geometry()
-    return g, c, [model.robot(g, c[k]) for k in range(poses)], rng
 
 
 def ends(m):
@@ -59,7 +46,8 @@ def turned(x, y):
 
 @pytest.mark.parametrize("seed", range(size(6, 100)))
 def test_every_number_of_random_robots(seed):
-    g, c, models, rng = robots_at_poses(seed)
+    g, c, rng = robots_at_poses(seed)
+    models = [model.robot(g, pose) for pose in c]
     load, v, w = rng.normal(size=(2, 6)), 1.7, 0.6
     k = rng.uniform(1.0, 3.0, size=9)
     found = nd.sheet(
@@ -122,7 +110,8 @@ def test_every_number_of_random_robots(seed):
 
 @pytest.mark.parametrize("internal", ["held", "carried"])
 def test_leg_speeds_with_o_held_and_carried(internal):
-    g, c, models, _ = robots_at_poses(11)
+    g, c, _ = robots_at_poses(11)
+    models = [model.robot(g, pose) for pose in c]
     found = nd.sheet(g, c, linear_speed=2.0, angular_speed=0.5, internal=internal)
     worst = []
     for m in models:
@@ -136,12 +125,12 @@ def test_leg_speeds_with_o_held_and_carried(internal):
 
 @pytest.mark.parametrize(("internal", "words"), [("shifted", "shift with O"), ("held", "shift, O at rest")])
 def test_the_nearest_singularity_says_whether_o_moves_with_the_platform(internal, words):
-    g, c, _, _ = robots_at_poses(2)
+    g, c, _ = robots_at_poses(2)
     assert f"nearest singularity: {words} " in nd.sheet(g, c, internal=internal).summary()
 
 
 def test_the_rule_of_o_is_that_of_the_poses():
-    g, c, _, _ = robots_at_poses(3)
+    g, c, _ = robots_at_poses(3)
     o = np.broadcast_to(c.internal_point[0], (5, 3))
     rest = nd.sheet(g, nd.Configuration(c.position, c.rotation, o))
     assert rest.motion.internal == "held"
@@ -261,7 +250,7 @@ def test_the_sheet_of_a_result_has_the_limits():
 
 
 def test_csv_and_plain_values_are_in_degrees():
-    g, c, _, _ = robots_at_poses(2)
+    g, c, _ = robots_at_poses(2)
     found = nd.sheet(g, c, loads=[0, 0, 0, 0, 0, -1], angular_speed=np.pi, joint_errors=1e-3)
     rows = list(csv.DictReader(io.StringIO(found.to_csv())))
     plain = found.to_dict()
@@ -279,7 +268,7 @@ def test_csv_and_plain_values_are_in_degrees():
     assert np.allclose(placed, c.position[0] + c.rotation[0] @ g.platform_internal[1])
 
 
-def test_poses_are_said_as_they_are_typed_and_numbered_once(capsys, tmp_path):
+def test_poses_are_said_as_they_are_typed_and_numbered_once(run, tmp_path):
     """What terminal, page and JSON say of a pose, given to a command, is that pose; turns about other axes differ."""
     rng = np.random.default_rng(7)
     poses = [
@@ -289,8 +278,8 @@ def test_poses_are_said_as_they_are_typed_and_numbered_once(capsys, tmp_path):
     poses += [{"rotation_deg": turn} for turn in ([9.0, 0.0, 0.0], [0.0, 9.0, 0.0])]
     study = nd.Study(variables={"theta_z": 0.2}, constraints={"radius_ratio": (None, 2.0)}, objective={"poses": poses})
     result = nd.optimize(study, starts=2)
-    run = nd.save(result, tmp_path / "run")
-    found, chosen = nd.sheet(result), named_design(str(run))
+    kept = nd.save(result, tmp_path / "run")
+    found, chosen = nd.sheet(result), named_design(str(kept))
     said = [pose_words(c, found.configurations.rotation[0]) for c in found.configurations]
     assert len(set(said)) == len(said)
     listed = found.to_dict()["poses"]
@@ -305,9 +294,7 @@ def test_poses_are_said_as_they_are_typed_and_numbered_once(capsys, tmp_path):
             found.configurations.rotation[0]
         )
         np.testing.assert_allclose(turned.as_matrix(), found.configurations.rotation[k], atol=1e-12)
-    with pytest.raises(SystemExit):
-        main(["sheet", str(run)])
-    terminal = " ".join(capsys.readouterr().out.split())
+    terminal = " ".join(run(f"sheet {kept}")[1].split())
     page = str(sheet_html(found))
     numbered = [k for k in range(1, len(said)) if f"pose {k}: {said[k]}" in terminal]
     assert numbered

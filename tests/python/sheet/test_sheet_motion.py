@@ -1,24 +1,14 @@
 """Leg speeds, accelerations, weight and nearest singularity of a sheet, against differences and random directions."""
 
 import numpy as np
-import numpy_model as model
 import pytest
+from robots import robots_at_poses
 from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
 from ninedof import _core
 from ninedof.sheet.request import Motion, question_of
-
-
-def robots_at_poses(seed, poses):
-    """A random geometry at poses near a first one, and the generator."""
-    rng = np.random.default_rng(seed)
-    robots = model.random_robots(rng, 8)
-    m = robots.at(int(np.argmin(model.condition_number(robots))))
-    turns = Rotation.from_rotvec(0.1 * rng.normal(size=(poses, 3))).as_matrix()
-    shift = 0.1 * rng.normal(size=(poses, 6))
-    return m.geometry(), nd.Configuration(m.p + shift[:, :3], turns @ m.Q, m.s + shift[:, 3:]), rng
 
 
 def moved(c, internal, twist, rate, t):

@@ -1,7 +1,7 @@
 """Velocity and force ellipsoids (Fig. 4).
 
-Oracles: numpy's SVD of a J' assembled and inverted by LAPACK; sampled leg rates; leg forces solved for by `leg_forces`;
-at singular configurations, where there is no J', numpy's null space and the limit from configurations nearby."""
+Oracles: numpy's SVD of a J' assembled and inverted by LAPACK; sampled leg rates; at singular
+configurations, where there is no J', numpy's null space and the limit from configurations nearby."""
 
 import numpy as np
 import numpy_model as model
@@ -21,10 +21,6 @@ EACH_PART = pytest.mark.parametrize("part", PARTS)
 
 def velocity(m, part, lc=1.0):
     return nd.velocity_ellipsoid(m.geometry(), m.configuration(), part, lc)
-
-
-def force(m, part, lc=1.0):
-    return nd.force_ellipsoid(m.geometry(), m.configuration(), part, lc)
 
 
 def lost(m, lc=1.0):

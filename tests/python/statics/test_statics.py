@@ -1,8 +1,7 @@
 """Leg forces, self-stress and stiffness.
 
-Oracles: Newton's balance of forces and moments, joint by joint; finite differences of leg lengths (virtual work); a
-spring energy minimised over the place of O by scipy on leg lengths alone; numpy's least squares on a matrix built
-elsewhere."""
+Oracles: finite differences of leg lengths (virtual work); a spring energy minimised over the place of O by scipy on leg
+lengths alone; numpy's least squares on a matrix built elsewhere."""
 
 import numpy as np
 import numpy_model as model
@@ -29,16 +28,6 @@ def stiffness(m, k, **options):
 
 
 # --- Leg forces -------------------------------------------------------------------------------------------------------
-
-
-def newton(m, f, load):
-    """Sum of load and leg forces f on the platform (moment about p, force) and on O."""
-    x, y, z, u, ut = model.legs(m)
-    push = [f[k : k + 3, None] * v / np.linalg.norm(v, axis=-1, keepdims=True) for k, v in ((0, x), (3, y), (6, z))]
-    moment = np.cross(u, push[0]).sum(axis=0) - np.cross(ut, push[1]).sum(axis=0)
-    force = push[0].sum(axis=0) - push[1].sum(axis=0)
-    at_o = push[1].sum(axis=0) + push[2].sum(axis=0)
-    return np.concatenate([moment, force, at_o]) + load
 
 
 def lost(m):

@@ -1,9 +1,8 @@
 """Design studies once more, in plain numpy: what `Study.evaluate` must answer.
 
 Reads the tables of a study file and rebuilds everything from them: joints, poses, legs, J' and its singular values
-(LAPACK, through numpy_model), aggregates. Shares with the package only the words of the study file. Values only:
-gradients come from differences of these. Arrays carry leading dimensions, so that all the neighbours a difference needs
-are one call. Margins, of one design at a time, come from limit_oracle.py.
+(LAPACK, through numpy_model), aggregates. Shares with the package only the words of the study file.
+Margins, of one design at a time, come from limit_oracle.py.
 """
 
 import math
@@ -92,8 +91,8 @@ def turn(vectors):
     return flat.reshape(*np.shape(vectors), 3)
 
 
-def placed(v, pose, number, part=1.0):
-    """p, Q, s of one pose, or of `part` of the straight way to it from the neutral pose."""
+def placed(v, pose, number):
+    """p, Q, s of one pose."""
     shift, vector, inner, in_zp = pose
     zp, zs = v["zp"], v["zs"]
     up = np.array([0.0, 0.0, 1.0])
@@ -104,9 +103,9 @@ def placed(v, pose, number, part=1.0):
         inner = inner * unit
     twist = turn(v.get("theta_z", np.zeros_like(zp))[..., None] * up)
     return (
-        zp[..., None] * up + part * shift * unit,
-        turn(part * vector) @ twist,
-        zs[..., None] * up + part * inner,
+        zp[..., None] * up + shift * unit,
+        turn(vector) @ twist,
+        zs[..., None] * up + inner,
     )
 
 
@@ -161,7 +160,11 @@ class Oracle:
         self.data, self.design, self.variables = data, data["design"], data["variables"]
         self.objective = data.get("objective", {})
         self.poses = listed_poses(self.objective)
-        self.meets = self.joints_that_meet()
+        base, platform = self.joints_that_meet()
+        apart = [(0, 1), (0, 2), (1, 2)]
+        apart += [(i, 3 + j) for i in range(3) for j in range(3) if not platform[i, j]]
+        apart += [(i, 6 + j) for i in range(3) for j in range(3) if not base[i, j]]
+        self.apart = np.array(apart)  # pairs of legs without a common joint
 
     def joints_that_meet(self):
         """For base and platform (3, 3): whether external joint i is internal joint j in every design of the study."""
@@ -218,12 +221,8 @@ class Oracle:
     def margins(self, names, x):
         """The smallest margin of each limit at x (len(names),)."""
         _, geometry, home, places = self.at(names, x)
-        base, platform = self.meets
-        apart = [(0, 1), (0, 2), (1, 2)]
-        apart += [(i, 3 + j) for i in range(3) for j in range(3) if not platform[i, j]]
-        apart += [(i, 6 + j) for i in range(3) for j in range(3) if not base[i, j]]
         poses = nd.Configuration(*(np.stack(part) for part in zip(*places, strict=True)))
-        case = Robot(nd.Geometry(*geometry), nd.Configuration(*home), poses, 1.0, np.array(apart))
+        case = Robot(nd.Geometry(*geometry), nd.Configuration(*home), poses, 1.0, self.apart)
         limits = limits_of(nd.Study.from_dict(self.data))
         return {limit.label: float(margins(limit, case).min()) for limit in limits}
 
@@ -231,24 +230,3 @@ class Oracle:
 def _first(m):
     """The first place of a robot in several."""
     return model.Robot(*(t[..., 0, :, :] for t in m[:4]), m.p[..., 0, :], m.Q[..., 0, :, :], m.s[..., 0, :])
-
-
-def differences(f, x, h):
-    """d f / d x_k by central differences, Richardson-extrapolated; f takes (..., n) to a mapping of arrays (...).
-
-    Also the difference of two estimates, of steps h and h/2: small where f is smooth across both.
-    """
-    n = len(x)
-    steps = np.eye(n) * h
-    factors = (-2.0, -1.0, -0.5, 0.5, 1.0, 2.0)
-    values = f(np.stack([x + k * steps for k in factors]))
-
-    def slope(a, k):
-        return (a[factors.index(k)] - a[factors.index(-k)]) / (2.0 * k * h)
-
-    out = {}
-    for name, a in values.items():
-        coarse, middle, fine = slope(a, 2.0), slope(a, 1.0), slope(a, 0.5)
-        wide, narrow = (4.0 * middle - coarse) / 3.0, (4.0 * fine - middle) / 3.0
-        out[name] = narrow, np.abs(wide - narrow)
-    return out

@@ -22,11 +22,7 @@ class DesignSetOracle:
         stated = study.objective.condition_limit, condition_number
         self.bound = min((x for x in stated if x is not None), default=math.inf)
         tables = Oracle(study.to_dict())
-        self.listed, (base, platform) = tables.poses, tables.meets
-        apart = [(0, 1), (0, 2), (1, 2)]
-        apart += [(i, 3 + j) for i in range(3) for j in range(3) if not platform[i, j]]
-        apart += [(i, 6 + j) for i in range(3) for j in range(3) if not base[i, j]]
-        self.apart = np.array(apart)
+        self.listed, self.apart = tables.poses, tables.apart
 
     def robot(self, variables, shifts=None, tilts=None, yaws=None):
         """A design at poses of the region: shifts (n, 3) as lengths, rotation vectors (n, 3), turns about z (n, 1).

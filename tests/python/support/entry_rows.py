@@ -7,7 +7,6 @@ from entry_engine import Row
 import ninedof as nd
 
 ROWS = {}
-OF_THE_ROBOT = ("leg_lengths", "q", "r")
 TWIST = {"omega": [0.1, 0.2, 0.3], "pdot": [1.0, 2.0, 3.0], "sdot": [0.5, 0.25, 0.125]}
 RATES = np.linspace(-1.0, 1.0, 9)
 

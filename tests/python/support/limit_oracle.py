@@ -10,6 +10,7 @@ from itertools import combinations
 
 import duty_oracle
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 import ninedof as nd
 
@@ -283,7 +284,7 @@ def determinants(robot, steps):
     platform joint of external leg i (N).
     """
     here, there = robot.neutral, robot.poses
-    turn = rotation_vector(there.rotation @ here.rotation.T)
+    turn = Rotation.from_matrix(there.rotation @ here.rotation.T).as_rotvec()
     whole = np.concatenate([turn, there.position - here.position, there.internal_point - here.internal_point], axis=-1)
     path = here.moved((np.arange(1, steps + 1)[:, None, None] / max(steps, 1) * whole).reshape(-1, 9))
     neutral, seen = triples(robot, here), triples(robot, path)
@@ -301,16 +302,6 @@ def triples(robot, c):
 def _units(v):
     sizes = np.linalg.norm(v, axis=-1, keepdims=True)
     return v / np.where(sizes > 0.0, sizes, 1.0)
-
-
-def rotation_vector(rotation):
-    """The rotation vectors of matrices by angles under pi, shape (..., 3), radians."""
-    skew = 0.5 * (rotation - np.swapaxes(rotation, -1, -2))
-    axis = np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
-    sine = np.linalg.norm(axis, axis=-1, keepdims=True)
-    cosine = 0.5 * (np.trace(rotation, axis1=-2, axis2=-1)[..., None] - 1.0)
-    small = sine < 1e-12
-    return np.where(small, axis, axis * np.arctan2(sine, cosine) / np.where(small, 1.0, sine))
 
 
 def between_segments(a, b, c, d):

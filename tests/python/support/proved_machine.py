@@ -68,19 +68,6 @@ def sampled(region, geometry, neutral, rng, count):
     return model.robot(geometry, nd.Configuration(neutral.position + shift, q, s))
 
 
-def angles(m, neutral, legs, platform, axis):
-    """Angles of legs at the joints of a body from an axis, or from the neutral direction."""
-
-    def seen(robot):
-        external, upper, lower = model.legs(robot)[:3]
-        v = np.concatenate([-external if platform else external, upper if platform else lower], axis=-2)
-        return v @ robot.Q if platform else v  # in the frame of the body
-
-    v, reference = seen(m), seen(neutral) if axis is None else np.broadcast_to(axis, (1, 6, 3))
-    cosine = (v * reference).sum(-1) / np.linalg.norm(v, axis=-1) / np.linalg.norm(reference, axis=-1)
-    return np.arccos(np.clip(cosine, -1.0, 1.0))
-
-
 def apart(m, rng):
     """Distances of random points of the external legs from random points of all others."""
     v = np.concatenate(model.legs(m)[:3], axis=-2)

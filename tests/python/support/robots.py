@@ -30,7 +30,7 @@ NONPLANAR = {
 
 
 def regular(seed):
-    """A general robot, the best conditioned of eight; its numpy model and the generator."""
+    """One general robot, the best conditioned of eight, as numpy model; and the generator that drew it."""
     rng = np.random.default_rng(seed)
     robots = model.random_robots(rng, 8)
     return robots.at(int(np.argmin(model.condition_number(robots)))), rng
@@ -91,8 +91,9 @@ def any_pose(rng, hexagonal):
     return g, nd.Configuration(p, Rotation.from_quat(q), s)
 
 
-def random_robot(seed):
-    """One general robot that is not near a singularity, as numpy model, and the generator that drew it."""
-    rng = np.random.default_rng(seed)
-    robots = model.random_robots(rng, 8)
-    return robots.at(int(np.argmin(model.condition_number(robots)))), rng
+def robots_at_poses(seed, poses=5):
+    """A random geometry, the first pose of its robot and others near it, and the generator."""
+    m, rng = regular(seed)
+    turns = Rotation.from_rotvec(np.vstack([np.zeros(3), 0.1 * rng.normal(size=(poses - 1, 3))])).as_matrix()
+    shift = np.vstack([np.zeros(6), 0.1 * rng.normal(size=(poses - 1, 6))])
+    return m.geometry(), nd.Configuration(m.p + shift[:, :3], turns @ m.Q, m.s + shift[:, 3:]), rng

@@ -1,10 +1,23 @@
 """Workspaces once more: each criterion typed from its definition in plain numpy, for many poses at once.
 
-Shares with the package only the paper and the numpy robot of the other tests.
+Shares with the package only the paper, the struct of joints, and nothing of its formulas; the robot is numpy_model's.
 """
 
 import numpy as np
 import numpy_model as model
+from singular_robots import unit_rows
+
+import ninedof as nd
+
+
+def some_robot(rng):
+    """A robot near threefold symmetry with joints off their planes."""
+
+    def triple(radius):
+        at = rng.uniform(0.0, 2.0 * np.pi) + 2.0 * np.pi / 3.0 * np.arange(3) + 0.2 * rng.normal(size=3)
+        return np.stack([radius * np.cos(at), radius * np.sin(at), 0.1 * radius * rng.normal(size=3)], axis=-1)
+
+    return nd.Geometry(triple(4.0), triple(3.0), triple(3.0), triple(2.0))
 
 
 def robots(g, p, q, s):
@@ -66,10 +79,7 @@ def clearance(m, samples=80):
 
 def signs(m):
     """Signs of det N, det B and det C."""
-    external, upper, lower, _, _ = model.legs(m)
-    d = m.r - m.s[:, None]
-    w = external + d
-    return np.sign(np.stack([np.linalg.det(x) for x in (np.cross(d, w), lower, upper)], axis=-1))
+    return np.sign(np.stack([np.linalg.det(rows) for rows in unit_rows(m)], axis=-1))
 
 
 def states_at(cells, origin, points):

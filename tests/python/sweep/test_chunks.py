@@ -14,7 +14,6 @@ import sweep_work as work
 from sweep_work import GRID, HOME, G, finished
 
 import ninedof as nd
-from ninedof.cli.app import main
 
 
 def asked(folder=None, **options):
@@ -201,16 +200,14 @@ def test_arrays_are_read_from_their_files(tmp_path, expected):
     assert np.load(tmp_path / "pieces" / "leg_lengths.npy").shape == (23, 17, 9)
 
 
-def test_arrays_for_which_the_disk_has_no_room_are_refused_before_the_work(tmp_path, monkeypatch, capsys):
+def test_arrays_for_which_the_disk_has_no_room_are_refused_before_the_work(run, tmp_path, monkeypatch):
     monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(total=10**12, free=31 * 10**9))
     room = "their values take 1600 GB, and 31 GB are free on the disk of out"
     with pytest.raises(ValueError, match=f"^over: got {HUGE} points, expected fewer: {room}$"):
         nd.sweep(G, HOME, {"x_p": (-1.0, 1.0, HUGE)}, out=tmp_path / "out")
     assert not (tmp_path / "out").exists()
-    with pytest.raises(SystemExit) as end:
-        main(["sweep", "--over", f"x_p=-1:1:{HUGE}", "--out", str(tmp_path / "run")])
-    assert end.value.code == 2
-    said = capsys.readouterr().err
+    status, _, said = run(f"sweep --over x_p=-1:1:{HUGE} --out {tmp_path / 'run'}")
+    assert status == 2
     assert said.startswith(f"ninedof: --over: got {HUGE} points, expected fewer: ")
     assert said.count("\n") == 1
     assert not (tmp_path / "run").exists()

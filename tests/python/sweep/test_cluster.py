@@ -265,18 +265,14 @@ def test_dask_computes_an_atlas(cluster):
         assert found[name].tobytes() == expected[name].tobytes()
 
 
-def test_dask_finds_admissible_designs(cluster, tmp_path, capsys):
-    from ninedof.cli.app import main
-
+def test_dask_finds_admissible_designs(cluster, run, tmp_path):
     found = admissible(cluster.get_executor())
     assert_same_designs(found)
     file, address = tmp_path / "study.toml", cluster.scheduler_info()["address"]
     found.study.save(file)
-    line = f"admissible {file} --vary a2 --vary b1 --resolution 0.05 --json --scheduler {address}"
-    with pytest.raises(SystemExit) as end:
-        main(line.split())
-    assert end.value.code == 0
-    assert json.loads(capsys.readouterr().out)["shares"] == pytest.approx(found.shares)
+    status, out, _ = run(f"admissible {file} --vary a2 --vary b1 --resolution 0.05 --json --scheduler {address}")
+    assert status == 0
+    assert json.loads(out)["shares"] == pytest.approx(found.shares)
 
 
 def test_a_chunk_that_dask_gives_up_ends_the_run_and_the_next_call_goes_on(cluster, expected, tmp_path):
@@ -299,14 +295,10 @@ def allow_failures(count, dask_scheduler):
     return before
 
 
-def test_the_command_line_uses_a_scheduler(cluster, tmp_path, capsys):
-    from ninedof.cli.app import main
-
+def test_the_command_line_uses_a_scheduler(cluster, run, tmp_path):
     out = tmp_path / "run"
     address = cluster.scheduler_info()["address"]
-    with pytest.raises(SystemExit) as end:
-        main(["sweep", "--over", "x_p=-1:1:23", "--scheduler", address, "--out", str(out), "--no-figures"])
-    assert end.value.code == 0
+    assert run(f"sweep --over x_p=-1:1:23 --scheduler {address} --out {out} --no-figures")[0] == 0
     found = nd.SweepResult.load(out / "sweep.npz")
     assert found["condition_number"].shape == (23,)
 
@@ -324,10 +316,8 @@ def test_the_command_line_uses_a_scheduler(cluster, tmp_path, capsys):
         ("tls://127.0.0.1:SILENT", "TLS expects"),
     ],
 )
-def test_a_missing_scheduler_is_reported_in_one_line(tmp_path, capsys, monkeypatch, address, words):
+def test_a_missing_scheduler_is_reported_in_one_line(run, tmp_path, monkeypatch, address, words):
     pytest.importorskip("distributed", reason="dask[distributed] is not installed: the extra `cluster`")
-    from ninedof.cli.app import main
-
     monkeypatch.setattr(schedulers, "TIMEOUT", 0.2)
     out = tmp_path / "run"
     said = {"BANNER": b"HTTP/1.1 400 Bad Request\r\n", "BYTES": bytes(100), "CLOSING": None}
@@ -337,11 +327,9 @@ def test_a_missing_scheduler_is_reported_in_one_line(tmp_path, capsys, monkeypat
             address = f"{where}:{server.getsockname()[1]}"
         if port in said:  # the other one accepts connections and sends nothing
             threading.Thread(target=_answer, args=(server, said[port]), daemon=True).start()
-        with pytest.raises(SystemExit) as end:
-            main(["sweep", "--over", "x_p=0:1:3", "--scheduler", address, "--out", str(out)])
+        status, _, err = run(f"sweep --over x_p=0:1:3 --scheduler {address} --out {out}")
     gc.collect()  # a client that was not closed would warn now
-    assert end.value.code == 2
-    err = capsys.readouterr().err
+    assert status == 2
     assert err.startswith(f"ninedof: --scheduler: got '{address}', where no scheduler answers (")
     assert words in err
     assert err.count("\n") == 1
@@ -361,9 +349,8 @@ def _answer(server, words):
 _open = []
 
 
-def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(tmp_path, capsys, monkeypatch):
+def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(run, tmp_path, monkeypatch):
     """What dask raises when the scheduler is killed while it works; the chunks so far are kept."""
-    from ninedof.cli.app import main
 
     class Lost(Executor):
         count = 0
@@ -379,16 +366,13 @@ def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(tmp_path, ca
 
     monkeypatch.setattr(schedulers, "dask_executor", lambda address: Lost())
     monkeypatch.chdir(tmp_path)
-    line = "sweep --over x_p=-1:1:23 --chunk 5 --no-figures --out".split()
-    with pytest.raises(SystemExit) as end:
-        main([*line, "my run", "--scheduler", "tcp://127.0.0.1:8786"])
-    assert end.value.code == 4
-    (said,) = (said for said in capsys.readouterr().err.splitlines() if said.startswith("ninedof: "))
+    line = "sweep --over x_p=-1:1:23 --chunk 5 --no-figures --out 'my run'"
+    status, _, err = run(f"{line} --scheduler tcp://127.0.0.1:8786")
+    assert status == 4
+    (said,) = (said for said in err.splitlines() if said.startswith("ninedof: "))
     assert said.startswith(
         "ninedof: --scheduler: lost tcp://127.0.0.1:8786 (CancelledError). Finished pieces are kept in"
     )
     assert finished(tmp_path / "my run") == {0, 1}
-    with pytest.raises(SystemExit) as end:
-        main([*line, "my run"])
-    assert end.value.code == 0
+    assert run(line)[0] == 0
     assert nd.load("my run")["condition_number"].shape == (23,)

@@ -304,16 +304,11 @@ def test_bad_axes_are_named(case):
 
 
 BAD_OPTIONS = {
-    "index: got 'kappa', expected one of": {"index": "kappa"},
-    "index: got .*, expected a name, a callable": {"index": 3},
     "index: got \\[\\], expected a name": {"index": []},
     "expected different names": {"index": ["leg_ratio", "leg_ratio"]},
-    "internal_point: got 'fixed', expected one of held": {"internal_point": "fixed"},
-    "characteristic_length: got 0.0, expected a number above 0": {"characteristic_length": 0.0},
     "characteristic_length: got 'mean', expected one of": {"characteristic_length": "mean"},
     "chunk: got 0, expected a whole number": {"chunk": 0},
     "threads: got 0": {"threads": 0},
-    "progress: got 3, expected a callable": {"progress": 3},
     "expected O to be displacements": {"internal_point": "carried", "relative": False, "over": {"x_s": [0.0]}},
 }
 
@@ -470,18 +465,6 @@ def test_a_failed_save_leaves_the_old_file(labelled, tmp_path, monkeypatch):
         labelled.save(path)
     assert path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir()] == ["x.npz"]
-
-
-@pytest.mark.parametrize("contents", [b"", b"PK\x03\x04", b"\x93NUMPY", b"mine"])
-def test_other_files_are_refused(tmp_path, contents):
-    (tmp_path / "x.npz").write_bytes(contents)
-    with pytest.raises(ValueError, match=r"x\.npz: got no file as ninedof wrote it"):
-        nd.SweepResult.load(tmp_path / "x.npz")
-    np.savez(tmp_path / "x.npz", a=np.zeros(3))
-    with pytest.raises(ValueError, match=r"x\.npz: got no"):
-        nd.SweepResult.load(tmp_path / "x.npz")
-    with pytest.raises(ValueError, match="nothing: cannot be read"):
-        nd.SweepResult.load(tmp_path / "nothing")
 
 
 def test_as_xarray(labelled):

@@ -16,7 +16,6 @@ from sweep_work import HOME, G, finished
 
 import ninedof as nd
 from ninedof import plot
-from ninedof.cli.app import main
 from ninedof.paper import published
 from ninedof.paper.figures import figure_6, figure_7
 from ninedof.paper.sweeps import ratio_study
@@ -414,17 +413,16 @@ def test_figure_6_says_which_curve_it_cuts_off(six):
     assert said == [f"theta_z is cut off: it reaches {rows['theta_z'].max():.4g}"]
 
 
-def test_every_index_of_a_sweep_is_drawn(tmp_path, capsys):
+def test_every_index_of_a_sweep_is_drawn(run, tmp_path):
     indices = ["leg_lengths", "leg_ratio", "singularity_margins"]
-    line = ["sweep", "--over", "x_p=-1:1:5", *(word for name in indices for word in ("--index", name))]
-    with pytest.raises(SystemExit) as end:
-        main([*line, "--json", "--out", str(tmp_path / "run")])
-    assert end.value.code == 0
+    asked = " ".join(f"--index {name}" for name in indices)
+    status, out, _ = run(f"sweep --over x_p=-1:1:5 {asked} --json --out {tmp_path / 'run'}")
+    assert status == 0
     figures = {f"sweep_{name}.png" for name in indices}
     assert {file.name for file in (tmp_path / "run").glob("*.png")} == figures
     files = json.loads((tmp_path / "run" / "record.json").read_text())["files"]
     assert figures < set(files)
-    margins = json.loads(capsys.readouterr().out)["sweep"]["indices"]["singularity_margins"]
+    margins = json.loads(out)["sweep"]["indices"]["singularity_margins"]
     values = nd.sweep(
         published.published_geometry(),
         nd.Configuration.neutral(published.ZP, published.published_zs()[2]),
@@ -441,12 +439,14 @@ def test_every_index_of_a_sweep_is_drawn(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("over", "words"),
     [
-        (["xp=-1:1:5"], "x_p, y_p, z_p, .*a1, .*zs .did you mean 'x_p'?"),
-        (["x_p=-1:1:5", "a1=0:1:5"], "--over: got x_p, a1, expected coordinates of the configuration or variables"),
+        ("--over xp=-1:1:5", "x_p, y_p, z_p, .*a1, .*zs .did you mean 'x_p'?"),
+        (
+            "--over x_p=-1:1:5 --over a1=0:1:5",
+            "--over: got x_p, a1, expected coordinates of the configuration or variables",
+        ),
     ],
 )
-def test_names_of_coordinates_are_suggested_too(tmp_path, capsys, over, words):
-    with pytest.raises(SystemExit) as end:
-        main(["sweep", *(word for text in over for word in ("--over", text)), "--out", str(tmp_path / "run")])
-    assert end.value.code == 2
-    assert re.search(words, capsys.readouterr().err)
+def test_names_of_coordinates_are_suggested_too(run, tmp_path, over, words):
+    status, _, err = run(f"sweep {over} --out {tmp_path / 'run'}")
+    assert status == 2
+    assert re.search(words, err)

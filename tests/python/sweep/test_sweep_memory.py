@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.cli.sweep_job import describe
 from ninedof.support import arrays as pieces
 from ninedof.support.arrays import blocks
@@ -79,10 +78,8 @@ def test_pieces_are_the_array_in_order(monkeypatch):
         assert all(first % 4 == 0 for first, _ in blocks(one))
 
 
-def test_a_report_does_not_read_the_arrays_again(tmp_path, monkeypatch):
-    with pytest.raises(SystemExit) as ended:
-        main(["sweep", "--over", "x_p=-1:1:31", "--over", "z_p=-1:1:21", "--out", str(tmp_path), "--no-figures"])
-    assert ended.value.code == 0
+def test_a_report_does_not_read_the_arrays_again(run, tmp_path, monkeypatch):
+    assert run(f"sweep --over x_p=-1:1:31 --over z_p=-1:1:21 --out {tmp_path} --no-figures")[0] == 0
     assert nd.load(tmp_path)["condition_number"].tobytes() == np.load(tmp_path / "pieces" / KAPPA).tobytes()
     monkeypatch.setattr(import_module("ninedof.report.whole"), "load", None)
     assert nd.report(tmp_path).is_file()

@@ -11,7 +11,6 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.plot.admissible import INSIDE
 from ninedof.records.proofs import admissible_file, latest_admissible, save_admissible
 from ninedof.viewer.designs import DesignPicture
@@ -119,23 +118,21 @@ def test_a_design_out_of_the_ranges_has_no_mark(result):
     assert "not in the ranges" in picture.words(dict(found.of.at) | {"a2": 5.0})
 
 
-def test_the_set_written_last_beside_a_run_is_shown(result, tmp_path):
+def test_the_set_written_last_beside_a_run_is_shown(run, result, tmp_path):
     pytest.importorskip("viser", reason="the viewer needs viser")
     record = nd.save(result, tmp_path / "run")
-    run = record.parent
-    with nd.view(run, port=0) as viewer:
+    folder = record.parent
+    with nd.view(folder, port=0) as viewer:
         assert viewer.designs is None
-    with pytest.raises(SystemExit) as end:
-        main(["admissible", str(record), "--vary", "a2", "--vary", "zp", "--resolution", "0.2", "--condition", "9"])
-    assert end.value.code == 0
-    with nd.view(str(run), port=0) as viewer:
+    assert run(f"admissible {record} --vary a2 --vary zp --resolution 0.2 --condition 9")[0] == 0
+    with nd.view(str(folder), port=0) as viewer:
         found = viewer.designs.found
         assert found.vary == ("a2", "zp")
         assert found.of.condition_number == 9.0
         assert found.of.at == pytest.approx(result.variables)
     other = nd.admissible(nd.Study(variables=STUDY.variables), ("a2", "b1"), at=result.variables, resolution=0.5)
-    save_admissible(other, admissible_file(run, other.of))
-    assert latest_admissible(run, result.study).vary == ("a2", "zp")  # the newer one is of another study
+    save_admissible(other, admissible_file(folder, other.of))
+    assert latest_admissible(folder, result.study).vary == ("a2", "zp")  # the newer one is of another study
 
 
 def test_what_is_refused(result):

@@ -2,6 +2,7 @@
 
 import re
 import socket
+import sys
 import time
 from types import SimpleNamespace
 
@@ -9,10 +10,21 @@ import pytest
 
 import ninedof as nd
 from ninedof.cli.app import main
+from ninedof.support.extras import MissingExtra
 from ninedof.viewer.folders import open_path
 from ninedof.viewer.machine import machine_of
 from ninedof.viewer.server import loopback, refusal, start
 from ninedof.viewer.state import State
+
+
+def test_without_viser_one_line_names_the_extra(run, monkeypatch):
+    monkeypatch.setitem(sys.modules, "viser", None)
+    with pytest.raises(MissingExtra, match=r"the viewer needs viser.*pip install 'ninedof\[viewer\]'"):
+        nd.view()
+    status, _, err = run("view")
+    assert status == 2
+    assert err.count("\n") == 1
+    assert "ninedof[viewer]" in err
 
 
 class Headers:

@@ -1,10 +1,10 @@
-"""The viewer as a program: what it says when something is missing, how it ends, and a browser that uses it."""
+"""The viewer as a program: how it begins, how it ends, and a browser that uses it."""
 
 import asyncio
 import socket
-import sys
 import threading
 import time
+from importlib.util import find_spec
 from types import SimpleNamespace
 
 import chromium
@@ -12,16 +12,15 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.design.region import region_lines
 from ninedof.plot import style
-from ninedof.support.extras import MissingExtra
 from ninedof.viewer import shapes
 from ninedof.viewer.body import Body
 from ninedof.viewer.folders import open_path
 from ninedof.viewer.scene import LEAST, PATH_COLOUR
 from ninedof.viewer.state import ELLIPSOIDS
 
+pytestmark = pytest.mark.skipif(find_spec("viser") is None, reason="the viewer needs viser")
 LABELLED = "[...document.querySelectorAll('{}')].find(one => one.textContent.trim() === '{}')"
 BOX = "(function near(e) { return e.querySelector('input[type=checkbox]') ?? near(e.parentElement) })"
 NUMBER = "document.getElementById('ninedof-{}')?.textContent"
@@ -37,31 +36,14 @@ def free_of_threads(before):
     return left
 
 
-def test_without_viser_one_line_names_the_extra(monkeypatch, capsys):
-    monkeypatch.setitem(sys.modules, "viser", None)
-    with pytest.raises(MissingExtra, match=r"the viewer needs viser.*pip install 'ninedof\[viewer\]'"):
-        nd.view()
-    with pytest.raises(SystemExit) as ended:
-        main(["view"])
-    assert ended.value.code == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert "ninedof[viewer]" in said
-
-
-def test_a_port_in_use_is_one_line(capsys):
-    pytest.importorskip("viser", reason="the viewer needs viser")
+def test_a_port_in_use_is_one_line(run):
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
         port = other.getsockname()[1]
-        with pytest.raises(SystemExit) as ended:
-            main(["view", "--port", str(port)])
-    assert ended.value.code == 2
-    assert (
-        capsys.readouterr().err
-        == f"ninedof: --port: got {port}, which is in use or reserved, expected a free one, or 0 for any\n"
-    )
+        status, _, err = run(f"view --port {port}")
+    assert status == 2
+    assert err == f"ninedof: --port: got {port}, which is in use or reserved, expected a free one, or 0 for any\n"
 
 
 @pytest.mark.parametrize(
@@ -74,7 +56,6 @@ def test_a_port_in_use_is_one_line(capsys):
     ],
 )
 def test_bad_arguments_are_named_and_leave_nothing_running(options, words):
-    pytest.importorskip("viser", reason="the viewer needs viser")
     before = set(threading.enumerate())
     with pytest.raises(ValueError, match=words):
         nd.view(**{"port": 0} | options)
@@ -82,7 +63,6 @@ def test_bad_arguments_are_named_and_leave_nothing_running(options, words):
 
 
 def test_it_listens_at_home_and_closes_cleanly(capfd):
-    pytest.importorskip("viser", reason="the viewer needs viser")
     before = set(threading.enumerate())
     with nd.view(port=0) as viewer:
         assert viewer.url == f"http://127.0.0.1:{viewer.port}"
@@ -103,7 +83,6 @@ def test_it_listens_at_home_and_closes_cleanly(capfd):
 
 
 def test_closing_ends_a_search_for_a_workspace():
-    pytest.importorskip("viser", reason="the viewer needs viser")
     before = set(threading.enumerate())
     with nd.view(port=0) as viewer:
         viewer.submit("rule", lambda: viewer.state.set_rule("best"))
@@ -113,7 +92,6 @@ def test_closing_ends_a_search_for_a_workspace():
 
 
 def test_only_what_changed_is_sent():
-    pytest.importorskip("viser", reason="the viewer needs viser")
     with nd.view(port=0) as viewer, viewer.lock:
         viewer.update(settled=True)
         sent = []
@@ -133,8 +111,6 @@ def test_only_what_changed_is_sent():
 
 @pytest.mark.parametrize("error", [ValueError("no limits"), ZeroDivisionError("by nothing")])
 def test_a_search_that_fails_is_told(monkeypatch, capfd, error):
-    pytest.importorskip("viser", reason="the viewer needs viser")
-
     def fails(*_):
         raise error
 
@@ -146,7 +122,6 @@ def test_a_search_that_fails_is_told(monkeypatch, capfd, error):
 
 
 def test_a_body_found_as_it_is_given_up_is_not_shown(monkeypatch):
-    pytest.importorskip("viser", reason="the viewer needs viser")
     found = threading.Event()
 
     def body_of(*_):
@@ -172,7 +147,6 @@ def test_a_body_found_as_it_is_given_up_is_not_shown(monkeypatch):
 
 @pytest.mark.parametrize(("unit", "duration"), [("mm", "duration 2 s<"), ("", "duration 2<")])
 def test_names_and_errors_are_text_and_time_has_a_unit_where_lengths_have(unit, duration):
-    pytest.importorskip("viser", reason="the viewer needs viser")
     g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0), nd.Configuration.neutral(3.98, 2.44)
     with nd.view(nd.Design(g, home, unit=unit), port=0) as viewer:
         name = "<img src=x onerror=alert(1)> *a*.csv"
@@ -191,7 +165,6 @@ def shifted_along_x(point, by):
 
 
 def test_a_handle_follows_again_when_its_client_leaves():
-    pytest.importorskip("viser", reason="the viewer needs viser")
     with nd.view(port=0) as viewer:
         gizmo, home = viewer.scene.nodes["/platform gizmo"], viewer.state.variant.home.position
         (dragged,), (left,) = gizmo._impl_aux.update_cb, viewer._server._client_disconnect_cb
@@ -211,7 +184,6 @@ def test_a_handle_follows_again_when_its_client_leaves():
 
 
 def test_the_first_view_fits_a_narrow_window_until_the_user_moves():
-    pytest.importorskip("viser", reason="the viewer needs viser")
     g = nd.Geometry.hexagonal(a1=0.0, a2=850.0, b1=290.0, b2=0.0)
     design = nd.Design(g, nd.Configuration.neutral(zp=200.0, zs=100.0), 150.0, "mm")
     with nd.view(design, port=0) as viewer:
@@ -242,7 +214,6 @@ def until(condition, seconds=20.0):
 
 
 def test_a_path_is_played_and_every_control_works(tmp_path, capfd):
-    pytest.importorskip("viser", reason="the viewer needs viser")
     home = nd.Configuration.neutral(3.98, 2.44)
     with nd.view(port=0, path=nd.Trajectory.circle(home, radius=0.5, duration=2.0, points=21), dark=True) as viewer:
         viewer.submit("play", viewer.state.toggle)
@@ -274,7 +245,6 @@ def test_a_path_is_played_and_every_control_works(tmp_path, capfd):
 
 
 def test_the_button_shows_pause_while_a_path_is_played_and_lines_have_a_key():
-    pytest.importorskip("viser", reason="the viewer needs viser")
     study = nd.Study(objective={"region": {"box": [0.3, 0.2, 0.1]}}, variables={"a1": 0.0, "b2": 0.0})
     with nd.view(nd.optimize(study, starts=1), port=0) as viewer, viewer.lock:
         play, legend = (viewer.panel.widgets[name] for name in ("play", "legend"))
@@ -299,7 +269,6 @@ def test_the_button_shows_pause_while_a_path_is_played_and_lines_have_a_key():
 
 @pytest.mark.parametrize("zs", [0.3, 2.4, 3.6, 3.97])
 def test_handles_are_apart(zs):
-    pytest.importorskip("viser", reason="the viewer needs viser")
     g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0), nd.Configuration.neutral(3.98, zs)
     with nd.view(nd.Design(g, home), port=0) as viewer, viewer.lock:
         viewer.update()
@@ -310,7 +279,6 @@ def test_handles_are_apart(zs):
 
 
 def test_the_mode_shown_is_the_one_chosen():
-    pytest.importorskip("viser", reason="the viewer needs viser")
     g, home = nd.Geometry.hexagonal(a1=0.0, a2=850.0, b1=290.0, b2=0.0), nd.Configuration.neutral(480.0, 320.0)
     with nd.view(nd.Design(g, home, 150.0, "mm"), port=0) as viewer, viewer.lock:
         mode = viewer.panel.widgets["Mode"]
@@ -325,7 +293,6 @@ def test_the_mode_shown_is_the_one_chosen():
 
 
 def test_a_region_is_drawn_about_the_neutral_pose_and_can_be_hidden():
-    pytest.importorskip("viser", reason="the viewer needs viser")
     study = nd.Study(
         family="symmetric", constraints={"stroke_ratio": (None, 1.6)}, objective={"region": {"box": [0.3, 0.2, 0.1]}}
     )
@@ -351,7 +318,6 @@ def test_a_region_is_drawn_about_the_neutral_pose_and_can_be_hidden():
 
 
 def test_requests_that_are_no_page_print_nothing(capfd, caplog):
-    pytest.importorskip("viser", reason="the viewer needs viser")
     with nd.view(port=0) as viewer:
         for request in (b"HEAD / HTTP/1.1\r\nHost: x\r\n\r\n", b"\x16\x03\x01 no words\r\n\r\n", b"GET / HT", b""):
             with socket.create_connection((viewer.host, viewer.port)) as caller:
@@ -366,7 +332,6 @@ def test_requests_that_are_no_page_print_nothing(capfd, caplog):
 @pytest.mark.slow
 @pytest.mark.skipif(chromium.PROGRAM is None, reason="needs the program chromium")
 def test_a_browser_moves_a_slider_and_the_number_changes(tmp_path):
-    pytest.importorskip("viser", reason="the viewer needs viser")
     with (
         nd.view(port=0) as viewer,
         chromium.page(f"{viewer.url}/?fixedDpr=0.3", tmp_path / "profile", 400, 300) as page,

@@ -21,14 +21,6 @@ LEGS = {"leg_limits": (2.5, 6.5)}
 FREE = np.full(9, np.inf)
 
 
-def some_robot(rng):
-    def triple(radius):
-        at = rng.uniform(0.0, 2.0 * np.pi) + 2.0 * np.pi / 3.0 * np.arange(3) + 0.2 * rng.normal(size=3)
-        return np.stack([radius * np.cos(at), radius * np.sin(at), 0.1 * radius * rng.normal(size=3)], axis=-1)
-
-    return nd.Geometry(triple(4.0), triple(3.0), triple(3.0), triple(2.0))
-
-
 def margins(g, m, criteria, home):
     """The least margin of all criteria at each pose, each of the size of 1: negative where a pose is not allowed."""
     low, high = (np.broadcast_to(end, 9) for end in criteria.get("leg_limits", (0.0, np.inf)))
@@ -101,7 +93,7 @@ def test_what_is_proved_of_poses_is_so(published, question, rule):
     criteria = QUESTIONS[question]
     begin = (list(QUESTIONS).index(question) + list(RULES).index(rule)) % 2  # every question, and every rule, has both
     for trial in range(begin, begin + size(1, 40)):
-        g = published if trial == 0 else some_robot(rng)
+        g = published if trial == 0 else oracle.some_robot(rng)
         q = np.eye(3) if trial == 0 else Rotation.from_rotvec(0.2 * rng.normal(size=3)).as_matrix()
         home = nd.Configuration([0.1, 0.0, 4.6], q, placed(rule, g, np.array([0.1, 0.0, 4.6]), q))
         gap = size(0.5, 0.4) if question == "all" else size(0.3, 0.2)

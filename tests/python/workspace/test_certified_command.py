@@ -7,22 +7,15 @@ import pytest
 from interrupts import interrupted_on_entry
 
 import ninedof as nd
-from ninedof.cli.app import main
 
-ASKED = "--legs 2.5 6.5 --condition 5 --tolerance 1e-2 --x -2.5 2.5 --y -2.5 2.5 --z 3 7 --certify".split()
-
-
-def run(arguments, capsys):
-    with pytest.raises(SystemExit) as end:
-        main(["workspace", *arguments])
-    return end.value.code, capsys.readouterr()
+ASKED = "workspace --legs 2.5 6.5 --condition 5 --tolerance 1e-2 --x -2.5 2.5 --y -2.5 2.5 --z 3 7"
 
 
-def test_the_proof_is_said_and_kept(tmp_path, capsys):
+def test_the_proof_is_said_and_kept(run, tmp_path):
     folder = tmp_path / "run"
-    code, out = run([*ASKED, "--gap", "0.2", "--out", str(folder)], capsys)
+    code, out, _ = run(f"{ASKED} --certify --gap 0.2 --out {folder}")
     assert code == 0
-    words = " ".join(out.out.split())
+    words = " ".join(out.split())
     assert "Proved: the workspace has a volume between" in words
     assert "goes on beyond the box" in words
     assert "lies between the bounds" in words
@@ -46,9 +39,8 @@ def test_the_proof_is_said_and_kept(tmp_path, capsys):
         nd.load(folder)
 
 
-def test_a_map_alone_has_no_proof(tmp_path, capsys):
-    code, _ = run([*ASKED[:-1], "--no-figures", "--out", str(tmp_path / "run")], capsys)
-    assert code == 0
+def test_a_map_alone_has_no_proof(run, tmp_path):
+    assert run(f"{ASKED} --no-figures --out {tmp_path / 'run'}")[0] == 0
     assert nd.load(tmp_path / "run").certified is None
 
 
@@ -80,10 +72,9 @@ def test_sections_show_every_state(published):
         proved.section("z", 100.0)
 
 
-def test_an_interruption_of_the_proof_keeps_the_map(tmp_path, capsys):
+def test_an_interruption_of_the_proof_keeps_the_map(run, tmp_path):
     with interrupted_on_entry("certified_workspace"):
-        code, _ = run([*ASKED, "--gap", "1e-6", "--no-figures", "--out", str(tmp_path / "run")], capsys)
-    assert code == 130
+        assert run(f"{ASKED} --certify --gap 1e-6 --no-figures --out {tmp_path / 'run'}")[0] == 130
     found = nd.load(tmp_path / "run")
     assert found.volume > 0.0
     assert found.certified is None or found.certified.interrupted

@@ -9,7 +9,6 @@ from interrupts import interrupted_on_entry
 from numpy.testing import assert_allclose
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.cli.workspace_figures import _planes, _section
 from ninedof.cli.workspace_question import compare_poses
 from ninedof.paper.published import published_variables
@@ -18,25 +17,18 @@ from ninedof.workspace.study_question import EASE, leg_ranges, narrowed, own_fra
 from ninedof.workspace.tables import criterion_words
 
 BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])
+IN_BOX = "--x -2.5 2.5 --y -2.5 2.5 --z 3 7"
 LEGS = {"leg_limits": (2.5, 6.5)}
 OWN = published_variables()["zs"] / published_variables()["zp"]  # where the published design has O
 HOME = nd.Configuration.neutral(zp=4.8, zs=2.4)
 
 
-def run(arguments, capsys):
-    with pytest.raises(SystemExit) as end:
-        main(["workspace", *arguments])
-    return end.value.code, capsys.readouterr()
-
-
-def test_the_command_leaves_a_run_folder(tmp_path, capsys, published):
-    box = ["--x", "-2.5", "2.5", "--y", "-2.5", "2.5", "--z", "3", "7"]
-    code, out = run(
-        [*"--legs 2.5 6.5 --condition 5 --tolerance 5e-3 --json".split(), *box, "--out", str(tmp_path / "run")], capsys
-    )
+def test_the_command_leaves_a_run_folder(run, tmp_path, published):
+    line = f"workspace --legs 2.5 6.5 --condition 5 --tolerance 5e-3 {IN_BOX} --json"
+    code, out, err = run(f"{line} --out {tmp_path / 'run'}")
     assert code == 0
-    assert "\nworkspace: positions of the platform at the neutral rotation alone" in out.err
-    numbers = json.loads(out.out)["workspace"]
+    assert "\nworkspace: positions of the platform at the neutral rotation alone" in err
+    numbers = json.loads(out)["workspace"]
     expected = nd.workspace(
         published, BOX, criteria=LEGS | {"condition_number": 5.0}, internal_point=OWN, tolerance=5e-3
     )
@@ -60,30 +52,26 @@ def test_the_horizontal_section_goes_through_home(published):
     assert [at for _, at in _planes(found, away, np.array([0.2, -0.4, 4.0]))] == [-0.4, 0.2, 4.0]
 
 
-def test_the_command_with_orientations_and_with_an_empty_workspace(tmp_path, capsys):
-    region = ["--archetype", "orientation", "--tilt-deg", "40", "--torsion-deg", "30", "--resolution", "8"]
-    code, out = run([*region, "--legs", "2", "6.5", "--no-figures", "--out", str(tmp_path / "a")], capsys)
+def test_the_command_with_orientations_and_with_an_empty_workspace(run, tmp_path):
+    region = "--archetype orientation --tilt-deg 40 --torsion-deg 30 --resolution 8"
+    code, out, _ = run(f"workspace {region} --legs 2 6.5 --no-figures --out {tmp_path / 'a'}")
     assert code == 0
-    assert "volume" in out.out
-    assert out.out.startswith("workspace: rotations of the platform at one position\n")
-    assert "the workspace reaches the boundary of the region: it is larger in a larger region" in " ".join(
-        out.out.split()
-    )
-    assert "box" not in "".join(line for line in out.out.splitlines() if "boundary" in line or "share" in line)
-    code, out = run(["--legs", "0", "1", "--no-figures", "--out", str(tmp_path / "b")], capsys)
+    assert "volume" in out
+    assert out.startswith("workspace: rotations of the platform at one position\n")
+    assert "the workspace reaches the boundary of the region: it is larger in a larger region" in " ".join(out.split())
+    assert "box" not in "".join(line for line in out.splitlines() if "boundary" in line or "share" in line)
+    code, out, _ = run(f"workspace --legs 0 1 --no-figures --out {tmp_path / 'b'}")
     assert code == 3
-    assert "no allowed pose" in out.out
-    code, out = run(["--out", str(tmp_path / "c")], capsys)
+    assert "no allowed pose" in out
+    code, _, err = run(f"workspace --out {tmp_path / 'c'}")
     assert code == 2
-    assert "expected at least one" in out.err
+    assert "expected at least one" in err
     assert not (tmp_path / "c").exists()
 
 
-def test_the_command_passes_on_position_length_and_sample(tmp_path, capsys, published):
-    at = "--archetype orientation --angle-deg 40 --position 0.5 0 4 --lc 2 --resolution 8".split()
-    code, out = run(
-        [*at, "--legs", "2", "6.5", "--condition", "6", "--json", "--no-figures", "--out", str(tmp_path / "a")], capsys
-    )
+def test_the_command_passes_on_position_length_and_sample(run, tmp_path, published):
+    at = "--archetype orientation --angle-deg 40 --position 0.5 0 4 --lc 2 --resolution 8"
+    code, out, _ = run(f"workspace {at} --legs 2 6.5 --condition 6 --json --no-figures --out {tmp_path / 'a'}")
     assert code == 0
     expected = nd.workspace(
         published,
@@ -95,48 +83,43 @@ def test_the_command_passes_on_position_length_and_sample(tmp_path, capsys, publ
         characteristic_length=2.0,
         resolution=8,
     )
-    assert_allclose(json.loads(out.out)["workspace"]["volume"], expected.volume, rtol=1e-12)
-    sample = ["--method", "sample", "--points", "500", "--seed", "3", "--legs", "2.5", "6.5"]
-    box = ["--x", "-2.5", "2.5", "--y", "-2.5", "2.5", "--z", "3", "7"]
-    code, out = run([*sample, *box, "--json", "--out", str(tmp_path / "b")], capsys)
+    assert_allclose(json.loads(out)["workspace"]["volume"], expected.volume, rtol=1e-12)
+    sample = "--method sample --points 500 --seed 3 --legs 2.5 6.5"
+    code, out, _ = run(f"workspace {sample} {IN_BOX} --json --out {tmp_path / 'b'}")
     expected = nd.workspace(published, BOX, criteria=LEGS, internal_point=OWN, method="sample", points=500, seed=3)
-    assert json.loads(out.out)["workspace"]["volume"] == expected.volume
+    assert json.loads(out)["workspace"]["volume"] == expected.volume
 
 
-def test_ctrl_c_before_the_first_level_leaves_a_record(tmp_path, capsys, monkeypatch):
+def test_ctrl_c_before_the_first_level_leaves_a_record(run, tmp_path, monkeypatch):
     """All numbers are NaN, and the command ends as after any other interruption."""
     monkeypatch.setattr(
         importlib.import_module("ninedof.cli.commands.workspace"),
         "find_workspace",
         lambda *arguments, **options: nd.workspace(*arguments, **options | {"resolution": 128}),
     )
-    asked = ["--condition", "6", "--internal-point", "best", "--json", "--out", str(tmp_path / "run")]
     with interrupted_on_entry("workspace"):
-        code, out = run(asked, capsys)
+        code, out, err = run(f"workspace --condition 6 --internal-point best --json --out {tmp_path / 'run'}")
     assert code == 130
-    numbers = json.loads(out.out)["workspace"]
+    numbers = json.loads(out)["workspace"]
     assert numbers["status"] == "stopped"
     assert numbers["levels"] == []
     again = nd.WorkspaceMap.load(tmp_path / "run" / "map.npz")
     assert again.percentiles.shape == (101,)
     assert np.isnan(again.percentiles).all()
-    assert "interrupted" in out.err
+    assert "interrupted" in err
 
 
-def test_ctrl_c_after_the_search_keeps_the_map(tmp_path, capsys, monkeypatch):
+def test_ctrl_c_after_the_search_keeps_the_map(run, tmp_path, monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(importlib.import_module("ninedof.cli.commands.workspace"), "workspace_table", interrupted)
-    asked = ["--legs", "2.5", "6.5", "--tolerance", "0.1", "--out", str(tmp_path / "run")]
-    status, _ = run(asked, capsys)
-    assert status == 130
+    assert run(f"workspace --legs 2.5 6.5 --tolerance 0.1 --out {tmp_path / 'run'}")[0] == 130
     assert nd.load(tmp_path / "run").volume > 0.0
 
 
-def test_the_command_starts_from_the_published_design_at_its_best(tmp_path, capsys):
-    code, _ = run(["--legs", "0", "1", "--json", "--no-figures", "--out", str(tmp_path / "run")], capsys)
-    assert code == 3
+def test_the_command_starts_from_the_published_design_at_its_best(run, tmp_path):
+    assert run(f"workspace --legs 0 1 --json --no-figures --out {tmp_path / 'run'}")[0] == 3
     asked = json.loads((tmp_path / "run" / "record.json").read_text())["question"]
     zs = asked["home"]["internal_point"][2]
     heights = nd.Configuration.neutral(asked["home"]["position"][2], zs + np.array([-1e-4, 0.0, 1e-4]))
@@ -168,10 +151,12 @@ def a_run(tmp_path_factory):
     return folder, found.candidates[0].configuration
 
 
-def test_a_run_brings_its_limits_and_its_rule_for_the_internal_point(tmp_path, capsys, a_run):
+QUICK = "--method grid --resolution 4 --json --no-figures"
+
+
+def test_a_run_brings_its_limits_and_its_rule_for_the_internal_point(run, tmp_path, a_run):
     folder, home = a_run
-    quick = ["--method", "grid", "--resolution", "4", "--json", "--no-figures"]
-    _, out = run([str(folder), *quick, "--out", str(tmp_path / "a")], capsys)
+    _, out, err = run(f"workspace {folder} {QUICK} --out {tmp_path / 'a'}")
     asked = json.loads((tmp_path / "a" / "record.json").read_text())["question"]
     zp, zs = home.position[2], home.internal_point[2]
     assert zs < 0.31 * zp
@@ -184,7 +169,7 @@ def test_a_run_brings_its_limits_and_its_rule_for_the_internal_point(tmp_path, c
     assert asked["criteria"]["base_cone"]["axis"] == [0.0, 0.0, 1.0]
     assert_allclose(asked["criteria"]["leg_clearance"], 0.1, rtol=2 * EASE)
     assert asked["criteria"]["singularity_free"] is True
-    lines = out.err.splitlines()
+    lines = err.splitlines()
     for words in (
         "home: p = ",
         f"O: at {zs / zp:.4g} of the way",
@@ -194,14 +179,13 @@ def test_a_run_brings_its_limits_and_its_rule_for_the_internal_point(tmp_path, c
         "of the study, no limit of a single pose: radius_ratio, lower_length at neutral",
     ):
         assert sum(line.startswith(words) for line in lines) == 1, words
-    assert json.loads(out.out)["workspace"]["home_allowed"]
+    assert json.loads(out)["workspace"]["home_allowed"]
 
 
-def test_every_limit_of_a_run_is_replaced_by_its_option(tmp_path, capsys, a_run):
+def test_every_limit_of_a_run_is_replaced_by_its_option(run, tmp_path, a_run):
     folder, home = a_run
-    quick = ["--method", "grid", "--resolution", "4", "--json", "--no-figures"]
-    own = "--legs 0.5 8 --lower 0 7 --base-cone-deg 70 --clearance 0.01 --any-singularity --internal-point held".split()
-    run([str(folder), *quick, *own, "--base-cone-axis", "0", "1", "1", "--out", str(tmp_path / "a")], capsys)
+    own = "--legs 0.5 8 --lower 0 7 --base-cone-deg 70 --clearance 0.01 --any-singularity --internal-point held"
+    run(f"workspace {folder} {QUICK} {own} --base-cone-axis 0 1 1 --out {tmp_path / 'a'}")
     asked = json.loads((tmp_path / "a" / "record.json").read_text())["question"]
     assert asked["internal_point"] == home.internal_point.tolist()
     assert_allclose(asked["criteria"]["leg_limits"][0], np.full(9, 0.5))
@@ -210,19 +194,17 @@ def test_every_limit_of_a_run_is_replaced_by_its_option(tmp_path, capsys, a_run)
     assert asked["criteria"]["base_cone"] == {"max": np.radians(70.0), "axis": [0.0, 1.0, 1.0]}
     assert asked["criteria"]["leg_clearance"] == 0.01
     assert "singularity_free" not in asked["criteria"]
-    code, out = run([str(folder), *quick, "--no-study-limits", "--out", str(tmp_path / "b")], capsys)
+    code, _, err = run(f"workspace {folder} {QUICK} --no-study-limits --out {tmp_path / 'b'}")
     assert code == 2
-    assert "expected at least one" in out.err
+    assert "expected at least one" in err
 
 
-def test_the_centres_of_the_ball_and_the_box_are_printed(tmp_path, capsys):
-    code, out = run(
-        ["--legs", "2.5", "6.5", "--no-figures", "--tolerance", "0.05", "--out", str(tmp_path / "a")], capsys
-    )
+def test_the_centres_of_the_ball_and_the_box_are_printed(run, tmp_path):
+    code, out, _ = run(f"workspace --legs 2.5 6.5 --no-figures --tolerance 0.05 --out {tmp_path / 'a'}")
     found = nd.WorkspaceMap.load(tmp_path / "a" / "map.npz")
     assert code == 0
     for centre in (found.ball_centre, 0.5 * (found.box_low + found.box_high)):
-        assert "  ".join(f"{value:.4g}" for value in centre) in out.out
+        assert "  ".join(f"{value:.4g}" for value in centre) in out
 
 
 def test_ranges_by_kind_and_the_own_fraction():

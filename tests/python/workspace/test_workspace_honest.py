@@ -67,14 +67,6 @@ def test_a_set_much_thinner_than_the_first_cells(published):
     assert few.error >= exact
 
 
-def random_robot(rng):
-    def triple(radius):
-        at = rng.uniform(0.0, 2.0 * np.pi) + 2.0 * np.pi / 3.0 * np.arange(3) + 0.2 * rng.normal(size=3)
-        return np.stack([radius * np.cos(at), radius * np.sin(at), 0.1 * radius * rng.normal(size=3)], axis=-1)
-
-    return nd.Geometry(triple(4.0), triple(3.0), triple(3.0), triple(2.0))
-
-
 def pose_of(kind, rng):
     """The set of poses of a map, and p and Q at its coordinates."""
     if kind == "positions":
@@ -104,7 +96,7 @@ def inside_region(kind, x):
 def test_cells_are_proved_where_legs_alone_limit(kind):
     rng = np.random.default_rng(1)
     for _ in range(size(2, 30)):
-        g = random_robot(rng)
+        g = oracle.some_robot(rng)
         options, pose = pose_of(kind, rng)
         low, high = rng.uniform(0.5, 2.5, 9), rng.uniform(4.0, 6.5, 9)
         found = nd.workspace(g, criteria={"leg_limits": (low, high)}, resolution=8, tolerance=0.05, **options)
@@ -125,7 +117,7 @@ def test_cells_are_proved_where_legs_alone_limit(kind):
 def test_the_largest_ball_and_box_are_inside(published, kind):
     rng = np.random.default_rng(2)
     for n in range(size(2, 30)):
-        g = published if n == 0 else random_robot(rng)
+        g = published if n == 0 else oracle.some_robot(rng)
         options, pose = pose_of(kind, rng)
         kappa = 1.7 * float(nd.condition_number(g, HOME))
         criteria = {"leg_limits": (2.0, 6.7)} | ({"condition_number": kappa} if n % 2 == 0 else {})

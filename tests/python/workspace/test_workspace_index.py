@@ -5,7 +5,6 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
-from ninedof.cli.app import main
 from ninedof.design.indices import computed
 
 G = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
@@ -106,12 +105,10 @@ def test_interrupted_in_an_index_keeps_the_map():
     assert found.volume == nd.workspace(G, criteria=LIMITS, method="grid", resolution=8, **BOX).volume
 
 
-def test_at_the_terminal(tmp_path, capsys):
-    arguments = ["workspace", "--legs", "1.5", "6.5", "--method", "grid", "--resolution", "12", "--no-figures"]
-    with pytest.raises(SystemExit) as ended:
-        main([*arguments, "--index", "manipulability", "--index", "leg_lengths", "--out", str(tmp_path / "run")])
-    assert ended.value.code == 0
-    printed = capsys.readouterr().out
+def test_at_the_terminal(run, tmp_path):
+    line = "workspace --legs 1.5 6.5 --method grid --resolution 12 --no-figures --index manipulability"
+    status, printed, _ = run(f"{line} --index leg_lengths --out {tmp_path / 'run'}")
+    assert status == 0
     assert "manipulability: mean, least, greatest" in printed
     assert "r3: mean, least, greatest" in printed
 
