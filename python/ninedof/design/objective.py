@@ -17,8 +17,8 @@ from ninedof.design.indices import objectives
 from ninedof.design.poses import Pose
 from ninedof.design.region import Region
 from ninedof.support.arguments import choice, finite, items, known_keys, number, text, whole
-from ninedof.support.schema import Table, entry, keys, within
-from ninedof.support.short import short_repr
+from ninedof.support.structs import Table, entry, keys, within
+from ninedof.support.text import short_repr
 
 AGGREGATES = {
     "worst": "worst {index}",

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ninedof.export.model import Format, Model
-from ninedof.robot.plate_plan import Plate, free_angles, plates_of, turn_words
+from ninedof.robot.plates import Plate, free_angles, plates_of, turn_words
 from ninedof.support.arrays import Floats
 from ninedof.support.extras import optional
 from ninedof.support.placing import Placing, around, rectangle, toward

@@ -13,7 +13,7 @@ from xml.sax.saxutils import quoteattr
 from ninedof.export.bodies import COLOURS, LEVEL, Bodies, Leg, angles, ball_inertia, bars, numbers, pointing
 from ninedof.export.model import Format, Model
 from ninedof.support.arrays import Floats
-from ninedof.support.json import encode
+from ninedof.support.text import encode
 
 TABLE, MARK = ".loops.json", "ninedof-loops-1"
 EFFORT, VELOCITY = 1000.0, 1.0  # N and m/s: the format demands limits of a slide; a design has none

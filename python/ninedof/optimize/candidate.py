@@ -11,8 +11,8 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.plain_values import plain_fields
 from ninedof.support.arguments import finite
-from ninedof.support.short import short_repr
 from ninedof.support.structs import Fixed, entries_of, from_core
+from ninedof.support.text import short_repr
 
 if TYPE_CHECKING:
     from ninedof import _core

@@ -11,9 +11,8 @@ from ninedof import _core
 from ninedof.design.poses import Pose
 from ninedof.sheet.plain_values import plain_fields
 from ninedof.support.arguments import items
-from ninedof.support.schema import read
-from ninedof.support.short import short_repr
-from ninedof.support.structs import entries_of, from_core
+from ninedof.support.structs import entries_of, from_core, read
+from ninedof.support.text import short_repr
 
 DENSE = 100_000  # poses of a dense search
 PASSED = 1e-7  # by which a limit or the index may be passed between the poses, relative

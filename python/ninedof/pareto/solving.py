@@ -12,10 +12,9 @@ from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import SAME, objective_of
 from ninedof.pareto.limits import tightest_first, unit_of, with_limit
-from ninedof.support.angles import degrees_of
-from ninedof.support.progress import Progress
+from ninedof.support.running import Progress
 from ninedof.support.store import Store
-from ninedof.support.units import amount
+from ninedof.support.units import amount, degrees_of
 
 BETTER = 1e-12  # relative: what the objective of an optimum must gain to replace another
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from ninedof.optimize.machine_proofs import FIRST, MOST, STEP
+from ninedof.optimize.reserve import FIRST, MOST, STEP
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import Front, limit_text, objective_of
 from ninedof.pareto.limits import CONDITION_LIMIT, floor_of, own_value, value_of

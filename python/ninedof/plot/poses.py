@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.plot import style
 from ninedof.support.arrays import Floats
-from ninedof.support.short import escaped
+from ninedof.support.text import escaped
 
 MOST_NAMED = 40  # poses with names; for more poses the axis has a few numbers
 LONGEST = 24  # letters of a name on the axis; longer ones are a list below it, by number

@@ -12,10 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ninedof.plot import style
-from ninedof.support.angles import plain_name
 from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
-from ninedof.support.units import amount
+from ninedof.support.units import amount, plain_name
 
 if TYPE_CHECKING:
     from ninedof.sweep import SweepResult

@@ -17,7 +17,7 @@ from matplotlib.path import Path
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 

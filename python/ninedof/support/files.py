@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.support.arguments import cleaned, path_argument
-from ninedof.support.json import decode, encode
+from ninedof.support.text import decode, encode
 
 if TYPE_CHECKING:
     import hashlib

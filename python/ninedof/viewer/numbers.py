@@ -14,7 +14,7 @@ from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
 from ninedof.design.limits import kind_of, split_label
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.sheet.pose_limits import PoseLimit, pose_limits
 from ninedof.sheet.rows import LimitRow
 from ninedof.singularity.singularity import SingularityMargins, singularity_margins

@@ -13,7 +13,7 @@ from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.proof.design_range import design_range
 from ninedof.records.proofs import admissible_file, load_admissible, run_of, save_admissible
-from ninedof.support.command import goes_on
+from ninedof.support.running import goes_on
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
 

@@ -13,8 +13,8 @@ import ninedof as nd
 from ninedof.cli.options import option, struct
 from ninedof.cli.sweep_job import Job
 from ninedof.conditioning.hexagonal import HEXAGONAL
+from ninedof.sweep.result import atlas_table
 from ninedof.sweep.survey import squared_radius_ratio
-from ninedof.sweep.tables import atlas_table
 
 PLACE = 5
 EXAMPLES = """

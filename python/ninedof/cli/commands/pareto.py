@@ -17,9 +17,8 @@ from ninedof.design.limits import names_with_max, split_label
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limits import TOLERANCE, with_degrees
 from ninedof.pareto.span import range_words
-from ninedof.records.folder import run_folder
 from ninedof.records.load import split
-from ninedof.records.record import write_run
+from ninedof.records.record import run_folder, write_run
 
 PLACE = 2
 EXAMPLES = """

@@ -28,9 +28,8 @@ from ninedof.cli.options import (
 from ninedof.cli.posed import rule_option
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.motion.tables import motion_tables, motion_words
-from ninedof.records.folder import run_folder
 from ninedof.records.motion import plain
-from ninedof.records.record import write_run
+from ninedof.records.record import run_folder, write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.request import masses_of

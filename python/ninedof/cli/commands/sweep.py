@@ -18,11 +18,11 @@ from ninedof.design.indices import computed
 from ninedof.design.study import FAMILIES as FAMILY_NAMES
 from ninedof.design.variables import variables_of
 from ninedof.paper.published import published_variables
-from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
+from ninedof.support.units import DEG, plain_name
 from ninedof.sweep.axis import Values
-from ninedof.sweep.poses import COORDINATES, INTERNAL, POSITION, ROTATION, rule_of_study
-from ninedof.sweep.tables import summary_table
+from ninedof.sweep.points import COORDINATES, INTERNAL, POSITION, ROTATION, rule_of_study
+from ninedof.sweep.result import summary_table
 
 FAMILIES = {name: tuple(nd.Study(name).variables) for name in FAMILY_NAMES}
 VARIABLES = frozenset(name for names in FAMILIES.values() for name in names)

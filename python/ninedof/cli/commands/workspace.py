@@ -12,8 +12,7 @@ from ninedof.cli.answer import Answer, finish_job, write_job
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
-from ninedof.records.folder import run_folder
-from ninedof.records.record import write_run
+from ninedof.records.record import run_folder, write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.support.store import Store
