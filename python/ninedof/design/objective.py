@@ -42,7 +42,6 @@ def _condition_limit(name: str, value: Any) -> float | None:
 
 
 def _poses(name: str, value: Any, **defaults: Any) -> tuple[Pose, ...]:
-    """Return poses, each made from a table if one is given."""
     entries = items(name, value, "a list of poses")
     if len(entries) > poses.MOST_POSES:
         raise ValueError(f"{name}: got {len(entries)}, expected at most {poses.MOST_POSES}")

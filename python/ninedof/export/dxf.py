@@ -139,7 +139,6 @@ class _Drawing:
         self._text(words, self.places.put(1.1 * width, 1.3 * h, centres), "MIDDLE_CENTER")
 
     def _side(self, name: str, start: Floats, end: Floats) -> None:
-        """Dimension a side, on the side away from the origin."""
         a, b = sorted([start[:2], end[:2]], key=lambda point: point.round(9).tolist())  # words left to right
         left = np.array([a[1] - b[1], b[0] - a[0]])
         outward = left * math.copysign(1.0, left @ (a + b)) / np.linalg.norm(left)

@@ -16,9 +16,8 @@ from ninedof import _core
 from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.optimize.actuators import ActuatorSearch, SearchEnded
-from ninedof.optimize.candidate import Candidate, candidate_of
+from ninedof.optimize.candidate import Candidate, RegionReport, candidate_of
 from ninedof.optimize.pieces import Pieces, Warm, warm_starts, warm_variables
-from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.reserve import with_reserve
 from ninedof.optimize.result import Result, Status
 from ninedof.optimize.tables import axis_hint

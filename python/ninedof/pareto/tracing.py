@@ -16,8 +16,7 @@ from ninedof.design.study import Study
 from ninedof.optimize.result import Status
 from ninedof.pareto.front import Front, objective_of
 from ninedof.pareto.limits import CONDITION_LIMIT, TOLERANCE, resolve, tightest_first, with_degrees, without_degrees
-from ninedof.pareto.solving import FrontSolver
-from ninedof.pareto.span import BISECTIONS, between_indices, of_a_limit, of_tolerances
+from ninedof.pareto.solving import BISECTIONS, FrontSolver, between_indices, of_a_limit, of_tolerances
 from ninedof.support.arguments import finite, instance, items, path_argument, shown, whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, progress_argument

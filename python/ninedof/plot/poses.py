@@ -121,7 +121,6 @@ def _columns(lines: Sequence[str], width: float) -> list[Sequence[str]]:
 
 
 def _write(axes: Any, columns: Sequence[Sequence[str]], note: str, below: float) -> None:
-    """Write the list, so many inches below the axes, line by line."""
     heads = bool(columns and note)
     lines = [(0, 0, note, style.MUTED)] * heads
     lines += [(k, row + heads, words, style.INK) for k, each in enumerate(columns) for row, words in enumerate(each)]

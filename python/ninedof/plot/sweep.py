@@ -173,7 +173,6 @@ def _bands(values: Floats, name: str) -> tuple[Floats, bool]:
 
 
 def _unit(result: SweepResult, name: str) -> str:
-    """Return the unit that is drawn: degrees in the place of radians."""
     unit = result.units.get(name, "1")
     return "deg" if unit == "rad" else "" if unit in ("1", "length") else unit
 

@@ -174,7 +174,6 @@ def design_values(of: HasDesign | Mapping[str, float]) -> Mapping[str, float]:
 
 
 def _asked(of: Study | HasDesign, at: Mapping[str, float | str] | None) -> tuple[Study, dict[str, float]]:
-    """Return the study and the known values of its variables."""
     study = of if isinstance(of, Study) else getattr(of, "study", None)
     if not isinstance(study, Study):
         raise ValueError(f"of: got {shown(of)}, expected a Study or a Result")

@@ -256,7 +256,6 @@ def _rule(
     option: PointRule | Callable[[], PointRule] | None,
     resume: MachineCertificate | None,
 ) -> PointRule | None:
-    """Return the rule that O follows, if it follows one."""
     if not o_is_placed(study):
         if option is not None:
             raise ValueError(

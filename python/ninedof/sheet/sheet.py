@@ -41,7 +41,7 @@ from ninedof.support.arrays import Floats, one_or_each
 from ninedof.support.structs import options_of
 from ninedof.support.units import per, unit_argument, with_unit
 from ninedof.tables.html import notebook
-from ninedof.tables.plain import plain
+from ninedof.tables.table import plain
 
 
 class Extreme(NamedTuple):

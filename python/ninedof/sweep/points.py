@@ -157,7 +157,6 @@ class Variants:
                 self._objective(index)
 
     def _objective(self, index: Index) -> Study:
-        """Return a study that has an index as its objective."""
         return Study(self.family, self.design, objective=Objective(index.name), characteristic_length=self.length)
 
     def question(self) -> dict[str, Any]:

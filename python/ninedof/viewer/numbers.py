@@ -90,7 +90,6 @@ def limits_at(variant: Variant, c: Configuration) -> list[PoseLimit]:
 
 
 def _worst(limits: Sequence[PoseLimit]) -> list[LimitRow]:
-    """Return the side and leg of least margin of each limit."""
     worst: dict[tuple[str, str], PoseLimit] = {}
     for one in limits:
         key = (one.name, one.side)
@@ -105,7 +104,6 @@ def _worst(limits: Sequence[PoseLimit]) -> list[LimitRow]:
 
 
 def _of_design(variant: Variant, limits: Sequence[PoseLimit]) -> list[LimitRow]:
-    """Return the limits that belong to the design and not to a pose."""
     of_pose = {one.name for one in limits}
     return [
         LimitRow(name, "", math.nan, math.nan, margin, "", _kind(name))

@@ -70,7 +70,6 @@ def workspace_table(workspace: Any, most: int = SHOWN) -> Table:
 
 
 def _index_lines(workspace: Any) -> Iterator[Line]:
-    """Yield mean, least and greatest of each index that was asked for."""
     for name, over in workspace.indices.items():
         index = INDICES[name]
         unit = workspace.unit if index.unit == "length" else ""

@@ -112,7 +112,6 @@ def _draw(found: nd.AdmissibleSet, file: Path) -> list[Path]:
 
 
 def _of(options: _Options) -> tuple[nd.Study | nd.Result, Path | None]:
-    """Return what is asked about, and the folder of the answer."""
     if (place := Path(options.of)).suffix == ".toml" and place.is_file():
         return nd.Study.load(place), options.out
     result = nd.load(options.of)

@@ -45,7 +45,6 @@ def atlas(job: _Options) -> None:
 
 
 def _figures(result: nd.SweepResult) -> Iterator[tuple[str, Any]]:
-    """Yield the figure, with the paper's optimum marked."""
     from ninedof import plot
 
     best = nd.optimize(nd.Study.paper()).best

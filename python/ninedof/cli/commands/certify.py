@@ -138,7 +138,6 @@ def _tolerance_words(built: nd.Tolerances, unit: str) -> str:
 
 
 def _largest(certificate: nd.MachineCertificate) -> str:
-    """Return what is said of the largest tolerances."""
     if built := certificate.tolerances:
         return f"The largest tolerances that were proved, to 5 %: {_tolerance_words(built, certificate.unit)}."
     tight = min(certificate.limits, key=lambda limit: limit.margin)

@@ -66,7 +66,6 @@ def export(options: _Options) -> Answer:
 
 
 def _by_suffix(out: Path | None) -> Format:
-    """Return the format that the suffix of --out names."""
     if out is None:
         raise ValueError(f"--to: got nothing, expected one of {', '.join(formats())}")
     suffixes = {row.suffix: row for row in formats().values()}

@@ -77,7 +77,6 @@ def _this(result: nd.AssemblyModes, size: float, c: nd.Configuration) -> int:
 
 
 def _proof(proof: nd.ModesCertificate) -> str:
-    """Return what is proved in a sentence."""
     boxes = f"({proof.boxes} boxes)"
     if proof.complete:
         within = f", each to {outward(proof.radius.max(), True, 2)} of the longest leg" if proof.proved else ""

@@ -16,7 +16,7 @@ from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limits import TOLERANCE, with_degrees
-from ninedof.pareto.span import range_words
+from ninedof.pareto.solving import range_words
 from ninedof.records.load import split
 from ninedof.records.record import run_folder, write_run
 

@@ -124,7 +124,6 @@ def path(options: _Options) -> None:
 
 
 def _trajectory(chosen: Chosen, options: _Options) -> nd.Trajectory:
-    """Return the one trajectory of the options."""
     home, shapes = chosen.configuration, options.given(*SHAPES)
     names = [*(["a file"] if options.file else []), *(f"--{name}" for name in shapes)]
     if len(names) != 1:

@@ -116,7 +116,6 @@ def _coordinates(at: DesignAtPoses) -> tuple[list[Any], dict[str, Any]]:
 
 
 def _nearest(name: str, distance: str, one: nd.NearestSingularity, at: DesignAtPoses) -> str:
-    """Return the nearest singularity of a part in words."""
     way = f"{name} any axis" + ", O at rest" * (not name.startswith("O"))
     if not math.isfinite(one.distance):
         return f"{way}: no singularity found"

@@ -180,7 +180,6 @@ def _variables(name: str | None, chosen: Chosen, over: list[str]) -> tuple[str, 
 
 
 def _grid(job: _Options) -> dict[str, Values]:
-    """Return the axes of --over."""
     what, over = job.what, job.over or ()
     if what is not None and what.startswith("figure-") and not Path(what).exists():
         raise ValueError(f"sweep: got {what}, expected one of {', '.join(FIGURES)}, or a design")
@@ -217,7 +216,6 @@ def parse_over(text: str) -> tuple[str, Values]:
 
 
 def _figures(result: nd.SweepResult, what: str | None, note: str) -> Iterator[tuple[str, Any]]:
-    """Yield the name of each figure with the figure: one for each index."""
     from ninedof import plot
     from ninedof.paper import figures
 

@@ -100,10 +100,10 @@ def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -
 
 
 def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
-    asked = asked_lines(question.keywords, chosen.configuration, question.own, question.left, chosen.unit)
+    asked = asked_lines(question.keywords, chosen.configuration, question.asked.own, question.asked.left, chosen.unit)
     yield next(asked)
-    if question.actuators:
-        yield question.actuators
+    if question.asked.actuators:
+        yield question.asked.actuators
     yield from asked
     yield workspace_table(result)
     yield from (bold(*words) for words in workspace_words(result))
