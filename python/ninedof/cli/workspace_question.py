@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import ninedof as nd
-from ninedof.cli.chosen_design import Chosen
 from ninedof.cli.options import (
     DESIGN_OR_PUBLISHED,
     LC,
@@ -19,11 +18,12 @@ from ninedof.cli.options import (
     argument,
     ends,
     option,
+    rule_option,
     struct,
     triple,
     typed,
 )
-from ninedof.cli.posed import length_at_home, rule_option
+from ninedof.cli.posed import Chosen, length_at_home
 from ninedof.design.indices import computed
 from ninedof.support.arguments import choice, finite
 from ninedof.support.units import unit_entry

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct, typed
+from ninedof.cli.posed import named_design
 from ninedof.export.bodies import body_masses
 from ninedof.export.export import formats
 from ninedof.export.model import Format

@@ -8,8 +8,8 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import LOAD, option, struct
-from ninedof.cli.posed import PosesOptions, loads_option
+from ninedof.cli.options import LOAD, loads_option, option, struct
+from ninedof.cli.posed import PosesOptions
 from ninedof.cli.screen import bold
 from ninedof.robot.geometry import LEGS
 from ninedof.robot.idle import NEVER_CARRY, unloaded_names

@@ -10,8 +10,8 @@ from typing import Any
 
 import ninedof as nd
 from ninedof.cli.answer import Answer, finish_job
-from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, struct
+from ninedof.cli.posed import named_design
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.pareto.front import front_table

@@ -11,7 +11,6 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer, finish_job
-from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.options import (
     DESIGN_OR_PUBLISHED,
     LC,
@@ -22,10 +21,11 @@ from ninedof.cli.options import (
     argument,
     ends,
     option,
+    rule_option,
     struct,
     triple,
 )
-from ninedof.cli.posed import rule_option
+from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.motion.tables import motion_tables, motion_words
 from ninedof.records.motion import plain

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.options import LOAD, ONE_DESIGN, Options, Three, argument, option, struct, triple
-from ninedof.cli.posed import loads_option
+from ninedof.cli.options import LOAD, ONE_DESIGN, Options, Three, argument, loads_option, option, struct, triple
+from ninedof.cli.posed import Chosen, named_design
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.robot.geometry import LEGS
 from ninedof.sheet.payload import Payload, largest_payload

@@ -9,8 +9,8 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import option, struct
-from ninedof.cli.posed import DesignAtPoses, PosesOptions, several
+from ninedof.cli.options import option, several, struct
+from ninedof.cli.posed import DesignAtPoses, PosesOptions
 from ninedof.robot.configuration import arrays_of
 from ninedof.sheet.tables import MECHANISMS
 from ninedof.singularity.singularity_distance import PARTS

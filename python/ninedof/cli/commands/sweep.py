@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 import ninedof as nd
-from ninedof.cli.chosen_design import Chosen, chosen_design, length_option, named_design, with_length
-from ninedof.cli.options import DESIGN, HEXAGON, THREADS, HexagonalOptions, argument, option, struct
+from ninedof.cli.options import DESIGN, HEXAGON, THREADS, HexagonalOptions, argument, length_option, option, struct
+from ninedof.cli.posed import Chosen, chosen_design, named_design, with_length
 from ninedof.cli.sweep_job import Job, describe, json_data
 from ninedof.design.indices import computed
 from ninedof.design.study import FAMILIES as FAMILY_NAMES

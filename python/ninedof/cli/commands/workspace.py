@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ninedof.cli.answer import Answer, finish_job, write_job
-from ninedof.cli.chosen_design import Chosen, named_design, with_length
+from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
 from ninedof.records.record import run_folder, write_run
