@@ -22,8 +22,9 @@ from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.tables import limits_table
 from ninedof.support.margins import is_violated, margin_of, margin_words, tolerance_of
 from ninedof.tables.table import plain
+from ninedof.viewer.html import limits_html
 from ninedof.viewer.machine import Variant
-from ninedof.viewer.numbers import limits_html, numbers_of
+from ninedof.viewer.numbers import numbers_of
 
 LIMITS = {
     "radius_ratio": {"min": 0.1, "max": 2.5},
