@@ -1,4 +1,4 @@
-"""Solving the limits of a front: one after another, each from its neighbours, and the range of those that are not given."""
+"""Solving the limits of a front: each from its neighbours, and the range of those that are not given."""
 
 from __future__ import annotations
 
