@@ -14,8 +14,8 @@ from typing import Any
 
 import ninedof as nd
 from ninedof.design.duty import DUTIES
-from ninedof.support.angles import DEG
-from ninedof.support.schema import Table, keys
+from ninedof.support.structs import Table, keys
+from ninedof.support.units import DEG
 
 PAGE = Path(__file__).resolve().parents[1] / "study-file.md"
 SOURCES = {

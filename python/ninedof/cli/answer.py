@@ -14,8 +14,8 @@ from ninedof.cli.options import JobOptions
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.records.record import FILE as RECORD
 from ninedof.report.report import FILE, report
-from ninedof.support.short import one_line
 from ninedof.support.store import QUESTION
+from ninedof.support.text import one_line
 
 Draw = Callable[[Path], Sequence[Path]]
 FIGURES = (".png", ".svg", ".pdf")

@@ -14,7 +14,7 @@ import typer
 from ninedof.cli import commands
 from ninedof.cli.answer import command
 from ninedof.cli.ending import finish, interruptible
-from ninedof.support.command import running
+from ninedof.support.running import running
 
 PROGRAM = "ninedof"
 

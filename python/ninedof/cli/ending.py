@@ -19,10 +19,10 @@ from typer import Abort, BadParameter
 
 from ninedof.cli.options import typed
 from ninedof.cli.screen import BAD_INPUT, FAILED, INTERRUPTED, REFUSED, status_of
-from ninedof.support.command import how_to_go_on
 from ninedof.support.extras import MissingExtra
-from ninedof.support.short import escaped, one_line
+from ninedof.support.running import how_to_go_on
 from ninedof.support.starting import ending
+from ninedof.support.text import escaped, one_line
 
 PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 ClickException = BadParameter.__mro__[2]  # what typer raises for options that it cannot read

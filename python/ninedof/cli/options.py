@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+import math
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -11,6 +12,8 @@ from typing import Any, TypeVar, dataclass_transform
 import typer
 
 from ninedof.cli.screen import Screen
+from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.redundancy.rules import RULES
 
 Two = tuple[float, float]
 Three = tuple[float, float, float]
@@ -65,6 +68,38 @@ def changes_option(texts: Sequence[str]) -> dict[str, float | str]:
         except ValueError:
             raise ValueError(f"--set: got {text!r}, expected NAME=VALUE without a plus, or NAME=+10%") from None
     return changes
+
+
+def length_option(text: str) -> float | str:
+    """Return the characteristic length given by --lc."""
+    return word_or_number("--lc", text, KINDS, f"a number or one of {', '.join(KINDS)}")
+
+
+def numbers(text: str) -> list[float]:
+    """Return the finite numbers of a text, divided by blanks or commas; none if one of its words is no number."""
+    try:
+        values = [float(word) for word in text.replace(",", " ").split()]
+    except ValueError:
+        return []
+    return values if all(map(math.isfinite, values)) else []
+
+
+def several(option: str, text: str, expected: str) -> list[float]:
+    """Return the numbers of an option that takes as many as `expected` has words, in quotes."""
+    values, count = numbers(text), len(expected.split())
+    if len(values) != count:
+        raise ValueError(f'{option}: got {text!r}, expected {count} numbers "{expected}"')
+    return values
+
+
+def rule_option(text: str) -> str | float:
+    """Return the rule for O given by --internal-point, or a fraction."""
+    return word_or_number("--internal-point", text, RULES, f"{', '.join(RULES)} or a fraction")
+
+
+def loads_option(texts: Iterable[str] | None) -> list[list[float]]:
+    """Return the loads given by --load."""
+    return [several("--load", text, "mx my mz fx fy fz") for text in texts or ()]
 
 
 def triple(words: str) -> Any:

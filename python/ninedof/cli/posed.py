@@ -1,24 +1,120 @@
-"""The commands that look at a design at poses: the neutral one, one given by options, or those of the study."""
+"""The design that a command is about, named by DESIGN or by sides and heights, and the poses it is looked at."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
 import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.options import ONE_DESIGN, Options, Three, argument, option, struct, triple, typed, word_or_number
+from ninedof.cli.options import (
+    HEXAGON,
+    ONE_DESIGN,
+    SIDES,
+    HexagonalOptions,
+    Options,
+    Three,
+    argument,
+    length_option,
+    numbers,
+    option,
+    struct,
+    triple,
+    typed,
+)
 from ninedof.cli.screen import DONE, bold
+from ninedof.paper.published import published_variables
+from ninedof.records.design_file import hexagonal_design
+from ninedof.records.load import design_and_result
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
+from ninedof.sheet.pose_words import pose_words
 from ninedof.support.arguments import vector
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A design at its neutral pose, and the result of its study, if there is one."""
+
+    geometry: nd.Geometry
+    configuration: nd.Configuration
+    characteristic_length: float | str
+    unit: str
+    tool: nd.Tool
+    result: nd.Result | None = None
+
+    @property
+    def design(self) -> nd.Design:
+        """The design alone."""
+        return nd.Design(self.geometry, self.configuration, self.characteristic_length, self.unit, self.tool)
+
+    @property
+    def machine(self) -> nd.Result | nd.Design:
+        """The result, or the design alone without one."""
+        return self.result or self.design
+
+    def words(self, c: nd.Configuration) -> str:
+        """Return a pose of the design in words."""
+        return pose_words(c, self.configuration.rotation, self.unit)
+
+    @property
+    def study(self) -> nd.Study | None:
+        """The study that it is from."""
+        return None if self.result is None else self.result.study
+
+    @property
+    def duty(self) -> nd.Study:
+        """The study that says what the machine is for; one of the tool alone without a study."""
+        return self.study or nd.Study(tool=self.tool)
+
+    @property
+    def stated(self) -> dict[str, Any]:
+        """Title block and tool of its study, as entries of a record's question for the report; those that it has."""
+        entries = {"about": self.duty.about.to_dict(), "tool": self.tool.to_dict()}
+        return {name: entry for name, entry in entries.items() if entry}
+
+    @property
+    def permitted_lengths(self) -> tuple[Floats, Floats] | None:
+        """The least and greatest length of each leg by its study; None without one."""
+        return None if self.result is None else self.result.permitted_lengths
+
+
+C = TypeVar("C", bound=Chosen)
+
+
+def named_design(name: str | None) -> Chosen:
+    """Return the design that an argument DESIGN names; the published design at its best zs without one."""
+    if name is None:
+        return Chosen(*hexagonal_design(published_variables()))
+    design, result = design_and_result(nd.load(name), name)
+    return Chosen(*design, result)
+
+
+def chosen_design(name: str | None, options: HexagonalOptions) -> Chosen:
+    """Return the design that an argument DESIGN names, or that of the sides and heights of the hexagonal family."""
+    values = options.given(*HEXAGON)
+    if name is None:
+        if missing := [f"--{side}" for side in SIDES if side not in values]:
+            expected = "expected a design file or all of a1 a2 b1 b2 zp zs"
+            raise ValueError(f"design: got no {', '.join(missing)}, {expected}")
+        chosen = Chosen(*hexagonal_design(values | {"theta_z": math.radians(values.get("theta_z_deg", 0.0))}))
+    elif values:
+        raise ValueError(f"design: got {name} and {', '.join(values)}, expected one of the two")
+    else:
+        chosen = named_design(name)
+    return with_length(chosen, options.lc)
+
+
+def with_length(chosen: C, lc: str | None) -> C:
+    """Return the design with the characteristic length given by --lc, if any."""
+    return chosen if lc is None else replace(chosen, characteristic_length=length_option(lc))
+
 
 NO_SIDE = 1e-12  # a determinant that is zero but for rounding
 SAME = 1e-9  # relative: poses that differ by less coincide
@@ -157,30 +253,3 @@ def _internal_point(chosen: Chosen, p: Floats, q: Floats, rule: str) -> Floats:
         raise ValueError(f'--internal-point: got {rule!r}, expected {", ".join(RULES)}, a fraction or "X Y Z"')
     below, above = g.base_internal.mean(axis=0), p + q @ g.platform_internal.mean(axis=0)
     return np.asarray(below + values[0] * (above - below))
-
-
-def numbers(text: str) -> list[float]:
-    """Return the finite numbers of a text, divided by blanks or commas; none if one of its words is no number."""
-    try:
-        values = [float(word) for word in text.replace(",", " ").split()]
-    except ValueError:
-        return []
-    return values if all(map(math.isfinite, values)) else []
-
-
-def several(option: str, text: str, expected: str) -> list[float]:
-    """Return the numbers of an option that takes as many as `expected` has words, in quotes."""
-    values, count = numbers(text), len(expected.split())
-    if len(values) != count:
-        raise ValueError(f'{option}: got {text!r}, expected {count} numbers "{expected}"')
-    return values
-
-
-def rule_option(text: str) -> str | float:
-    """Return the rule for O given by --internal-point, or a fraction."""
-    return word_or_number("--internal-point", text, RULES, f"{', '.join(RULES)} or a fraction")
-
-
-def loads_option(texts: Iterable[str] | None) -> list[list[float]]:
-    """Return the loads given by --load."""
-    return [several("--load", text, "mx my mz fx fy fz") for text in texts or ()]

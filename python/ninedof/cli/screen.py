@@ -26,8 +26,7 @@ from rich.table import Column
 from rich.text import Text
 
 from ninedof.optimize.result import Result, Status
-from ninedof.support.json import encode
-from ninedof.support.short import escaped, one_line
+from ninedof.support.text import encode, escaped, one_line
 from ninedof.tables.terminal import terminal
 
 DONE = 0

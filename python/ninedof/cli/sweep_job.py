@@ -13,8 +13,7 @@ from ninedof.cli.answer import Answer, finish_job
 from ninedof.cli.options import SCHEDULER, JobOptions, option, struct
 from ninedof.cli.scheduler import executor_at
 from ninedof.design.indices import size_of
-from ninedof.records.folder import run_folder
-from ninedof.records.record import write_run
+from ninedof.records.record import run_folder, write_run
 from ninedof.support.arrays import blocks
 from ninedof.sweep import SweepResult
 from ninedof.tables import Table

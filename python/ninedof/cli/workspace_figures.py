@@ -50,7 +50,6 @@ def draw(
 def _draw_certified(
     workspace: WorkspaceMap, proved: CertifiedWorkspace, home: Configuration, region: Region | None, directory: Path
 ) -> list[Path]:
-    """Draw a vertical and the horizontal section of what is proved."""
     middle = workspace.ball_centre if workspace.ball_radius > 0.0 and region is None else home.position
     panels = []
     for fixed, at in _planes(workspace, home, middle)[::2]:
@@ -62,7 +61,6 @@ def _draw_certified(
 
 
 def _planes(workspace: WorkspaceMap, home: Configuration, middle: Floats) -> list[tuple[int, float]]:
-    """Return the number of the fixed coordinate and its value for each section."""
     round_values = [_round(float(middle[k]), workspace, k) for k in range(3)]
     if workspace.of_angles:
         return [(k, round_values[k]) for k in (1, 2)]

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import ninedof as nd
-from ninedof.cli.chosen_design import Chosen
 from ninedof.cli.options import (
     DESIGN_OR_PUBLISHED,
     LC,
@@ -19,27 +18,17 @@ from ninedof.cli.options import (
     argument,
     ends,
     option,
+    rule_option,
     struct,
     triple,
     typed,
 )
-from ninedof.cli.posed import length_at_home, rule_option
+from ninedof.cli.posed import Chosen, length_at_home
 from ninedof.design.indices import computed
-from ninedof.design.limit_numbers import CONES, LEGS, SPREADS
 from ninedof.support.arguments import choice, finite
 from ninedof.support.units import unit_entry
 from ninedof.workspace.certified import GAPS, require_certifiable
-from ninedof.workspace.study_question import (
-    ACTUATOR_WORDS,
-    ACTUATORS,
-    box_about,
-    box_around,
-    built_ranges,
-    narrowed,
-    rule_of_region,
-    study_limits,
-    with_leg_limits,
-)
+from ninedof.workspace.study_question import ACTUATORS, Asked, asked_criteria, place_of, rule_of_region
 
 CRITERIA = {  # by the names of the options
     "legs": "leg_length",
@@ -114,16 +103,12 @@ class Question:
 
     keywords: dict[str, Any]
     """Keywords of `nd.workspace`."""
-    own: set[str]
-    """Names of the criteria that come from the study."""
-    left: list[str]
-    """Limits of the study that are no criteria of a pose."""
+    asked: Asked
+    """The criteria, and where they are from."""
     region: nd.Region | None
     """The region of the study."""
     proof: dict[str, Any] | None
     """Gap and time of the proof; None without one."""
-    actuators: str
-    """How long the legs are that a study compares, in words; "" without such."""
 
 
 def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
@@ -132,17 +117,9 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     region = None if study is None else study.objective.region
     numbers = options.given(*CRITERIA)
     values = {CRITERIA[name]: _radians(name, x) if name.endswith("_deg") else x for name, x in numbers.items()}
-    criteria, own, left = criteria_of(study if options.study_limits else None, chosen.geometry, home, values)
     choice("--actuators", options.actuators, ACTUATORS)
-    words = ""
-    if chosen.result is not None and options.study_limits and compare_poses(left, values):
-        built = built_ranges(chosen.result, options.actuators)
-        if built is not None:
-            criteria = narrowed(criteria, *built)
-            own.discard("leg_limits")
-            words = ACTUATOR_WORDS[options.actuators]
-            left = [name for name in left if name not in SPREADS]
-    if not criteria:
+    asked = asked_criteria(chosen.result if options.study_limits else None, values, options.actuators)
+    if not asked.criteria:
         raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
     if options.method == "grid":
         options.refuse("with --method grid", "points", "seed")
@@ -152,7 +129,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     bounds = options.given("angle_deg", "tilt_deg", "torsion_deg")
     keywords: dict[str, Any] = {
         "archetype": options.archetype,
-        "criteria": criteria,
+        "criteria": asked.criteria,
         "characteristic_length": float(length_at_home(chosen)),
         "internal_point": _rule(options.internal_point, chosen, region, at, turns),
         "method": options.method,
@@ -163,36 +140,8 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     if bounds:
         keywords["region"] = {name.removesuffix("_deg"): _radians(name, value) for name, value in bounds.items()}
     proof = _proof(options, keywords["internal_point"])
-    return Question(keywords | _place(options, chosen, region), own, left, region, proof, words)
-
-
-def criteria_of(
-    study: nd.Study | None, geometry: nd.Geometry, home: nd.Configuration, values: Mapping[str, Any]
-) -> tuple[dict[str, Any], set[str], list[str]]:
-    """Return criteria, the names of those that come from the study, and the limits of the study that are none.
-
-    `values` holds what options give for constraints of leg lengths, angles and axes of cones, and other criteria.
-    """
-    from_study, left = ({}, []) if study is None else study_limits(study, geometry, home)
-    criteria = from_study | {name: value for name, value in values.items() if not name.endswith("_axis")}
-    for cone in CONES:
-        axis = values.get(f"{cone}_axis", _axis(from_study.get(cone)))
-        if cone not in criteria:
-            if axis is not None:
-                raise ValueError(f"{typed(cone)}-axis: got an axis alone, expected the angle too")
-        elif axis is not None:
-            angle = criteria[cone]["max"] if isinstance(criteria[cone], Mapping) else criteria[cone]
-            criteria[cone] = {"max": angle, "axis": axis}
-    criteria = {name: value for name, value in criteria.items() if value is not False}
-    ranges = {name for name in LEGS if name in criteria}
-    unchanged = {name for name in from_study if name not in values}
-    own = {name for name in criteria if name in unchanged and name not in ranges}
-    return with_leg_limits(criteria), own | ({"leg_limits"} if ranges and ranges <= unchanged else set()), left
-
-
-def compare_poses(left: Sequence[str], values: Mapping[str, Any]) -> bool:
-    """Return whether limits on the spread of lengths are left over and no lengths are given by options."""
-    return any(name in SPREADS for name in left) and not any(name in values for name in LEGS)
+    place = place_of(home, region, chosen.duty.tool, options.archetype)
+    return Question(keywords | place | _changed_place(options, place), asked, region, proof)
 
 
 def _rule(text: str | None, chosen: Chosen, region: nd.Region | None, position: Any, turns: bool) -> Any:
@@ -209,19 +158,17 @@ def _rule(text: str | None, chosen: Chosen, region: nd.Region | None, position: 
     return rule_of_region(chosen.geometry, chosen.configuration, region, rule, position)
 
 
-def _place(options: WorkspaceOptions, chosen: Chosen, region: nd.Region | None) -> dict[str, Any]:
-    """Return the box, by default that about a region, or the fixed position and rotation, of an archetype."""
-    home, ends = chosen.configuration, [options.x, options.y, options.z]
-    if options.archetype == "orientation":
+def _changed_place(options: WorkspaceOptions, place: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the box or the position with what options say of it."""
+    ends = [options.x, options.y, options.z]
+    if "position" in place:
         if any(end is not None for end in ends):
             raise ValueError("workspace: got a box, expected none for orientations at one position")
-        return {"position": home.position if options.position is None else options.position, "rotation": home.rotation}
+        return options.given("position")
     if options.position is not None:
         raise ValueError(f"--position: got {options.position}, expected none but for --archetype orientation")
-    low, high = box_around(home, chosen.duty.tool) if region is None else box_about(region, home)
-    around = [(low[k], high[k]) if end is None else end for k, end in enumerate(ends)]
-    rotation = {"rotation": home.rotation} if options.archetype == "constant_orientation" else {}
-    return rotation | {"box": tuple(zip(*around, strict=True))}
+    around = [own if end is None else end for own, end in zip(zip(*place["box"], strict=True), ends, strict=True)]
+    return {"box": tuple(zip(*around, strict=True))}
 
 
 def _proof(options: WorkspaceOptions, rule: Any) -> dict[str, Any] | None:
@@ -239,7 +186,3 @@ def _proof(options: WorkspaceOptions, rule: Any) -> dict[str, Any] | None:
 
 def _radians(name: str, degrees: float) -> float:
     return math.radians(finite(typed(name), degrees, 0.0, 180.0))
-
-
-def _axis(cone: Any) -> Any:
-    return cone.get("axis") if isinstance(cone, Mapping) else None

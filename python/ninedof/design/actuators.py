@@ -13,8 +13,8 @@ from typing import Any
 from ninedof.design.duty import duty
 from ninedof.support.arguments import cleaned, finite, instance, items, number, path_argument, shown, text
 from ninedof.support.files import csv_table, finite_or_nan, read_text, require_entries
-from ninedof.support.schema import Table, entries, entry, within
-from ninedof.support.short import short_repr
+from ninedof.support.structs import Table, entries, entry, within
+from ninedof.support.text import short_repr
 
 LEG_KINDS = ("external", "upper", "lower")
 """The kinds of legs: each takes one row, three actuators of it."""

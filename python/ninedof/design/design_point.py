@@ -11,8 +11,8 @@ import numpy as np
 
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.support.short import short_repr
 from ninedof.support.structs import Fixed
+from ninedof.support.text import short_repr
 
 if TYPE_CHECKING:
     from ninedof import _core

@@ -13,12 +13,11 @@ from numpy.typing import ArrayLike
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.support.angles import degrees_of
 from ninedof.support.arguments import Vector, finite, instance, items, shown, text, vector
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.schema import Table, entry, read
-from ninedof.support.short import short_repr
-from ninedof.support.units import amount, unit_argument
+from ninedof.support.structs import Table, entry, read
+from ninedof.support.text import short_repr
+from ninedof.support.units import amount, degrees_of, unit_argument
 
 Six = tuple[float, ...]
 STANDARD: Vector = (0.0, 0.0, -9.81)

@@ -22,8 +22,7 @@ from ninedof.conditioning.conditioning import (
 )
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.singularity.singularity import SingularityMargins, singularity_margins
 from ninedof.support.arguments import choice, shown
 from ninedof.support.arrays import as_floats

@@ -11,9 +11,9 @@ from ninedof.design.duty import Loads, Masses, Speeds, duty
 from ninedof.design.limits import Limit
 from ninedof.design.objective import Objective
 from ninedof.design.poses import ZERO
-from ninedof.statics.masses import masses_for_core
+from ninedof.statics.dynamics import masses_for_core
 from ninedof.support.arguments import choice
-from ninedof.support.schema import Table, entry
+from ninedof.support.structs import Table, entry
 
 INTERNAL = ("least", "held", "shifted", "carried")
 """How O moves with the platform."""

@@ -14,8 +14,8 @@ from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.region_poses import Ranges
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import LEGS as LEG_NAMES
 from ninedof.robot.geometry import Geometry
-from ninedof.robot.leg_names import LEGS as LEG_NAMES
 from ninedof.support.arrays import Floats
 
 PARTS: dict[str, tuple[str, ...]] = _core.limit_parts

@@ -12,11 +12,9 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.duty import Tool
-from ninedof.support.angles import angle_entry, degrees_of, half_turn, in_radians
 from ninedof.support.arguments import Vector, choice, items, known_keys, number, shown, vector, whole
-from ninedof.support.schema import Check, plain, within
-from ninedof.support.structs import Fixed
-from ninedof.support.units import kind_unit
+from ninedof.support.structs import Check, Fixed, plain, within
+from ninedof.support.units import angle_entry, degrees_of, half_turn, in_radians, kind_unit
 
 
 class Row(NamedTuple):

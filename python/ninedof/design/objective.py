@@ -17,8 +17,8 @@ from ninedof.design.indices import objectives
 from ninedof.design.poses import Pose
 from ninedof.design.region import Region
 from ninedof.support.arguments import choice, finite, items, known_keys, number, text, whole
-from ninedof.support.schema import Table, entry, keys, within
-from ninedof.support.short import short_repr
+from ninedof.support.structs import Table, entry, keys, within
+from ninedof.support.text import short_repr
 
 AGGREGATES = {
     "worst": "worst {index}",
@@ -42,7 +42,6 @@ def _condition_limit(name: str, value: Any) -> float | None:
 
 
 def _poses(name: str, value: Any, **defaults: Any) -> tuple[Pose, ...]:
-    """Return poses, each made from a table if one is given."""
     entries = items(name, value, "a list of poses")
     if len(entries) > poses.MOST_POSES:
         raise ValueError(f"{name}: got {len(entries)}, expected at most {poses.MOST_POSES}")

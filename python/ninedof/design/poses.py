@@ -14,11 +14,10 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.redundancy.rules import STUDY_RULES, where_o
-from ninedof.support.angles import DEG, in_radians
 from ninedof.support.arguments import Vector, choice, finite, vector, vectors, whole
-from ninedof.support.schema import Check, Table, entry
-from ninedof.support.short import short_repr
-from ninedof.support.units import scale
+from ninedof.support.structs import Check, Table, entry
+from ninedof.support.text import short_repr
+from ninedof.support.units import DEG, in_radians, scale
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 DEFAULT_INTERNAL_POINT = "shifted"

@@ -12,12 +12,11 @@ import numpy as np
 from ninedof import _core
 from ninedof.redundancy.rules import STUDY_RULES
 from ninedof.robot.configuration import Configuration
-from ninedof.support.angles import exact_degrees, half_turn
 from ninedof.support.arguments import Vector, choice, finite, instance, items, text, vector, vectors
 from ninedof.support.arrays import Floats
-from ninedof.support.schema import Table, entry
-from ninedof.support.short import short_repr
-from ninedof.support.units import amount, scale
+from ninedof.support.structs import Table, entry
+from ninedof.support.text import short_repr
+from ninedof.support.units import amount, exact_degrees, half_turn, scale
 
 SHAPES = ("box", "ball", "cylinder", "path")
 

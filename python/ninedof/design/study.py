@@ -21,7 +21,6 @@ from ninedof.design.leg_duty import LegDuty, internal_motion, require_stated
 from ninedof.design.limits import ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
 from ninedof.robot.configuration import Configuration
-from ninedof.support.angles import DEG, angle_entry, degrees_of, in_radians
 from ninedof.support.arguments import (
     bound,
     choice,
@@ -38,10 +37,17 @@ from ninedof.support.arguments import (
     whole,
 )
 from ninedof.support.files import read_toml, write_toml
-from ninedof.support.schema import Check, check_entries, entry, plain, within
-from ninedof.support.short import short_repr
-from ninedof.support.structs import Fixed
-from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
+from ninedof.support.structs import Check, Fixed, check_entries, entry, plain, within
+from ninedof.support.text import short_repr
+from ninedof.support.units import (
+    DEG,
+    angle_entry,
+    degrees_of,
+    in_radians,
+    require_unit_at_top,
+    unit_argument,
+    unit_entry,
+)
 
 Bound = float | tuple[float, float]
 """A fixed value, or (low, high)."""

@@ -11,8 +11,8 @@ import numpy as np
 from ninedof.design.study import LENGTH, Study, variable_kinds
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
-from ninedof.support.angles import DEG, in_radians
 from ninedof.support.arguments import finite, shown
+from ninedof.support.units import DEG, in_radians
 
 
 def angles_in_radians(study: Study, given: Mapping[str, Any], check: Callable[[str, Any], Any]) -> dict[str, Any]:

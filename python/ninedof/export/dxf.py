@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ninedof.export.model import Format, Model
-from ninedof.robot.plate_plan import Plate, free_angles, plates_of, turn_words
+from ninedof.robot.plates import Plate, free_angles, plates_of, turn_words
 from ninedof.support.arrays import Floats
 from ninedof.support.extras import optional
 from ninedof.support.placing import Placing, around, rectangle, toward
@@ -139,7 +139,6 @@ class _Drawing:
         self._text(words, self.places.put(1.1 * width, 1.3 * h, centres), "MIDDLE_CENTER")
 
     def _side(self, name: str, start: Floats, end: Floats) -> None:
-        """Dimension a side, on the side away from the origin."""
         a, b = sorted([start[:2], end[:2]], key=lambda point: point.round(9).tolist())  # words left to right
         left = np.array([a[1] - b[1], b[0] - a[0]])
         outward = left * math.copysign(1.0, left @ (a + b)) / np.linalg.norm(left)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ninedof.support.arguments import choice, known_keys, path_argument
 from ninedof.support.files import read_text, write_whole
-from ninedof.support.schema import within
+from ninedof.support.structs import within
 
 if TYPE_CHECKING:
     from ninedof.export.model import Fields, Format

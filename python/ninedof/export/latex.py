@@ -54,7 +54,6 @@ def _joint_words(name: str) -> str:
 
 
 def _symbol(name: str) -> str:
-    """Return the symbol of a joint, or that of O."""
     kind, _, number = name.rpartition("_")
     return f"${SYMBOLS[kind]}_{number}$" if kind else f"${name}$"
 

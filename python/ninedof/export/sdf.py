@@ -48,7 +48,6 @@ def text(model: Model, leg_mass: float | None = None, platform_mass: float | Non
 
 
 def _tool(b: Bodies) -> str:
-    """Return the frame of the tool on the platform; nothing without one."""
     if not b.tool:
         return ""
     pose = _pose(b.tool.position, angles(b.tool.axes))

@@ -107,7 +107,6 @@ class Entities:
 
 
 def _segment(data: Entities, name: str, start: str, way: Floats) -> str:
-    """Add a line from the point `start`."""
     length = float(np.linalg.norm(way))
     return data.add(LEG, name=name, start=start, direction=_reals(way / length), length=_real(length))
 

@@ -13,7 +13,7 @@ from xml.sax.saxutils import quoteattr
 from ninedof.export.bodies import COLOURS, LEVEL, Bodies, Leg, angles, ball_inertia, bars, numbers, pointing
 from ninedof.export.model import Format, Model
 from ninedof.support.arrays import Floats
-from ninedof.support.json import encode
+from ninedof.support.text import encode
 
 TABLE, MARK = ".loops.json", "ninedof-loops-1"
 EFFORT, VELOCITY = 1000.0, 1.0  # N and m/s: the format demands limits of a slide; a design has none
@@ -96,7 +96,6 @@ def _platform(b: Bodies) -> str:
 
 
 def _tool(b: Bodies) -> str:
-    """Return the frame of the tool on that of the platform; nothing without one."""
     if not b.tool:
         return ""
     origin = f'<origin xyz="{numbers(b.tool.position)}" rpy="{numbers(angles(b.tool.axes))}"/>'
@@ -133,7 +132,6 @@ def _strut(b: Bodies, leg: Leg, mass: float, name: str, middle: float, radius: f
 
 
 def _point(name: str, mass: float, radius: float) -> str:
-    """Return a link that is a ball."""
     ball = f"""<visual>
       <geometry><sphere radius="{numbers(radius)}"/></geometry>
       <material name="joint"><color rgba="{COLOURS["joint"]}"/></material>
@@ -142,7 +140,6 @@ def _point(name: str, mass: float, radius: float) -> str:
 
 
 def _bars(b: Bodies, joints: Iterable[Floats]) -> list[str]:
-    """Return a plate as bars from joint to joint."""
     return [_cylinder(*bar[:2], b.radius, bar[2], "plate", COLOURS["plate"]) for bar in bars(joints)]
 
 

@@ -13,7 +13,7 @@ from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, filled, thread_argument
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 
 
 @short_repr

@@ -16,17 +16,15 @@ from ninedof.redundancy.redundancy import leg_limits
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.designs import HasRobot, robot_of
-from ninedof.robot.geometry import TRIPLES, Geometry, triples
+from ninedof.robot.geometry import LEGS, TRIPLES, Geometry, triples
 from ninedof.robot.idle import idle_names, unloaded_names
-from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
-from ninedof.statics.dynamics import inverse_dynamics
-from ninedof.statics.masses import GRAVITY, gravity_for_core
+from ninedof.statics.dynamics import GRAVITY, gravity_for_core, inverse_dynamics
 from ninedof.support.arguments import choice, finite, instance, items
 from ninedof.support.arrays import Floats, as_floats, as_number, broadcast_leading
 from ninedof.support.files import Saved
 from ninedof.support.margins import TOLERANCE
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 from ninedof.support.units import metres, unit_entry
 
 FORCES = ("push", "pull", "rms")

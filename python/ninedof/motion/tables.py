@@ -10,8 +10,8 @@ import numpy as np
 
 from ninedof.motion.follow import FORCES, Followed
 from ninedof.redundancy.rules import where_o
+from ninedof.robot.geometry import LEGS
 from ninedof.robot.idle import NEVER_CARRY
-from ninedof.robot.leg_names import LEGS
 from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, kind_unit, per, times
 from ninedof.tables import RIGHT, Column, Table, columns, grouped

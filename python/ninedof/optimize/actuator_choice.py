@@ -11,8 +11,8 @@ from ninedof.design.actuators import LEG_KINDS, Actuator
 from ninedof.design.duty import duty
 from ninedof.design.study import Study
 from ninedof.support.arguments import items, number, text, whole
-from ninedof.support.schema import Table, entry
-from ninedof.support.short import short_repr
+from ninedof.support.structs import Table, entry
+from ninedof.support.text import short_repr
 
 EACH = 3  # legs of a kind
 

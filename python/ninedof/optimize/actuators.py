@@ -210,7 +210,6 @@ class ActuatorSearch:
 
 
 def _fixed(rows: Rows) -> list[int]:
-    """Return the groups of legs whose rows are chosen."""
     return [g for g, row in enumerate(rows) if row is not None]
 
 

@@ -18,7 +18,7 @@ from ninedof.proof.machine_record import outward
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import instance
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 
 HEXAGONAL_LIMIT = 2.5358420229115416
 """Infimum over the plates of eqs. (37)-(38) with 0 < zs < zp and no twist: the base grows without end."""

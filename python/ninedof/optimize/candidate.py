@@ -1,18 +1,21 @@
-"""A local optimum: its numbers as the core found them, its robot and its poses."""
+"""What a result holds: local optima, and the report on the best one over its region."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ninedof import _core
 from ninedof.design.design_point import DesignPoint, robot_at
+from ninedof.design.poses import Pose
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.plain_values import plain_fields
-from ninedof.support.arguments import finite
-from ninedof.support.short import short_repr
-from ninedof.support.structs import Fixed, entries_of, from_core
+from ninedof.support.arguments import finite, items
+from ninedof.support.structs import Fixed, entries_of, from_core, read
+from ninedof.support.text import short_repr
 
 if TYPE_CHECKING:
     from ninedof import _core
@@ -92,3 +95,129 @@ def candidate_from(problem: _core.Problem, data: Mapping[str, Any], where: str) 
         raise ValueError(f"{where}.variables: got none of the name {missing[0]}, expected all of the study")
     x = [finite(f"{where}.variables.{name}", values[name]) for name in problem.names]
     return Candidate(**entries, **robot_at(problem, x))
+
+
+DENSE = 100_000  # poses of a dense search
+PASSED = 1e-7  # by which a limit or the index may be passed between the poses, relative
+
+
+@short_repr
+@dataclass(frozen=True)
+class RegionMean:
+    """The harmonic mean of an index over a region."""
+
+    nodes: int
+    """Poses of the quadrature that the optimizer used."""
+    quadrature: float
+    """The mean over them."""
+    value: float
+    """The mean over 8192 other poses, on which the optimizer had no influence: the mean of the region."""
+    error: float
+    """Of the quadrature: its distance from `value`, and two standard errors of that."""
+    standard_error: float = math.nan
+    """Of `value`."""
+
+    @property
+    def words(self) -> str:
+        """The mean in a few words."""
+        return (
+            f"harmonic mean {self.value:.6f}, standard error {self.standard_error:.1e}, over poses that were not used "
+            f"({self.quadrature:.6f} over the {self.nodes} that were minimized over)"
+        )
+
+    def stated(self, objective: float, share: float) -> float:
+        """Return an objective with `value` in place of the quadrature; `share` is the mean's, in logarithms."""
+        return objective * float((self.value / self.quadrature) ** share)
+
+
+@short_repr
+@dataclass(frozen=True)
+class RegionReport:
+    """The poses that ruled a region study, how densely the best design was looked at, and the worst found."""
+
+    poses: tuple[Pose, ...]
+    """Those at which the limits and the index were imposed, besides the poses of the study; first, with weight 1, those
+    of the quadrature where the objective is a mean."""
+    rounds: int
+    """Designs that were searched over the region."""
+    looked_at: int
+    """Poses at which the best design was evaluated in the last search; 0 where an interruption came before it."""
+    objective: float
+    """The largest value of the index found."""
+    objective_at: Pose
+    margin: float
+    """The least margin of a limit found: below zero it is passed, in parts of it. Infinite without limits."""
+    limit: str
+    """The name of that limit; "" without limits."""
+    mean: RegionMean | None = None
+    """Of an objective that is a mean over the region."""
+    gain: float = math.inf
+    """By how much the objective could still fall near this design, relative and to first order: it cannot be less than
+    at these poses, and what passes a limit between them is paid for at its price."""
+    leg_ranges: tuple[tuple[float, float], ...] = ()
+    """If O is placed at every pose and limits compare poses: the shortest and longest length of each leg (l, q, r)
+    that O keeps in all of the region."""
+
+    @property
+    def keeps_limits(self) -> bool:
+        """Whether no limit is passed by more than 1e-7 of it, as far as a dense search of the region shows."""
+        return self.looked_at >= DENSE and self.margin >= -PASSED
+
+    @property
+    def words(self) -> str:
+        """The report in a sentence."""
+        if self.looked_at == 0:
+            return f"{self._ruling} poses of the region were imposed; the design was not looked at between them"
+        verdict = f"{self.limit} is passed by {-self.margin:.1e} of it"
+        if self.margin >= -PASSED:
+            verdict = "no limit is passed"
+        average = "" if self.mean is None else f"{self.mean.words}; "
+        return (
+            f"{average}{self._ruling} poses of the region ruled; of {self.looked_at} looked at the worst has "
+            f"{self.objective:.6f}, and {verdict}{self._ranges}"
+        )
+
+    @property
+    def _ruling(self) -> int:
+        nodes = [pose.weight > 0.0 for pose in self.poses]
+        return len(nodes) if all(nodes) else nodes.count(False)
+
+    @property
+    def _ranges(self) -> str:
+        if not self.leg_ranges:
+            return ""
+        short, long = (f(x) for f, x in zip((min, max), zip(*self.leg_ranges, strict=True), strict=True))
+        return (
+            f"; placing O is permitted leg lengths from {short:.6g} to {long:.6g}, in the unit of the study; "
+            "the sheet has those that the region needs"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain values."""
+        return plain_fields(self)
+
+    @classmethod
+    def from_core(cls, report: _core.RegionReport) -> RegionReport:
+        """Return the report of the core."""
+        legs, mean = report.leg_ranges, report.mean
+        return from_core(
+            cls,
+            report,
+            poses=tuple(map(_posed, report.poses)),
+            objective_at=_posed(report.objective_at),
+            mean=None if mean is None else from_core(RegionMean, mean),
+            leg_ranges=() if legs is None else tuple(zip(legs.low.tolist(), legs.high.tolist(), strict=True)),
+        )
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> RegionReport:
+        """Return the report of a mapping as `to_dict` makes it."""
+        entries = entries_of(cls, data, "region", skipped=["poses", "objective_at"])
+        rows = items("region.poses", data.get("poses"), "a list of poses")
+        poses = tuple(read(Pose, pose, f"region.poses[{k}]") for k, pose in enumerate(rows))
+        return cls(**entries, poses=poses, objective_at=read(Pose, data.get("objective_at"), "region.objective_at"))
+
+
+def _posed(pose: Any) -> Pose:
+    point = "best" if pose.best_internal else pose.internal
+    return Pose(pose.position, pose.rotation, point, "zp" if pose.in_zp else "length", pose.weight)

@@ -16,21 +16,19 @@ from ninedof import _core
 from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.optimize.actuators import ActuatorSearch, SearchEnded
-from ninedof.optimize.candidate import Candidate, candidate_of
-from ninedof.optimize.pieces import Pieces
-from ninedof.optimize.region_report import RegionReport
+from ninedof.optimize.candidate import Candidate, RegionReport, candidate_of
+from ninedof.optimize.pieces import Pieces, Warm, warm_starts, warm_variables
 from ninedof.optimize.reserve import with_reserve
 from ninedof.optimize.result import Result, Status
 from ninedof.optimize.tables import axis_hint
-from ninedof.optimize.warm import Warm, warm_starts, warm_variables
 from ninedof.proof.optimum import gap_of, left_out_of, prove_optimum
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
 from ninedof.support.arrays import thread_argument
-from ninedof.support.progress import Progress, part_of, phase, progress_argument
-from ninedof.support.short import short_repr
+from ninedof.support.running import Progress, part_of, phase, progress_argument
 from ninedof.support.store import Store
 from ninedof.support.structs import from_core
+from ninedof.support.text import short_repr
 
 LONGEST = 600.0  # seconds of a proof
 

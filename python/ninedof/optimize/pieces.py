@@ -1,4 +1,4 @@
-"""Finished pieces of an optimization in a folder: a run that was interrupted or killed goes on behind the last one.
+"""What an optimization goes on from: additional starts, and the finished pieces of a run that ended early.
 
 Each piece follows from those before it. So a run is continued by doing everything again with the pieces that were kept,
 which gives the same result, bit for bit.
@@ -7,16 +7,70 @@ which gives the same result, bit for bit.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from ninedof.design.study import Study
+from ninedof.design.study import LENGTH, Study
+from ninedof.optimize.candidate import Candidate
 from ninedof.optimize.result import Result, Status, result_from
 from ninedof.proof.optimum_proof import OptimumProof
+from ninedof.support.arguments import finite, shown
+from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, from_json_array, json_array
 from ninedof.support.store import Store
+from ninedof.support.units import in_radians
+
+Warm = Result | Candidate | Mapping[str, float]
+"""A start: a result stands for its best candidates."""
+
+MOST_OF_A_RESULT = 4  # candidates, so that most starts remain the low-discrepancy ones
+
+
+def warm_starts(study: Study, warm: Warm | Iterable[Warm] | None) -> Floats | None:
+    """Return additional starts as rows of full vectors, or None without any.
+
+    Fixed variables keep the study's value. A characteristic length or an offset of O that is not free in this study is
+    ignored, so that the result of one study may start another.
+    """
+    starts = warm_variables(warm)
+    names = set(study.problem().names)
+    rows = [_row(study, names, start) for start in starts]
+    return np.array(rows) if rows else None
+
+
+def warm_variables(warm: Warm | Iterable[Warm] | None) -> list[Mapping[str, float]]:
+    """Return the values of each start by name: a result stands for its best candidates."""
+    if warm is None:
+        return []
+    expected = "a Result, a Candidate, a mapping of names to values, or a sequence of them"
+    entries = [warm] if isinstance(warm, Result | Candidate | Mapping) else warm
+    if isinstance(entries, str) or not isinstance(entries, Iterable):
+        raise ValueError(f"warm: got {shown(warm)}, expected {expected}")
+    starts: list[Mapping[str, float]] = []
+    for item in entries:
+        if isinstance(item, Result):
+            starts.extend(c.variables for c in item.candidates[:MOST_OF_A_RESULT])
+        elif isinstance(item, Candidate):
+            starts.append(item.variables)
+        elif isinstance(item, Mapping):
+            starts.append(item)
+        else:
+            raise ValueError(f"warm: got {shown(item)}, expected {expected}")
+    return starts
+
+
+def _row(study: Study, names: set[str], start: Mapping[str, Any]) -> list[float]:
+    fixed = {name: bound for name, bound in study.variables.items() if not isinstance(bound, tuple)}
+    try:
+        start = in_radians(start, dict.fromkeys(study.angles, finite))
+        values = {n: v for n, v in start.items() if n in names or not (n == LENGTH or str(n).startswith("pose"))}
+        return study.vector(values | {name: value for name, value in fixed.items() if name in values})
+    except ValueError as error:
+        raise ValueError(f"warm: {error}") from None
+
 
 WORDS, CERTIFICATE = "words", "certificate"  # names of a piece: its JSON, and the bytes of a certificate
 

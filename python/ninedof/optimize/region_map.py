@@ -16,7 +16,7 @@ from ninedof.design.region import Region, circle, section_outline
 from ninedof.design.region_poses import configurations_at, o_is_placed
 from ninedof.design.study import Study
 from ninedof.motion.rotations import from_vectors
-from ninedof.optimize.machine_proofs import placing_of
+from ninedof.optimize.reserve import placing_of
 from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry

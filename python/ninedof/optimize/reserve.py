@@ -1,4 +1,4 @@
-"""The reserve that a study with tolerances leaves to its limits, so that every machine within them keeps them."""
+"""Proofs about the machine of a result: its limits at every pose, its tolerances, and the reserve that these need."""
 
 from __future__ import annotations
 
@@ -7,22 +7,105 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninedof.design.duty import Tolerances
+from ninedof.design.duty import Tolerances, tolerances_like
 from ninedof.design.limit_numbers import with_scaled_limits
-from ninedof.design.region_poses import o_is_placed
+from ninedof.design.region_poses import Placing, o_is_placed
 from ninedof.design.study import Study
-from ninedof.optimize.machine_proofs import machine_of
-from ninedof.proof.machine import NEUTRAL_LIMIT, open_limits
+from ninedof.proof.machine import NEUTRAL_LIMIT, certify, open_limits
+from ninedof.proof.machine_record import MachineCertificate
+from ninedof.proof.point_rule import PointRule, rule_of
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
 from ninedof.sheet.rows import limit_rows
-from ninedof.support.arguments import finite, flag, table, text
-from ninedof.support.schema import Table, entry
-from ninedof.support.short import short_repr
-from ninedof.support.structs import Fixed
+from ninedof.support.arguments import finite, flag, known_keys, table, text
+from ninedof.support.running import phase, progress_argument
+from ninedof.support.structs import Fixed, Table, entry
+from ninedof.support.text import short_repr
+
+PROOFS = 12  # about as many are needed for the largest tolerances
+
+
+def certified(result: Any, options: dict[str, Any]) -> MachineCertificate:
+    """Return the certificate of a machine, for the options of `Result.certify`."""
+    design, place = machine_of(result), placing_of(result)
+    progress = progress_argument(options.get("progress"))
+    if options.get("rule") is None and options.get("resume") is None and place is not None:
+        options["rule"] = lambda: rule_of(place, *design, options.get("threads", 0), progress)
+    return certify(result.study, *design, **options)
+
+
+def largest(result: Any, options: dict[str, Any]) -> Tolerances:
+    """Return the largest tolerances of a machine, for the options of `Result.largest_tolerance`."""
+    known_keys("largest_tolerance", options, {"condition_number", "slack", "time_limit", "threads", "rule", "progress"})
+    study, place, design = result.study, placing_of(result), machine_of(result)
+    seconds = finite("time_limit", options.pop("time_limit", 60.0), 0.0) / PROOFS
+    progress = progress_argument(options.pop("progress", None))
+    threads = options.setdefault("threads", 0)
+    rule = options.pop("rule", None)
+    if place is not None and not isinstance(rule, PointRule):
+        rule = rule_of(place, *design, threads, progress)
+
+    def proved(tolerances: Tolerances) -> bool:
+        phase(progress, f"proving {max(tolerances.joints, tolerances.legs):.3g}")
+        return not open_limits(study, (*design, rule), tolerances, max(seconds, 0.5), **options)
+
+    return largest_tolerance(proved, study.tolerances, study.zp(design[1][0]))
+
+
+def machine_of(result: Any) -> tuple[Geometry, Configuration, float]:
+    """Return geometry, neutral and listed poses, and characteristic length of the best design."""
+    best = result.best
+    if best is None:
+        raise ValueError(f"result: got one without a design, expected one to be proved: {result.reason}")
+    return best.geometry, best.configurations[: 1 + len(result.study.objective.poses)], best.characteristic_length
+
+
+def placing_of(result: Any) -> Placing | None:
+    """Return how O is placed in the region, where the study places it anew at every pose."""
+    best = result.best
+    if best is None or not o_is_placed(result.study):
+        return None
+    ranges = () if result.region is None else result.region.leg_ranges
+    return Placing(result.study, best.configuration, best.variables, best.objective, ranges)
+
+
+FIRST, LEAST, MOST = 1e-4, 1e-6, 0.05  # of the machine's height
+STEP, HALVINGS = 4.0, 5
+
+
+def largest_tolerance(proved: Callable[[Tolerances], bool], shape: Tolerances, height: float) -> Tolerances:
+    """Return the largest tolerances that are proved, to 5 %; none at all where not even the least ones are.
+
+    They have the ratio of `shape`, and are looked for from a millionth to a twentieth of the machine's height. A
+    KeyboardInterrupt has the largest ones proved so far.
+    """
+
+    def of(size: float) -> Tolerances:
+        return tolerances_like(shape, size * height)
+
+    low, high = 0.0, FIRST
+    try:
+        while high <= MOST and proved(of(high)):
+            low, high = high, STEP * high
+        while low == 0.0 and high >= LEAST:
+            if proved(of(high / STEP)):
+                low = high / STEP
+            else:
+                high /= STEP
+        if low == 0.0:
+            return Tolerances()
+        for _ in range(HALVINGS):
+            middle = (low * high) ** 0.5
+            low, high = (middle, high) if proved(of(middle)) else (low, middle)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(of(low) if low > 0.0 else Tolerances()) from None
+    return of(low)
+
 
 ROUNDS = 6  # two are enough where limits change little with the design
 MORE, EDGE = 1.02, 1e-8  # of what a proof lacks, and of the limit: on its edge it would be proved by rounding only
-STEP = 0.005  # of a limit of the condition number, in each round
-LEAST = 0.5  # of a limit, and of its inverse: tolerances that take more leave no machine
+NARROWER = 0.005  # of a limit of the condition number, in each round
+LEAST_SHARE = 0.5  # of a limit, and of its inverse: tolerances that take more leave no machine
 FOR_PROOF = 60.0  # seconds of each limit, which takes fewer: the same result whatever the machine
 UNPROVED = "not proved of every machine within the tolerances"
 
@@ -80,7 +163,7 @@ def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) 
         if not lacking:
             return replace(_of(study, result, first), reserve=Reserve(shares, proved=True))
         taken = {key: shares.get(key, 1.0) * share for key, share in lacking.items()}
-        if left == 0 or not all(LEAST < share < 1.0 / LEAST for share in taken.values()):
+        if left == 0 or not all(LEAST_SHARE < share < 1.0 / LEAST_SHARE for share in taken.values()):
             break
         shares |= taken
         result = solve(Reserve(shares).study(study), result)
@@ -101,7 +184,7 @@ def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
         key = f"{limit.name} {limit.side}"
         met, worst = limit.value if limit.side == "max" else limit.value[::-1]
         if limit.name in ("condition_limit", NEUTRAL_LIMIT):  # its enclosure is wide
-            share = min(limit.limit / met, 1.0) * (1.0 - STEP)
+            share = min(limit.limit / met, 1.0) * (1.0 - NARROWER)
         else:
             lack = 1.0 - limit.limit / worst if 0.0 < worst < math.inf else 1.0
             sign, most = (1.0, min) if limit.side == "max" else (-1.0, max)

@@ -18,10 +18,8 @@ from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.design.variables import changed_variables
 from ninedof.optimize.actuator_choice import ActuatorChoice
-from ninedof.optimize.candidate import DERIVED, Candidate, candidate_at, candidate_from
-from ninedof.optimize.machine_proofs import certified, largest, machine_of, placing_of
-from ninedof.optimize.region_report import RegionReport
-from ninedof.optimize.reserve import Reserve
+from ninedof.optimize.candidate import DERIVED, Candidate, RegionReport, candidate_at, candidate_from
+from ninedof.optimize.reserve import Reserve, certified, largest, machine_of, placing_of
 from ninedof.optimize.tables import agreement_sentence, candidates_table, internal_point_words, summary_lines
 from ninedof.proof.machine import machine_digest
 from ninedof.proof.machine_file import machine_file

@@ -11,8 +11,7 @@ from ninedof.design.study import LENGTH, Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.idle import idle_names
-from ninedof.support.angles import degrees_of
-from ninedof.support.units import amount
+from ninedof.support.units import amount, degrees_of
 from ninedof.tables import RIGHT, SHORT, Column, Line, Table
 
 LEAST_PRICE = 0.0005  # per cent of the objective for one per cent of the limit; smaller prices have no number

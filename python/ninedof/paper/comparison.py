@@ -18,7 +18,7 @@ from ninedof.paper import published
 from ninedof.paper.published import KAPPA, published_geometry, published_variables, published_zs, solved
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.support.progress import Progress
+from ninedof.support.running import Progress
 from ninedof.tables import Line, Table, columns
 
 TITLES = {

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ninedof import plot
-from ninedof.paper.architecture import figure_1
-from ninedof.paper.dimensions import figure_5
+from ninedof.paper.plates import figure_1, figure_5
 from ninedof.paper.published import FIGURES, ZP, published_geometry, published_zs
 from ninedof.paper.sweeps import sweep_figure
 from ninedof.plot import style
@@ -162,7 +161,6 @@ def figure_6(result: SweepResult, unit: str = "l_c", figure: Figure | None = Non
 
 
 def _cut_off(names: Sequence[str], rows: Floats, top: float) -> str:
-    """Return which curves go on above the figure, and how far."""
     highest = [(name, float(row[~np.isnan(row)].max(initial=0.0))) for name, row in zip(names, rows, strict=True)]
     return "\n".join(f"{name} is cut off: it reaches {most:.4g}" for name, most in highest if most > top)
 

@@ -19,10 +19,10 @@ from ninedof.robot.geometry import Geometry, triples
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays
-from ninedof.support.progress import Progress
+from ninedof.support.running import Progress
 from ninedof.sweep.axis import Axis, Grid
 from ninedof.sweep.grid import GridWork
-from ninedof.sweep.poses import COORDINATES
+from ninedof.sweep.points import COORDINATES
 from ninedof.sweep.result import SweepResult
 
 if TYPE_CHECKING:

@@ -1,6 +1,6 @@
 """Trade-offs: the best objective for each value of a limit.
 
-`tracing` has the public function, `front` its result. `solving` solves the limits, `span` finds their range.
+`tracing` has the public function, `front` its result. `solving` solves the limits and finds their range.
 """
 
 from ninedof.pareto.front import Front

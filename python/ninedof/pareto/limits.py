@@ -15,8 +15,8 @@ from ninedof.design.study import Study
 from ninedof.optimize.result import Result
 from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.sheet import sheet
-from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import did_you_mean, shown
+from ninedof.support.units import DEG, plain_name
 
 CONDITION_LIMIT = "condition_limit"
 TOLERANCE = "tolerance"

@@ -16,13 +16,12 @@ from ninedof.design.study import Study
 from ninedof.optimize.result import Status
 from ninedof.pareto.front import Front, objective_of
 from ninedof.pareto.limits import CONDITION_LIMIT, TOLERANCE, resolve, tightest_first, with_degrees, without_degrees
-from ninedof.pareto.solving import FrontSolver
-from ninedof.pareto.span import BISECTIONS, between_indices, of_a_limit, of_tolerances
-from ninedof.support.angles import degrees_of
+from ninedof.pareto.solving import BISECTIONS, FrontSolver, between_indices, of_a_limit, of_tolerances
 from ninedof.support.arguments import finite, instance, items, path_argument, shown, whole
 from ninedof.support.arrays import thread_argument
-from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.running import Progress, progress_argument
 from ninedof.support.store import Store
+from ninedof.support.units import degrees_of
 
 MOST_POINTS = 1000
 FIRST = 0.6  # share of the points that is evenly spaced; the others go where the front is steep

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ninedof.plot import style
-from ninedof.robot.plate_plan import plates_of
+from ninedof.robot.plates import plates_of
 from ninedof.support.arguments import shown
 from ninedof.support.units import metres
 

@@ -14,8 +14,7 @@ from ninedof.plot import style
 from ninedof.plot.space.mechanism import DASHES, POINT_O, Robot, legs_of
 from ninedof.robot.configuration import Configuration, require_single
 from ninedof.robot.geometry import Geometry
-from ninedof.robot.plate_plan import Plate, free_angles, plates_of, turn_words
-from ninedof.robot.plates import outlines
+from ninedof.robot.plates import Plate, free_angles, outlines, plates_of, turn_words
 from ninedof.support.arrays import Floats
 from ninedof.support.placing import Placing, around, rectangle, toward
 from ninedof.support.units import amount

@@ -15,7 +15,7 @@ from matplotlib.text import Text
 from ninedof.plot import style
 from ninedof.support.arguments import instance, path_argument, shown
 from ninedof.support.files import write_whole
-from ninedof.support.short import escaped
+from ninedof.support.text import escaped
 
 
 def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[Path]:

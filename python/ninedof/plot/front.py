@@ -96,7 +96,6 @@ def _designs(front: Front, most: int) -> dict[int, Candidate]:
 
 
 def _axis_words(front: Front) -> str:
-    """Return the name of the axis of limits."""
     built = front.study.tolerances
     if not front.of_tolerances:
         return f"largest {front.limit_name.replace('_', ' ')} allowed"

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.plot import style
 from ninedof.support.arrays import Floats
-from ninedof.support.short import escaped
+from ninedof.support.text import escaped
 
 MOST_NAMED = 40  # poses with names; for more poses the axis has a few numbers
 LONGEST = 24  # letters of a name on the axis; longer ones are a list below it, by number
@@ -121,7 +121,6 @@ def _columns(lines: Sequence[str], width: float) -> list[Sequence[str]]:
 
 
 def _write(axes: Any, columns: Sequence[Sequence[str]], note: str, below: float) -> None:
-    """Write the list, so many inches below the axes, line by line."""
     heads = bool(columns and note)
     lines = [(0, 0, note, style.MUTED)] * heads
     lines += [(k, row + heads, words, style.INK) for k, each in enumerate(columns) for row, words in enumerate(each)]

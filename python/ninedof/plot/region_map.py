@@ -97,7 +97,6 @@ def _percent(margin: Floats) -> tuple[Floats, Ends]:
 
 
 def _left_out(region: RegionMap) -> str | None:
-    """Return a line about the limits that compare poses, None without any."""
     words = [
         name.replace("_", " ") + ("" if math.isnan(margin) else f" ({margin_words(margin, 'ratio')} over the region)")
         for name, margin in region.compared.items()

@@ -12,10 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ninedof.plot import style
-from ninedof.support.angles import plain_name
 from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
-from ninedof.support.units import amount
+from ninedof.support.units import amount, plain_name
 
 if TYPE_CHECKING:
     from ninedof.sweep import SweepResult
@@ -174,7 +173,6 @@ def _bands(values: Floats, name: str) -> tuple[Floats, bool]:
 
 
 def _unit(result: SweepResult, name: str) -> str:
-    """Return the unit that is drawn: degrees in the place of radians."""
     unit = result.units.get(name, "1")
     return "deg" if unit == "rad" else "" if unit in ("1", "length") else unit
 

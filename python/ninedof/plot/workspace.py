@@ -17,7 +17,7 @@ from matplotlib.path import Path
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 
@@ -299,7 +299,6 @@ def _keys_of_limits(sections: Sequence[Section], kinds: Sequence[str]) -> list[A
 
 
 def _legend(figure: Any, keys: list[Any], sections: Sequence[Section], region: str, columns: int) -> None:
-    """Write the legend: the keys, and those of the marks that the sections have."""
     ring = {"lw": 0.9, "marker": "o", "ms": 7, "mfc": "none", "ls": ""}
     marks = {
         "region": style.key(region, lw=1.3, label="region of the study"),

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 
 
 @short_repr

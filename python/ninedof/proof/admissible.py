@@ -18,7 +18,7 @@ from ninedof.support.arguments import executor_argument, finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS, Floats
 from ninedof.support.chunks import computed
 from ninedof.support.files import Arrays
-from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.running import Progress, progress_argument
 from ninedof.support.structs import Fixed, options_of
 
 if TYPE_CHECKING:

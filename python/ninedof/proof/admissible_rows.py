@@ -12,7 +12,7 @@ from ninedof.design.study import Study
 from ninedof.proof.design_range import LONGEST, design_range, existence
 from ninedof.support.arguments import finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS
-from ninedof.support.progress import Progress, part_of, progress_argument
+from ninedof.support.running import Progress, part_of, progress_argument
 
 
 @dataclass(frozen=True)

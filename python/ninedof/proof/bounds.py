@@ -14,7 +14,7 @@ from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, broadcast_leading, thread_argument, without_infinity
-from ninedof.support.short import short, short_repr
+from ninedof.support.text import short, short_repr
 
 
 class Bounds(NamedTuple):

@@ -17,13 +17,12 @@ from ninedof.design.region_poses import configurations_at, o_is_placed
 from ninedof.design.study import Study
 from ninedof.design.variables import angles_in_radians, given_values
 from ninedof.robot.configuration import Configuration
-from ninedof.support.angles import plain_name
 from ninedof.support.arguments import finite, items, shown, table, text
 from ninedof.support.arrays import Floats
 from ninedof.support.files import sha256
-from ninedof.support.progress import Progress
+from ninedof.support.running import Progress
 from ninedof.support.structs import Fixed
-from ninedof.support.units import amount
+from ninedof.support.units import amount, plain_name
 
 EXISTS, NONE, UNDECIDED = "exists", "none", "undecided"
 MOST_VARIED = 4
@@ -175,7 +174,6 @@ def design_values(of: HasDesign | Mapping[str, float]) -> Mapping[str, float]:
 
 
 def _asked(of: Study | HasDesign, at: Mapping[str, float | str] | None) -> tuple[Study, dict[str, float]]:
-    """Return the study and the known values of its variables."""
     study = of if isinstance(of, Study) else getattr(of, "study", None)
     if not isinstance(study, Study):
         raise ValueError(f"of: got {shown(of)}, expected a Study or a Result")

@@ -24,9 +24,8 @@ from ninedof.support.arguments import finite, instance, shown, whole
 from ninedof.support.arrays import MOST_THREADS as MOST
 from ninedof.support.files import sha256
 from ninedof.support.margins import margin_of
-from ninedof.support.progress import Progress, phase
-from ninedof.support.schema import entries
-from ninedof.support.structs import from_core, options_of
+from ninedof.support.running import Progress, phase
+from ninedof.support.structs import entries, from_core, options_of
 
 DRAWN = Tolerances()
 NEUTRAL_LIMIT = label("condition_limit", "neutral")
@@ -257,7 +256,6 @@ def _rule(
     option: PointRule | Callable[[], PointRule] | None,
     resume: MachineCertificate | None,
 ) -> PointRule | None:
-    """Return the rule that O follows, if it follows one."""
     if not o_is_placed(study):
         if option is not None:
             raise ValueError(

@@ -10,10 +10,10 @@ from typing import Any
 from ninedof import _core
 from ninedof.design.duty import Tolerances
 from ninedof.proof.point_rule import PointRule
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.support.arguments import flag, number, table, text, whole
-from ninedof.support.short import short_repr
 from ninedof.support.structs import entries_of
+from ninedof.support.text import short_repr
 from ninedof.support.units import amount, kind_unit
 
 FORMAT = "ninedof-machine-certificate-3"

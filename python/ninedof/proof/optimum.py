@@ -15,9 +15,9 @@ from ninedof.proof.design_range import EXISTS, LONGEST, NONE, DesignRange, desig
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.arguments import finite, instance, path_argument
 from ninedof.support.arrays import thread_argument
-from ninedof.support.progress import Progress, phase, progress_argument
-from ninedof.support.short import short_repr
+from ninedof.support.running import Progress, phase, progress_argument
 from ninedof.support.structs import from_core
+from ninedof.support.text import short_repr
 
 GAPS = {"hexagonal": 1e-12, "symmetric": 1e-6, "symmetric_nonplanar": 2e-3}
 """Relative gaps to prove: of hexagons five numbers matter, of planar symmetric designs seven, of others eleven."""

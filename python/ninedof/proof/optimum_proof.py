@@ -11,8 +11,8 @@ from typing import Any
 from ninedof.sheet.plain_values import plain_fields
 from ninedof.support.arguments import finite, path_argument
 from ninedof.support.files import write_whole
-from ninedof.support.short import short_repr
 from ninedof.support.structs import entries_of
+from ninedof.support.text import short_repr
 
 FILE = "optimum.certificate"
 

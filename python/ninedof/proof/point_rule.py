@@ -16,9 +16,9 @@ from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
-from ninedof.support.progress import Progress, phase
-from ninedof.support.short import short_repr
+from ninedof.support.running import Progress, phase
 from ninedof.support.structs import made
+from ninedof.support.text import short_repr
 
 Six = tuple[float, ...]
 

@@ -16,12 +16,11 @@ from ninedof.design.duty import Tool
 from ninedof.design.indices import computed
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
-from ninedof.support.angles import in_radians
 from ninedof.support.arguments import finite, is_number, known_keys, number, table
 from ninedof.support.files import read_toml, write_toml
-from ninedof.support.schema import read, within
-from ninedof.support.short import short_repr
-from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
+from ninedof.support.structs import read, within
+from ninedof.support.text import short_repr
+from ninedof.support.units import in_radians, require_unit_at_top, unit_argument, unit_entry
 
 
 @short_repr

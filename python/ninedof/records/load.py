@@ -140,7 +140,6 @@ def split(name: str) -> tuple[Path, str]:
 
 
 def _point(run: Loaded, point: str, name: str) -> Result:
-    """Return one point of a run, counted from 1."""
     if isinstance(run, Front):
         points, what = run.results, "a front"
     elif isinstance(run, Result):

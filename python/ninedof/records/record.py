@@ -7,9 +7,11 @@ before the figures are drawn.
 
 from __future__ import annotations
 
+import itertools
 import math
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -24,12 +26,53 @@ from ninedof.pareto.limits import with_limit, without_degrees
 from ninedof.proof.optimum_proof import FILE as CERTIFICATE
 from ninedof.records.motion import write_tables
 from ninedof.sheet.pose_limits import PathLimits
-from ninedof.support.command import command_line
 from ninedof.support.extras import versions
 from ninedof.support.files import json_bytes, read_json, write_whole
+from ninedof.support.running import command_line, goes_on
+from ninedof.support.store import require_run_or_nothing
 from ninedof.support.structs import entries_of
 from ninedof.sweep import SweepResult
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
+
+RUNS = Path("runs")
+
+
+@contextmanager
+def run_folder(out: Path | None) -> Iterator[Path]:
+    """Yield the folder of a run: `out`, which is missing, empty or that of a run to go on with, or runs/<time> here.
+
+    Whether the run there has the same question is for its `Store` to say, which also makes `out`. A folder of runs/
+    in which nothing is kept is removed. The command that is typed again goes on in the folder.
+    """
+    if out is not None:
+        require_run_or_nothing(out)
+        goes_on(out)
+        yield out
+        return
+    folder = _of_now()
+    goes_on(folder)
+    try:
+        yield folder
+    finally:
+        with suppress(OSError):
+            folder.rmdir()
+            RUNS.rmdir()
+
+
+def _of_now() -> Path:
+    stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
+    for attempt in itertools.count():
+        path = RUNS / (f"{stamp}-{attempt}" if attempt else stamp)
+        try:
+            path.mkdir(parents=True)
+        except FileExistsError:
+            continue
+        except OSError as error:
+            expected = "expected a writeable place"
+            raise ValueError(f"out: got {path}, which cannot be created ({error.strerror}), {expected}") from None
+        return path
+    raise AssertionError("unreachable")
+
 
 FORMAT = "ninedof-record-4"
 FILE = "record.json"

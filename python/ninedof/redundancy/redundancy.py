@@ -16,8 +16,8 @@ from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, instance, items
 from ninedof.support.arrays import Floats, as_floats, as_number, one_or_each, thread_argument
-from ninedof.support.short import short_repr
 from ninedof.support.structs import options_of
+from ninedof.support.text import short_repr
 
 CRITERIA = ("condition_number", "singularity", "leg_centring")
 

@@ -13,9 +13,9 @@ from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import thread_argument
-from ninedof.support.progress import Progress, progress_argument
-from ninedof.support.short import short_repr
+from ninedof.support.running import Progress, progress_argument
 from ninedof.support.structs import from_core, options_of
+from ninedof.support.text import short_repr
 
 
 @short_repr

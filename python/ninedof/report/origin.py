@@ -12,8 +12,8 @@ from typing import Any
 from ninedof.design.study import Study
 from ninedof.pareto import Front
 from ninedof.pareto.limits import with_degrees
-from ninedof.support.angles import degrees_of
-from ninedof.support.json import encode
+from ninedof.support.text import encode
+from ninedof.support.units import degrees_of
 from ninedof.tables.html import Html, facts, joined, listing, paragraphs, tag
 
 SAME = "The same study and seed give the same bits, for any number of threads, with the same versions."

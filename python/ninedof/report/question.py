@@ -11,8 +11,7 @@ from ninedof.optimize.tables import listed_variables
 from ninedof.redundancy.rules import MEANING, WORDS
 from ninedof.sheet.pose_words import vector_words
 from ninedof.sheet.tables import load_words
-from ninedof.support.angles import degrees_of
-from ninedof.support.units import amount, per
+from ninedof.support.units import amount, degrees_of, per
 from ninedof.tables import Line, Table, columns
 from ninedof.tables.html import Html, html_of, joined, paragraphs
 

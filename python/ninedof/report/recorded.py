@@ -18,7 +18,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.margins import is_violated
 from ninedof.support.units import amount
-from ninedof.sweep.tables import atlas_table, summary_table
+from ninedof.sweep.result import atlas_table, summary_table
 from ninedof.tables.html import Html, bullets, facts, html_of, joined, paragraphs
 from ninedof.workspace import WorkspaceMap
 from ninedof.workspace.tables import criterion_words, rule_words, workspace_table

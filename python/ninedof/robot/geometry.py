@@ -1,4 +1,6 @@
-"""The geometry of the robot. The class is defined in the compiled core."""
+"""The geometry of the robot, whose class is defined in the compiled core, and the names of its nine legs."""
+
+from __future__ import annotations
 
 from ninedof._core import Geometry
 from ninedof.support.arrays import Floats
@@ -13,3 +15,7 @@ TRIPLES = ("base_external", "base_internal", "platform_external", "platform_inte
 def triples(geometry: Geometry) -> dict[str, Floats]:
     """Return the four joint triples by name."""
     return {name: getattr(geometry, name) for name in TRIPLES}
+
+
+LEGS = tuple(f"{kind}{i}" for kind in "lqr" for i in (1, 2, 3))
+"""External, upper and lower internal: the order of `leg_lengths`."""

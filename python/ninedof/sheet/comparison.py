@@ -21,8 +21,7 @@ from ninedof.support.units import amount, metres, unit_entry
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table
 from ninedof.tables.html import notebook
 from ninedof.tables.numbers import ROUNDING, short
-from ninedof.tables.plain import plain
-from ninedof.tables.table import WORDS
+from ninedof.tables.table import WORDS, plain
 
 MOST = 3  # designs: more do not fit on 80 columns
 NAMES = ("A", "B", "C")
@@ -191,7 +190,6 @@ NO_LENGTHS = ("number", "ratio", "determinant", *ANGLES)
 
 
 def _long(name: str) -> bool:
-    """Whether a quantity is a length."""
     return not name.endswith(NO_LENGTHS)
 
 
@@ -254,7 +252,6 @@ def _broken(row: LimitRow) -> bool:
 
 
 def _limit_rows(label: str, entry: Sequence[LimitRow | None], sheets: Sequence[Sheet]) -> list[list[str]]:
-    """Return what is allowed, the values and the margins."""
     cells = (_limit_cells(row, one.unit) for row, one in zip(entry, sheets, strict=True))
     allowed, values, margins = zip(*cells, strict=True)
     below = [["  margin", *margins]]

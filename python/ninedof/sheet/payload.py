@@ -10,15 +10,14 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration, arrays_of
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.sheet.region_look import SAMPLES, RegionSearch, look_over, robot_of
 from ninedof.sheet.request import duty_of, load_rows, masses_of
 from ninedof.statics.accuracy import MOST_SAMPLES
-from ninedof.statics.dynamics import inverse_dynamics
-from ninedof.statics.masses import masses_for_core
+from ninedof.statics.dynamics import inverse_dynamics, masses_for_core
 from ninedof.support.arguments import Vector, shown, vector, whole
 from ninedof.support.arrays import Floats, one_or_each
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 
 
 @short_repr

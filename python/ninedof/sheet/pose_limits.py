@@ -19,8 +19,7 @@ from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.follow import Followed, LimitBreak, stretches
 from ninedof.robot.configuration import Configuration, single
-from ninedof.robot.geometry import Geometry
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import margin_of, tolerance_of

@@ -15,9 +15,8 @@ from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.robot.idle import idle_legs
-from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.plain_values import rows_of
 from ninedof.singularity.singularity import mechanism_of
 from ninedof.support.arrays import Floats

@@ -35,13 +35,13 @@ from ninedof.sheet.rows import LegRow, LimitRow, NearSingularity, leg_rows, limi
 from ninedof.sheet.tables import lengths_table, limits_table, summary_parts, worst_table
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import MOST_SAMPLES
-from ninedof.statics.masses import masses_for_core
+from ninedof.statics.dynamics import masses_for_core
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats, one_or_each
 from ninedof.support.structs import options_of
 from ninedof.support.units import per, unit_argument, with_unit
 from ninedof.tables.html import notebook
-from ninedof.tables.plain import plain
+from ninedof.tables.table import plain
 
 
 class Extreme(NamedTuple):

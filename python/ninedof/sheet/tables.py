@@ -145,7 +145,6 @@ def _joints(sheet: Any) -> Table:
 
 
 def _of_legs(title: str, sheet: Any, columns: Sequence[Column], rows: Any, notes: Sequence[str] = ()) -> Table:
-    """Return a table with a row for each leg."""
     named = ((leg.name, *row) for leg, row in zip(sheet.legs, rows, strict=True))
     return Table(title, [Column("leg"), *columns], list(grouped(named)), notes)
 
@@ -189,7 +188,6 @@ def _twist(sheet: Any) -> Table:
 
 
 def _forces(sheet: Any) -> Table:
-    """Return the forces in the legs for each load."""
     notes = [load_words(k, load, sheet.unit) for k, load in enumerate(sheet.loads, start=1)]
     notes += weight_words(sheet.weight, sheet.tool, sheet.has_leg_masses)
     for k, names in enumerate(map(unloaded_names, sheet.forces()), start=1):
@@ -281,7 +279,6 @@ def _motion_words(sheet: Any) -> Iterator[str]:
 
 
 def _axes_words(axes: Mapping[str, Sequence[float]]) -> str:
-    """Return from which axes the angles at the joints are."""
     if len({*axes.values()}) < 2 and not any(axes.values()):
         return "the direction at the neutral pose"
     words = []

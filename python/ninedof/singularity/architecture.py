@@ -11,7 +11,7 @@ from ninedof.robot.designs import HasRobot, robot_of, takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 from ninedof.support.units import amount
 
 NEAR = 0.01  # relative: what is nearer to a class is mentioned

@@ -12,7 +12,7 @@ from ninedof.robot.configuration import Configuration, operands, single
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_number, checked_out, thread_argument
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 
 
 class Mechanism(StrEnum):

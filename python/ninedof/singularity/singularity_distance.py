@@ -16,7 +16,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.singularity.singularity import mechanism_of, mechanisms_of
 from ninedof.support.arguments import choice, finite, whole
 from ninedof.support.arrays import Floats, as_number, thread_argument
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 
 PARTS = {"rotation": 0, "position": 3, "internal_point": 6}  # place in a tangent of `Configuration.moved`
 FARTHEST = 2000.0  # longest legs, or quarter turns: what is farther takes long and is no matter of this machine

@@ -14,7 +14,7 @@ from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import Floats, one_or_each, thread_argument
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 
 DISTRIBUTIONS = ("uniform", "normal")
 NORMAL = np.repeat([math.sqrt(1.0 / 3.0), math.sqrt(5.0) / 3.0], [9, 12])

@@ -13,7 +13,7 @@ from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, flag
 from ninedof.support.arrays import Floats, one_or_each
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 
 PARTS = ("translation", "rotation", "twist")
 """Of an ellipsoid."""

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ninedof.support.short import one_line
+from ninedof.support.text import one_line
 
 LONGEST = 200  # characters of a value that a message repeats
 LONGEST_NAME, LONGEST_PATH = 255, 3500  # what systems take, with room for the names of parts in a folder

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from ninedof.support.arguments import executor_argument, path_argument, whole
 from ninedof.support.files import Arrays
-from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.running import Progress, progress_argument
 from ninedof.support.store import Store
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.support.arguments import cleaned, path_argument
-from ninedof.support.json import decode, encode
+from ninedof.support.text import decode, encode
 
 if TYPE_CHECKING:
     import hashlib
@@ -276,7 +276,6 @@ class Saved(ABC):
             raise ValueError(f"{os.fspath(path)}: got no {cls.FORMAT!r} file, expected what `save` wrote") from None
 
     def _contents(self) -> dict[str, Any]:
-        """Return the arrays of the file."""
         entries = self._saved()
         arrays = {name: value for name, value in entries.items() if isinstance(value, np.ndarray)}
         words = {name: value for name, value in entries.items() if name not in arrays}

@@ -21,7 +21,7 @@ from ninedof.support.files import (
     write_npz,
     write_whole,
 )
-from ninedof.support.json import decode, encode
+from ninedof.support.text import decode, encode
 
 FORMAT = "ninedof-question-2"
 QUESTION, PIECES = "question.json", "pieces"

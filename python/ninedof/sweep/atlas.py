@@ -15,8 +15,8 @@ from ninedof.support.arguments import finite, items, known_keys, shown, whole
 from ninedof.support.chunks import MOST_CHUNK, chunk_argument, computed
 from ninedof.support.extras import versions
 from ninedof.support.files import Arrays
-from ninedof.support.json import plain
-from ninedof.support.progress import Progress
+from ninedof.support.running import Progress
+from ninedof.support.text import plain
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.survey import BOUNDS, Sample, Tally, closed_form, condition_edges, ratio_edges, squared_radius_ratio
 

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice, finite, is_number, shown, whole
 from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.units import DEG, plain_name
 
 Values = ArrayLike | tuple[float, float, int]
 """Values along an axis, or (low, high, count) for evenly spaced ones."""

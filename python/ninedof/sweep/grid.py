@@ -13,15 +13,14 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from ninedof.design.indices import Index, identity
-from ninedof.support.angles import DEG
 from ninedof.support.arrays import Floats, blocks
 from ninedof.support.chunks import computed
 from ninedof.support.extras import versions
 from ninedof.support.files import Arrays, naming, part_name
-from ninedof.support.json import plain
-from ninedof.support.progress import Progress
+from ninedof.support.running import Progress
 from ninedof.support.store import Store
-from ninedof.support.units import unit_entry
+from ninedof.support.text import plain
+from ninedof.support.units import DEG, unit_entry
 from ninedof.sweep.axis import Grid
 from ninedof.sweep.result import SweepResult
 

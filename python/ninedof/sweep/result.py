@@ -1,21 +1,21 @@
-"""Labelled arrays: the result of a sweep or an atlas, in memory, in a file, or as an xarray.Dataset."""
+"""Labelled arrays: the result of a sweep or an atlas, in memory, in a file, as an xarray.Dataset, and their tables."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ninedof.design.indices import size_of
+from ninedof.design.indices import INDICES, size_of
 from ninedof.support.arguments import choice, items, whole
 from ninedof.support.extras import optional
 from ninedof.support.files import Saved
-from ninedof.support.json import encode
-from ninedof.support.short import short
-from ninedof.tables import Column, Table
+from ninedof.support.text import encode, short
+from ninedof.support.units import amount, degrees_of, plain_name
+from ninedof.tables import Column, Table, columns
 from ninedof.tables.html import notebook
 
 COORDINATE, ARRAY = "coordinate ", "array "
@@ -141,3 +141,57 @@ class SweepResult(Saved):
 def _attribute(value: Any) -> Any:
     """Return a value that netCDF takes as an attribute."""
     return value if isinstance(value, str | int | float) and not isinstance(value, bool) else encode(value, indent=None)
+
+
+SIZES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # radius ratios
+
+
+def summary_table(summary: Mapping[str, Mapping[str, Any]], title: str, units: Mapping[str, str]) -> Table:
+    """Return the least and the greatest value of each index, with their coordinates; angles in degrees."""
+    counts = [word for word in ("infinite", "missing") if any(row[word] for row in summary.values())]
+    rows = [row for name, one in summary.items() for row in _rows(name, one, units, counts)]
+    return Table(title, columns("index", "", ">value", "at", *(f">{word}" for word in counts)), rows)
+
+
+def _rows(
+    name: str, one: Mapping[str, Any], units: Mapping[str, str], counts: Iterable[str]
+) -> Iterator[tuple[Any, ...]]:
+    what = " modulus" if name in INDICES and INDICES[name].signed else ""
+    least, greatest = (_end(one.get(word), name, units) for word in ("least", "greatest"))
+    yield name.replace("_", " "), f"least{what}", *least, *(one[word] for word in counts)
+    yield "", f"greatest{what}", *greatest, *("" for _ in counts)
+    yield ()
+
+
+def _end(end: Mapping[str, Any] | None, name: str, units: Mapping[str, str]) -> tuple[str, str]:
+    if end is None:
+        return "-", "-"
+    at = end["at"]
+    moved = "rad" if str(at.get("coordinate", "")).startswith("theta") else "l_c"  # of Fig. 6
+    units = {dim: moved if unit == "l_c or rad" else unit for dim, unit in units.items()}
+    where = (
+        f"{plain_name(dim)} = {_number(value, units.get(dim, ''), 5)}" if isinstance(value, float) else f"{dim} {value}"
+        for dim, value in at.items()
+    )
+    return _number(end["value"], units.get(name, ""), 6), "\n".join(where)
+
+
+def _number(value: float, unit: str, digits: int) -> str:
+    if unit == "rad":
+        value, unit = degrees_of(value), "deg"
+    return amount(f"{value:.{digits}g}", "" if unit in ("1", "length") else unit)
+
+
+def atlas_table(best: Iterable[Mapping[str, Any]]) -> Table:
+    """Return the best designs up to a few sizes of the base."""
+    listed = list(best)
+    names = list(listed[0]["design"]) if listed else []
+    heads = columns(">radius ratio\nbelow", ">condition\nnumber", *(f">{name}" for name in names))
+    rows = []
+    for size in SIZES:
+        below = [one for one in listed if one["radius_ratio"] < size]
+        if below:
+            one = min(below, key=lambda one: one["condition_number"])
+            values = (one["condition_number"], *(one["design"][name] for name in names))
+            rows.append((f"{size:g}", *(f"{value:.4f}" for value in values)))
+    return Table("Best of all designs up to a radius ratio", heads, rows)

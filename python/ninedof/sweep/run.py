@@ -15,18 +15,26 @@ from ninedof.design.study import FAMILIES, in_radians_by_kind, variable_kinds
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.designs import P, R_co, TakesDesigns, takes_designs
 from ninedof.robot.geometry import Geometry
-from ninedof.support.angles import plain_name
 from ninedof.support.arguments import choice, finite, flag, shown
 from ninedof.support.arrays import thread_argument
 from ninedof.support.chunks import chunk_argument
-from ninedof.support.progress import Progress
+from ninedof.support.running import Progress
 from ninedof.support.structs import options_of
-from ninedof.support.units import unit_argument
+from ninedof.support.units import plain_name, unit_argument
 from ninedof.sweep.axis import Values, axes_of
 from ninedof.sweep.grid import GridWork
-from ninedof.sweep.poses import COORDINATES, FOLLOWING, INTERNAL, ROTATION, RULES, Poses, best_block, rule_of_study
+from ninedof.sweep.points import (
+    COORDINATES,
+    FOLLOWING,
+    INTERNAL,
+    ROTATION,
+    RULES,
+    Poses,
+    Variants,
+    best_block,
+    rule_of_study,
+)
 from ninedof.sweep.result import SweepResult
-from ninedof.sweep.variants import Variants
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from ninedof.support.short import escaped
+from ninedof.support.text import escaped
 from ninedof.support.units import with_unit
 from ninedof.tables.table import WORDS, Part, Table
 

@@ -9,7 +9,7 @@ from rich import box, table
 from rich.console import Group
 from rich.text import Text
 
-from ninedof.support.short import escaped
+from ninedof.support.text import escaped
 from ninedof.support.units import heading
 from ninedof.tables.numbers import SCREEN
 from ninedof.tables.table import WORDS, Part, Table

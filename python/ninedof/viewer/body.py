@@ -14,7 +14,7 @@ import numpy as np
 from ninedof.design.limit_numbers import CONES, SPREADS
 from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 from ninedof.viewer.machine import Variant

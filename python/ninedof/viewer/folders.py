@@ -288,7 +288,6 @@ def files_of(viewer: Any, kind: str) -> dict[str, bytes]:
 
 
 def _picture(client: Any) -> dict[str, bytes]:
-    """Return the scene as the client sees it."""
     height, width = client.camera.image_height, client.camera.image_width
     try:
         return {"ninedof.png": picture(client.get_render(height=height, width=width, transport_format="png"))}

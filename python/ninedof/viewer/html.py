@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from html import escape
 
 from ninedof.plot.style import LEG_COLOURS
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.sheet.rows import LimitRow
 from ninedof.support.margins import is_violated, margin_words
 from ninedof.support.units import kind_unit, with_unit

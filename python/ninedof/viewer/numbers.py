@@ -14,7 +14,7 @@ from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
 from ninedof.design.limits import kind_of, split_label
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.sheet.pose_limits import PoseLimit, pose_limits
 from ninedof.sheet.rows import LimitRow
 from ninedof.singularity.singularity import SingularityMargins, singularity_margins
@@ -90,7 +90,6 @@ def limits_at(variant: Variant, c: Configuration) -> list[PoseLimit]:
 
 
 def _worst(limits: Sequence[PoseLimit]) -> list[LimitRow]:
-    """Return the side and leg of least margin of each limit."""
     worst: dict[tuple[str, str], PoseLimit] = {}
     for one in limits:
         key = (one.name, one.side)
@@ -105,7 +104,6 @@ def _worst(limits: Sequence[PoseLimit]) -> list[LimitRow]:
 
 
 def _of_design(variant: Variant, limits: Sequence[PoseLimit]) -> list[LimitRow]:
-    """Return the limits that belong to the design and not to a pose."""
     of_pose = {one.name for one in limits}
     return [
         LimitRow(name, "", math.nan, math.nan, margin, "", _kind(name))

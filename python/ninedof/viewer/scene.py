@@ -11,7 +11,7 @@ from ninedof.design.region import region_lines
 from ninedof.motion.rotations import to_quaternions
 from ninedof.plot import style
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.robot.plates import points_of
 from ninedof.statics.statics import Ellipsoid
 from ninedof.support.arrays import Floats

@@ -106,7 +106,6 @@ def _no_handshake(record: logging.LogRecord) -> bool:
 
 @contextlib.contextmanager
 def _silence() -> Iterator[None]:
-    """Leave out what viser prints."""
     import rich
 
     console = rich.get_console()

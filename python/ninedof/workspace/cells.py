@@ -12,8 +12,8 @@ from ninedof import _core
 from ninedof.design.indices import Index
 from ninedof.design.limit_numbers import PARTS
 from ninedof.support.arrays import Floats
-from ninedof.support.short import short_repr
 from ninedof.support.structs import from_core
+from ninedof.support.text import short_repr
 from ninedof.workspace.question import connected
 
 LIMITS: tuple[str, ...] = tuple(_core.workspace_limits)

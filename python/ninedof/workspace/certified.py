@@ -11,7 +11,7 @@ from ninedof import _core
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite, shown, whole
 from ninedof.support.arrays import thread_argument
-from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.running import Progress, progress_argument
 from ninedof.support.structs import from_core, options_of
 from ninedof.support.units import unit_argument
 from ninedof.workspace.certified_record import CertifiedWorkspace

@@ -15,7 +15,7 @@ from ninedof.proof.machine_record import outward
 from ninedof.support.arguments import choice, finite, text, whole
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import Saved
-from ninedof.support.short import short_repr
+from ninedof.support.text import short_repr
 from ninedof.support.units import amount
 from ninedof.workspace.question import SETS
 

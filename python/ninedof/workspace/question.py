@@ -16,8 +16,7 @@ from ninedof.design.limit_numbers import PARTS
 from ninedof.design.limits import Row
 from ninedof.redundancy.redundancy import leg_limits
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.support.arguments import choice, flag, instance, items, known_keys, number, shown, vector, whole
 from ninedof.support.arrays import Floats, as_floats, as_number
 

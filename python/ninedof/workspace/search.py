@@ -17,7 +17,7 @@ from ninedof.robot.designs import HasRobot, robot_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown, whole
 from ninedof.support.arrays import as_number, thread_argument
-from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.running import Progress, progress_argument
 from ninedof.support.structs import from_core
 from ninedof.support.units import unit_argument
 from ninedof.workspace.cells import WorkspaceCells, statistics_of

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.duty import Tool
-from ninedof.design.limit_numbers import CLEARANCE, LEGS, PARTS, SPREADS
+from ninedof.design.limit_numbers import CLEARANCE, CONES, LEGS, PARTS, SPREADS
 from ninedof.design.region import Region, extent
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
@@ -21,7 +21,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.designs import HasRobot, robot_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
-from ninedof.support.structs import from_core
+from ninedof.support.structs import Fixed, from_core
 from ninedof.workspace.question import ROWS, criteria_of
 
 EASE = 1e-9
@@ -72,21 +72,17 @@ ACTUATOR_WORDS = {
 ACTUATORS = tuple(ACTUATOR_WORDS)
 
 
-def study_question(result: Result) -> tuple[dict[str, Any], list[str]]:
+def study_question(result: Result, archetype: str = "constant_orientation") -> tuple[dict[str, Any], list[str]]:
     """Return arguments of `workspace` for a result: its positions in the neutral orientation within its study's limits.
 
     The same limits and the same rule for O as `ninedof workspace RUN` has; the box holds all that a home height
     reaches. Beside them the limits of the study that no single pose can meet.
     """
-    best, region = result.best, result.study.objective.region
+    best, study = result.best, result.study
     assert best is not None
-    g, home = best.geometry, best.configuration
-    limits, left = study_limits(result.study, g, home)
-    criteria = with_leg_limits(limits)
-    if any(name in SPREADS for name in left) and (built := built_ranges(result, ACTUATORS[0])) is not None:
-        criteria, left = narrowed(criteria, *built), [name for name in left if name not in SPREADS]
-    own = _own_arguments(g, home, region, result.study.tool, best.characteristic_length, result.study.unit)
-    return own | {"criteria": criteria}, left
+    criteria, _, left, _ = asked_criteria(result)
+    robot = best.geometry, best.configuration, study.objective.region, study.tool
+    return _own_arguments(*robot, best.characteristic_length, study.unit, archetype) | {"criteria": criteria}, left
 
 
 def design_question(design: HasRobot, archetype: str) -> dict[str, Any]:
@@ -94,32 +90,83 @@ def design_question(design: HasRobot, archetype: str) -> dict[str, Any]:
 
     Positions have a box about its region or its home, "orientation" has its home position.
     """
+    g = robot_of(design)
     if isinstance(design, Result):
-        robot_of(design)
-        own, _ = study_question(design)
-    else:
-        g, home, length = robot_of(design), design.configuration, design.characteristic_length
-        length = float(characteristic_length(g, home, length)) if isinstance(length, str) else length
-        own = _own_arguments(g, home, None, getattr(design, "tool", Tool()), length, getattr(design, "unit", ""))
-    if archetype == "orientation":
-        own["position"] = own["home"].position
-        del own["box"]
-    elif archetype != "constant_orientation":
-        del own["rotation"]
-    return own
+        return study_question(design, archetype)[0]
+    home, length = design.configuration, design.characteristic_length
+    length = float(characteristic_length(g, home, length)) if isinstance(length, str) else length
+    tool, unit = getattr(design, "tool", Tool()), getattr(design, "unit", "")
+    return _own_arguments(g, home, None, tool, length, unit, archetype)
 
 
 def _own_arguments(
-    g: Geometry, home: Configuration, region: Region | None, tool: Tool, length: float, unit: str
+    g: Geometry, home: Configuration, region: Region | None, tool: Tool, length: float, unit: str, archetype: str
 ) -> dict[str, Any]:
     return {
-        "box": box_around(home, tool) if region is None else box_about(region, home),
-        "rotation": home.rotation,
+        **place_of(home, region, tool, archetype),
         "internal_point": rule_of_region(g, home, region),
         "home": home,
         "characteristic_length": length,
         "unit": unit or None,
     }
+
+
+def place_of(home: Configuration, region: Region | None, tool: Tool, archetype: str) -> dict[str, Any]:
+    """Return the box, about a region or home, or the fixed position and rotation, of an archetype."""
+    if archetype == "orientation":
+        return {"position": home.position, "rotation": home.rotation}
+    box = {"box": box_around(home, tool) if region is None else box_about(region, home)}
+    return box | ({"rotation": home.rotation} if archetype == "constant_orientation" else {})
+
+
+class Asked(NamedTuple):
+    """Criteria of a workspace."""
+
+    criteria: dict[str, Any]
+    own: set[str]
+    """Names of those that come from the study."""
+    left: list[str]
+    """Limits of the study that are no criteria of a pose."""
+    actuators: str
+    """How long the legs are that a study compares, in words; "" without such."""
+
+
+def asked_criteria(result: Result | None, values: Mapping[str, Any] = Fixed(), actuators: str = ACTUATORS[0]) -> Asked:
+    """Return the criteria of the study of a result, and of values that count instead.
+
+    `values` are of constraints of leg lengths, angles and axes of cones, and of other criteria. Where they say nothing
+    of lengths and the study compares those of several poses, the legs are built for them: see `built_ranges`.
+    """
+    from_study: dict[str, Any] = {}
+    left: list[str] = []
+    if result is not None and result.best is not None:
+        from_study, left = study_limits(result.study, result.best.geometry, result.best.configuration)
+    criteria = from_study | {name: value for name, value in values.items() if not name.endswith("_axis")}
+    for cone in CONES:
+        axis = values.get(f"{cone}_axis", _option(from_study.get(cone), "axis"))
+        if axis is None:
+            continue
+        if cone not in criteria:
+            raise ValueError(f"{cone}_axis: got an axis alone, expected the angle too")
+        criteria[cone] = {"max": _option(criteria[cone], "max", criteria[cone]), "axis": axis}
+    criteria = {name: value for name, value in criteria.items() if value is not False}
+    ranges, unchanged = LEGS.keys() & criteria, from_study.keys() - values
+    own = {name for name in unchanged - ranges if name in criteria}
+    own |= {"leg_limits"} if ranges and ranges <= unchanged else set()
+    criteria = with_leg_limits(criteria)
+    if result is None or not compare_poses(left, values) or (built := built_ranges(result, actuators)) is None:
+        return Asked(criteria, own, left, "")
+    left = [name for name in left if name not in SPREADS]
+    return Asked(narrowed(criteria, *built), own - {"leg_limits"}, left, ACTUATOR_WORDS[actuators])
+
+
+def compare_poses(left: Iterable[str], values: Iterable[str]) -> bool:
+    """Return whether limits on the spread of lengths are left over and no lengths are given."""
+    return any(name in SPREADS for name in left) and LEGS.keys().isdisjoint(values)
+
+
+def _option(criterion: Any, name: str, otherwise: Any = None) -> Any:
+    return criterion.get(name) if isinstance(criterion, Mapping) else otherwise
 
 
 def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[str, Any], list[str]]:

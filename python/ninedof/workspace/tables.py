@@ -12,7 +12,7 @@ from ninedof.design.indices import INDICES
 from ninedof.design.region import Region
 from ninedof.redundancy.rules import point_words, where_o
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.leg_names import LEGS as LEG_NAMES
+from ninedof.robot.geometry import LEGS as LEG_NAMES
 from ninedof.support.units import amount, kind_unit
 from ninedof.tables import RIGHT, Column, Line, Table
 from ninedof.workspace.question import ROWS
@@ -70,7 +70,6 @@ def workspace_table(workspace: Any, most: int = SHOWN) -> Table:
 
 
 def _index_lines(workspace: Any) -> Iterator[Line]:
-    """Yield mean, least and greatest of each index that was asked for."""
     for name, over in workspace.indices.items():
         index = INDICES[name]
         unit = workspace.unit if index.unit == "length" else ""

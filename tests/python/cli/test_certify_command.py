@@ -104,7 +104,7 @@ def test_an_interrupted_fit_of_a_rule_leaves_nothing(run, tmp_path, monkeypatch,
         progress.phase("fitting a rule for O of degree 1")
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(import_module("ninedof.optimize.machine_proofs"), "certify", interrupted)
+    monkeypatch.setattr(import_module("ninedof.optimize.reserve"), "certify", interrupted)
     folder = tmp_path / "run"
     shutil.copytree(run, folder, ignore=shutil.ignore_patterns("certify.json"))
     before = sorted(folder.iterdir())
@@ -125,7 +125,7 @@ def test_an_interrupted_search_for_tolerances_tells_the_largest_so_far(run, monk
             raise KeyboardInterrupt
         return []
 
-    monkeypatch.setattr(import_module("ninedof.optimize.machine_proofs"), "open_limits", proved)
+    monkeypatch.setattr(import_module("ninedof.optimize.reserve"), "open_limits", proved)
     assert status(run, "--tolerance", "max") == 130
     out = " ".join(capsys.readouterr().out.split())
     assert f"interrupted: the largest tolerances proved so far: {words}" in out

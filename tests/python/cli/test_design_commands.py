@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.chosen_design import named_design
+from ninedof.cli.posed import named_design
 
 STUDY = nd.Study(
     family="symmetric",

@@ -11,7 +11,7 @@ from rich.console import Console
 from ninedof.cli.app import main
 from ninedof.cli.screen import Screen, bold
 from ninedof.support.arguments import cleaned
-from ninedof.support.short import MOST, escaped, one_line
+from ninedof.support.text import MOST, escaped, one_line
 
 EVIL = "\x1b]0;title\x07\nninedof: all is well\x9b2J\u202e\u2028[/b][bold]:smile:"
 

@@ -7,7 +7,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.design.duty import DUTIES
-from ninedof.support.schema import entries, keys
+from ninedof.support.structs import entries, keys
 
 TABLES = {
     "about": {"project": "Polishing head", "author": "N. N.", "revision": "B"},

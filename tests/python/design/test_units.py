@@ -8,8 +8,8 @@ import pytest
 from sizes import size
 
 import ninedof as nd
-from ninedof.support.angles import angle_entry, degrees_of, in_radians
 from ninedof.support.arguments import bound
+from ninedof.support.units import angle_entry, degrees_of, in_radians
 
 ANGLES = {
     "hexagonal": ["theta_z"],

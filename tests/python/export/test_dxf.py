@@ -13,7 +13,7 @@ from written_designs import HEXAGON, PAPER, general, text_of
 import ninedof as nd
 from ninedof.export import dxf
 from ninedof.export.model import model_of
-from ninedof.robot.plate_plan import plates_of
+from ninedof.robot.plates import plates_of
 from ninedof.support.extras import MissingExtra
 
 ANGULAR = 5  # kind of a dimension

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 import ninedof as nd
 from ninedof.motion.tables import drives_table, motion_tables, motion_words
-from ninedof.tables.plain import plain
+from ninedof.tables.table import plain
 
 HOME = nd.Configuration.neutral(3.9828, 2.4432)
 MASSES = nd.Masses(

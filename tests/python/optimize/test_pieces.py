@@ -7,8 +7,8 @@ from interrupts import InterruptedPhase
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.support.json import encode
 from ninedof.support.store import Store
+from ninedof.support.text import encode
 
 REGION = {"path": [[0.0, 0.0, 0.0], [0.4, 0.0, 0.0]]}
 VARIABLES = {"zp": (1.0, 6.0)}

@@ -13,7 +13,7 @@ from ninedof import poses
 from ninedof.design.poses import rule_words
 from ninedof.optimize.tables import least_share, price_words
 from ninedof.redundancy.rules import WORDS
-from ninedof.support.json import encode
+from ninedof.support.text import encode
 
 POSES = nd.Objective(poses=poses.box((0.1, 0.0, 0.0), unit="zp"))
 STUDY = nd.Study(constraints={"radius_ratio": (None, 2.0)}, objective=POSES, starts=8)

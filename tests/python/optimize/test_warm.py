@@ -7,7 +7,7 @@ import pytest
 
 import ninedof as nd
 from ninedof import poses
-from ninedof.optimize.warm import warm_starts
+from ninedof.optimize.pieces import warm_starts
 
 POSES = nd.Objective(poses=poses.box((0.1, 0.0, 0.0), unit="zp"))
 STUDY = nd.Study(constraints={"radius_ratio": (None, 2.0)}, objective=POSES, starts=8)

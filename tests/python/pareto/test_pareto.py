@@ -15,7 +15,7 @@ from ninedof.pareto import pareto
 from ninedof.pareto import solving as sweeping
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limits import own_value, resolve, value_of, with_limit, without_degrees
-from ninedof.pareto.span import WIDE, range_words
+from ninedof.pareto.solving import WIDE, range_words
 
 PAPER = nd.Study.paper()
 

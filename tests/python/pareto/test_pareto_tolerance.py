@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 import ninedof as nd
-from ninedof.pareto import span
+from ninedof.pareto import solving
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limits import tightest_first, unit_of, with_limit
 from ninedof.records.record import write_run
@@ -93,7 +93,7 @@ def test_tolerances_that_are_found_end_where_no_design_is_left():
 
 def test_the_largest_tolerance_is_found_from_above_too(monkeypatch):
     below = nd.pareto(STUDY, "tolerance", points=2).limits[1]
-    monkeypatch.setattr(span, "FIRST", 0.02)  # of the height: no design keeps to that
+    monkeypatch.setattr(solving, "FIRST", 0.02)  # of the height: no design keeps to that
     assert nd.pareto(STUDY, "tolerance", points=2).limits[1] == pytest.approx(below, rel=0.1)
 
 

@@ -15,7 +15,7 @@ import ninedof as nd
 from ninedof import plot
 from ninedof.plot import style
 from ninedof.plot.space.ellipsoid import VIEW
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.robot.plates import distinct, outlines
 from ninedof.support.placing import toward
 

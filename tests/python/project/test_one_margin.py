@@ -21,7 +21,7 @@ from ninedof.sheet.pose_limits import pose_limits
 from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.tables import limits_table
 from ninedof.support.margins import is_violated, margin_of, margin_words, tolerance_of
-from ninedof.tables.plain import plain
+from ninedof.tables.table import plain
 from ninedof.viewer.html import limits_html
 from ninedof.viewer.machine import Variant
 from ninedof.viewer.numbers import numbers_of

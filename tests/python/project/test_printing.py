@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.support.short import short
+from ninedof.support.text import short
 from ninedof.tables import Column, Table
 from ninedof.tables.html import notebook
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.chosen_design import named_design
+from ninedof.cli.posed import named_design
 from ninedof.paper.comparison import compare
 from ninedof.records.record import Record, load_record, write_record, write_run
 from ninedof.records.record import load_run as load
-from ninedof.support.command import running
-from ninedof.support.json import decode, encode
+from ninedof.support.running import running
+from ninedof.support.text import decode, encode
 
 
 def record():

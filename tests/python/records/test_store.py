@@ -6,7 +6,7 @@ import threading
 import numpy as np
 import pytest
 
-from ninedof.records.folder import run_folder
+from ninedof.records.record import run_folder
 from ninedof.support import store as module
 from ninedof.support.store import Store
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.posed import PoseOptions
+from ninedof.cli.posed import Chosen, PoseOptions, named_design
 from ninedof.redundancy.rules import MEANING, RULES, STUDY_RULES, WORDS, where_o
 from ninedof.viewer.machine import machine_of
 from ninedof.viewer.state import State

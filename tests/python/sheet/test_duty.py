@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.support.json import encode
+from ninedof.support.text import encode
 
 DUTY = {
     "tool": {"position": (10.0, 0.0, -100.0), "rotation_deg": (0.0, 10.0, 0.0)},

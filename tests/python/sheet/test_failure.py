@@ -13,7 +13,7 @@ from region_oracle import random_poses
 import ninedof as nd
 from ninedof import _core
 from ninedof.design.region_poses import posed
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.sheet.failure.failure import SETS
 from ninedof.sheet.failure.tables import free_table, loads_table, locked_table, pairs_table
 

@@ -5,8 +5,8 @@ import pytest
 from sizes import size
 
 import ninedof as nd
+from ninedof.robot.geometry import LEGS
 from ninedof.robot.idle import IDLE, idle_legs
-from ninedof.robot.leg_names import LEGS
 
 
 def lengths(g, c):

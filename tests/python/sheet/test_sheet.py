@@ -16,8 +16,7 @@ from sizes import size
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.cli.chosen_design import named_design
-from ninedof.cli.posed import PoseOptions
+from ninedof.cli.posed import PoseOptions, named_design
 from ninedof.design.limit_numbers import PARTS, apart
 from ninedof.report.optimization import sheet_html
 from ninedof.sheet.pose_words import pose_words

@@ -14,7 +14,7 @@ import ninedof as nd
 from ninedof import _core
 from ninedof.design.region_poses import configurations_at, posed, poses_at
 from ninedof.export.model import model_of
-from ninedof.optimize.machine_proofs import placing_of
+from ninedof.optimize.reserve import placing_of
 
 
 def cone_angles(g, c):

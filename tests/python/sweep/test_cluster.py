@@ -20,7 +20,7 @@ from ninedof.design.indices import indices_of
 from ninedof.support import chunks
 from ninedof.sweep.axis import axes_of
 from ninedof.sweep.grid import GridWork
-from ninedof.sweep.poses import COORDINATES, Poses
+from ninedof.sweep.points import COORDINATES, Poses
 
 
 def asked(index="condition_number", **options):

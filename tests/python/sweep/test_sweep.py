@@ -14,9 +14,9 @@ from sweep_work import HOME, G
 
 import ninedof as nd
 from ninedof.design.indices import computed
-from ninedof.sweep import poses as placing
+from ninedof.sweep import points as placing
 from ninedof.sweep.axis import Axis, axes_of
-from ninedof.sweep.poses import best_block
+from ninedof.sweep.points import best_block
 
 TURNED = nd.Configuration([0.3, -0.2, 4.1], Rotation.from_rotvec([0.1, -0.3, 0.4]), [0.1, 0.25, 2.2])
 NAMES = ("theta_x", "theta_y", "theta_z", "x_p", "y_p", "z_p", "x_s", "y_s", "z_s")

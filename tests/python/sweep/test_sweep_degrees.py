@@ -7,7 +7,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.cli.sweep_job import describe, json_data
-from ninedof.sweep.tables import summary_table
+from ninedof.sweep.result import summary_table
 
 G = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
 HOME = nd.Configuration.neutral(zp=3.9828, zs=2.4435)

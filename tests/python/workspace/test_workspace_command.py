@@ -10,10 +10,9 @@ from numpy.testing import assert_allclose
 
 import ninedof as nd
 from ninedof.cli.workspace_figures import _planes, _section
-from ninedof.cli.workspace_question import compare_poses
 from ninedof.paper.published import published_variables
 from ninedof.records.record import write_run
-from ninedof.workspace.study_question import EASE, leg_ranges, narrowed, own_fraction, study_limits
+from ninedof.workspace.study_question import EASE, compare_poses, leg_ranges, narrowed, own_fraction, study_limits
 from ninedof.workspace.tables import criterion_words
 
 BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])

@@ -13,7 +13,7 @@ from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.proof.design_range import design_range
 from ninedof.records.proofs import admissible_file, load_admissible, run_of, save_admissible
-from ninedof.support.command import goes_on
+from ninedof.support.running import goes_on
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
 
@@ -112,7 +112,6 @@ def _draw(found: nd.AdmissibleSet, file: Path) -> list[Path]:
 
 
 def _of(options: _Options) -> tuple[nd.Study | nd.Result, Path | None]:
-    """Return what is asked about, and the folder of the answer."""
     if (place := Path(options.of)).suffix == ".toml" and place.is_file():
         return nd.Study.load(place), options.out
     result = nd.load(options.of)

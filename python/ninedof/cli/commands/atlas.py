@@ -13,8 +13,8 @@ import ninedof as nd
 from ninedof.cli.options import option, struct
 from ninedof.cli.sweep_job import Job
 from ninedof.conditioning.hexagonal import HEXAGONAL
+from ninedof.sweep.result import atlas_table
 from ninedof.sweep.survey import squared_radius_ratio
-from ninedof.sweep.tables import atlas_table
 
 PLACE = 5
 EXAMPLES = """
@@ -45,7 +45,6 @@ def atlas(job: _Options) -> None:
 
 
 def _figures(result: nd.SweepResult) -> Iterator[tuple[str, Any]]:
-    """Yield the figure, with the paper's optimum marked."""
     from ninedof import plot
 
     best = nd.optimize(nd.Study.paper()).best

@@ -11,9 +11,8 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.chosen_design import with_length
 from ninedof.cli.options import LC, LEG_LIMITS, Two, ends, option, struct
-from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home, xyz
+from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home, with_length, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.redundancy.redundancy import CRITERIA
 from ninedof.sheet.pose_words import decimals_of, fixed, vector_words

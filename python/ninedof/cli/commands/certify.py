@@ -15,11 +15,11 @@ from ninedof.proof.machine import tolerances_of
 from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import outward
 from ninedof.records.proofs import certificate_file, save_certificate
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.arguments import finite
-from ninedof.support.command import ended_by_time, goes_on
 from ninedof.support.margins import margin_words
+from ninedof.support.running import ended_by_time, goes_on
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
 
@@ -138,7 +138,6 @@ def _tolerance_words(built: nd.Tolerances, unit: str) -> str:
 
 
 def _largest(certificate: nd.MachineCertificate) -> str:
-    """Return what is said of the largest tolerances."""
     if built := certificate.tolerances:
         return f"The largest tolerances that were proved, to 5 %: {_tolerance_words(built, certificate.unit)}."
     tight = min(certificate.limits, key=lambda limit: limit.margin)

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import ninedof as nd
 from ninedof.cli.answer import FIGURES, Answer
-from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import DESIGN, PLOT, Options, argument, option, struct
+from ninedof.cli.posed import named_design
 
 PLACE = 3
 EXAMPLES = """

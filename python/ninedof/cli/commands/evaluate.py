@@ -10,7 +10,6 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.chosen_design import chosen_design, named_design
 from ninedof.cli.commands.compare import compared, plot_argument
 from ninedof.cli.options import (
     HEXAGON,
@@ -23,7 +22,7 @@ from ninedof.cli.options import (
     struct,
     typed,
 )
-from ninedof.cli.posed import beyond_words
+from ninedof.cli.posed import beyond_words, chosen_design, named_design
 from ninedof.design.indices import computed
 from ninedof.records.design_file import indices
 from ninedof.sheet.tables import limits_table, poses_table

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct, typed
+from ninedof.cli.posed import named_design
 from ninedof.export.bodies import body_masses
 from ninedof.export.export import formats
 from ninedof.export.model import Format
@@ -66,7 +66,6 @@ def export(options: _Options) -> Answer:
 
 
 def _by_suffix(out: Path | None) -> Format:
-    """Return the format that the suffix of --out names."""
     if out is None:
         raise ValueError(f"--to: got nothing, expected one of {', '.join(formats())}")
     suffixes = {row.suffix: row for row in formats().values()}

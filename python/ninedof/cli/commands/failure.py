@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.chosen_design import named_design
-from ninedof.cli.options import LOAD, ONE_DESIGN, Options, argument, option, struct
-from ninedof.cli.posed import loads_option
+from ninedof.cli.options import LOAD, ONE_DESIGN, Options, argument, loads_option, option, struct
+from ninedof.cli.posed import named_design
 from ninedof.sheet.failure.tables import failure_parts
 
 PLACE = 3

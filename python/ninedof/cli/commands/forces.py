@@ -8,11 +8,11 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import LOAD, option, struct
-from ninedof.cli.posed import PosesOptions, loads_option
+from ninedof.cli.options import LOAD, loads_option, option, struct
+from ninedof.cli.posed import PosesOptions
 from ninedof.cli.screen import bold
+from ninedof.robot.geometry import LEGS
 from ninedof.robot.idle import NEVER_CARRY, unloaded_names
-from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.request import masses_besides_platform, masses_of, weight_of
 from ninedof.sheet.tables import load_words, weight_words
 from ninedof.tables import Table, columns, grouped

@@ -8,8 +8,8 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import option, struct
-from ninedof.cli.posed import PoseOptions, length_at_home, poses_data, several, xyz
+from ninedof.cli.options import option, several, struct
+from ninedof.cli.posed import PoseOptions, length_at_home, poses_data, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.proof.machine_record import outward
 from ninedof.sheet.pose_words import decimals_of, fixed, turn_deg
@@ -77,7 +77,6 @@ def _this(result: nd.AssemblyModes, size: float, c: nd.Configuration) -> int:
 
 
 def _proof(proof: nd.ModesCertificate) -> str:
-    """Return what is proved in a sentence."""
     boxes = f"({proof.boxes} boxes)"
     if proof.complete:
         within = f", each to {outward(proof.radius.max(), True, 2)} of the longest leg" if proof.proved else ""

@@ -17,12 +17,11 @@ from ninedof.optimize.result import with_fixed_design
 from ninedof.optimize.tables import agreement_words, best_prices, candidates_table, proof_words
 from ninedof.paper.comparison import Comparison, compare, comparison_table, comparison_words
 from ninedof.proof.optimum import left_out_of
-from ninedof.records.folder import run_folder
-from ninedof.records.record import write_run
+from ninedof.records.record import run_folder, write_run
 from ninedof.sheet.tables import limits_table
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.arguments import finite
-from ninedof.support.command import ended_by_time
+from ninedof.support.running import ended_by_time
 from ninedof.support.units import amount, unit_entry
 
 PLACE = 1

@@ -9,8 +9,7 @@ from ninedof.cli.answer import Answer, folder_words, write_job
 from ninedof.cli.options import REPORT, THREADS, Options, option, struct
 from ninedof.cli.screen import Screen
 from ninedof.paper.verdicts import verdicts, verdicts_table
-from ninedof.records.folder import run_folder
-from ninedof.records.record import Record, write_drawn
+from ninedof.records.record import Record, run_folder, write_drawn
 from ninedof.support.store import Store
 
 PLACE = 7

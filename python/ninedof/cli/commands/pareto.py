@@ -10,16 +10,15 @@ from typing import Any
 
 import ninedof as nd
 from ninedof.cli.answer import Answer, finish_job
-from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, struct
+from ninedof.cli.posed import named_design
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limits import TOLERANCE, with_degrees
-from ninedof.pareto.span import range_words
-from ninedof.records.folder import run_folder
+from ninedof.pareto.solving import range_words
 from ninedof.records.load import split
-from ninedof.records.record import write_run
+from ninedof.records.record import run_folder, write_run
 
 PLACE = 2
 EXAMPLES = """

@@ -11,7 +11,6 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer, finish_job
-from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.options import (
     DESIGN_OR_PUBLISHED,
     LC,
@@ -22,15 +21,15 @@ from ninedof.cli.options import (
     argument,
     ends,
     option,
+    rule_option,
     struct,
     triple,
 )
-from ninedof.cli.posed import rule_option
+from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.motion.tables import motion_tables, motion_words
-from ninedof.records.folder import run_folder
 from ninedof.records.motion import plain
-from ninedof.records.record import write_run
+from ninedof.records.record import run_folder, write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.request import masses_of
@@ -125,7 +124,6 @@ def path(options: _Options) -> None:
 
 
 def _trajectory(chosen: Chosen, options: _Options) -> nd.Trajectory:
-    """Return the one trajectory of the options."""
     home, shapes = chosen.configuration, options.given(*SHAPES)
     names = [*(["a file"] if options.file else []), *(f"--{name}" for name in shapes)]
     if len(names) != 1:

@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.options import LOAD, ONE_DESIGN, Options, Three, argument, option, struct, triple
-from ninedof.cli.posed import loads_option
+from ninedof.cli.options import LOAD, ONE_DESIGN, Options, Three, argument, loads_option, option, struct, triple
+from ninedof.cli.posed import Chosen, named_design
 from ninedof.cli.screen import DONE, NO_RESULT
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS
 from ninedof.sheet.payload import Payload, largest_payload
 from ninedof.sheet.pose_words import vector_words
 from ninedof.sheet.request import masses_of

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import ninedof as nd
-from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import (
     JOINT_ERROR,
     LEG_ERROR,
@@ -16,11 +15,13 @@ from ninedof.cli.options import (
     ONE_DESIGN,
     Options,
     argument,
+    loads_option,
     option,
+    several,
     struct,
     typed,
 )
-from ninedof.cli.posed import loads_option, several
+from ninedof.cli.posed import named_design
 from ninedof.sheet.tables import sheet_parts
 from ninedof.support.arguments import finite
 from ninedof.support.files import own_or_new, write_whole

@@ -9,8 +9,8 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import option, struct
-from ninedof.cli.posed import DesignAtPoses, PosesOptions, several
+from ninedof.cli.options import option, several, struct
+from ninedof.cli.posed import DesignAtPoses, PosesOptions
 from ninedof.robot.configuration import arrays_of
 from ninedof.sheet.tables import MECHANISMS
 from ninedof.singularity.singularity_distance import PARTS
@@ -116,7 +116,6 @@ def _coordinates(at: DesignAtPoses) -> tuple[list[Any], dict[str, Any]]:
 
 
 def _nearest(name: str, distance: str, one: nd.NearestSingularity, at: DesignAtPoses) -> str:
-    """Return the nearest singularity of a part in words."""
     way = f"{name} any axis" + ", O at rest" * (not name.startswith("O"))
     if not math.isfinite(one.distance):
         return f"{way}: no singularity found"

@@ -11,18 +11,18 @@ from typing import Any
 import numpy as np
 
 import ninedof as nd
-from ninedof.cli.chosen_design import Chosen, chosen_design, length_option, named_design, with_length
-from ninedof.cli.options import DESIGN, HEXAGON, THREADS, HexagonalOptions, argument, option, struct
+from ninedof.cli.options import DESIGN, HEXAGON, THREADS, HexagonalOptions, argument, length_option, option, struct
+from ninedof.cli.posed import Chosen, chosen_design, named_design, with_length
 from ninedof.cli.sweep_job import Job, describe, json_data
 from ninedof.design.indices import computed
 from ninedof.design.study import FAMILIES as FAMILY_NAMES
 from ninedof.design.variables import variables_of
 from ninedof.paper.published import published_variables
-from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
+from ninedof.support.units import DEG, plain_name
 from ninedof.sweep.axis import Values
-from ninedof.sweep.poses import COORDINATES, INTERNAL, POSITION, ROTATION, rule_of_study
-from ninedof.sweep.tables import summary_table
+from ninedof.sweep.points import COORDINATES, INTERNAL, POSITION, ROTATION, rule_of_study
+from ninedof.sweep.result import summary_table
 
 FAMILIES = {name: tuple(nd.Study(name).variables) for name in FAMILY_NAMES}
 VARIABLES = frozenset(name for names in FAMILIES.values() for name in names)
@@ -180,7 +180,6 @@ def _variables(name: str | None, chosen: Chosen, over: list[str]) -> tuple[str, 
 
 
 def _grid(job: _Options) -> dict[str, Values]:
-    """Return the axes of --over."""
     what, over = job.what, job.over or ()
     if what is not None and what.startswith("figure-") and not Path(what).exists():
         raise ValueError(f"sweep: got {what}, expected one of {', '.join(FIGURES)}, or a design")
@@ -217,7 +216,6 @@ def parse_over(text: str) -> tuple[str, Values]:
 
 
 def _figures(result: nd.SweepResult, what: str | None, note: str) -> Iterator[tuple[str, Any]]:
-    """Yield the name of each figure with the figure: one for each index."""
     from ninedof import plot
     from ninedof.paper import figures
 

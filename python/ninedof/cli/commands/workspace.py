@@ -9,11 +9,10 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ninedof.cli.answer import Answer, finish_job, write_job
-from ninedof.cli.chosen_design import Chosen, named_design, with_length
+from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
-from ninedof.records.folder import run_folder
-from ninedof.records.record import write_run
+from ninedof.records.record import run_folder, write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.support.store import Store
@@ -101,10 +100,10 @@ def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -
 
 
 def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
-    asked = asked_lines(question.keywords, chosen.configuration, question.own, question.left, chosen.unit)
+    asked = asked_lines(question.keywords, chosen.configuration, question.asked.own, question.asked.left, chosen.unit)
     yield next(asked)
-    if question.actuators:
-        yield question.actuators
+    if question.asked.actuators:
+        yield question.asked.actuators
     yield from asked
     yield workspace_table(result)
     yield from (bold(*words) for words in workspace_words(result))

@@ -16,8 +16,7 @@ from ninedof.plot import style
 from ninedof.plot.space import scene
 from ninedof.plot.space.leg_names import Leg, write_names
 from ninedof.robot.configuration import Configuration, require_single
-from ninedof.robot.geometry import Geometry
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.robot.plates import distinct, outlines, points_of
 from ninedof.support.arrays import Floats
 

@@ -14,15 +14,13 @@ from ninedof.conditioning.conditioning import condition_number as condition_numb
 from ninedof.kinematics.kinematics import jacobian, leg_lengths
 from ninedof.kinematics.velocity import forward_velocity
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
-from ninedof.robot.leg_names import LEGS
+from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.sheet.failure.result import Failure, FreeLeg, LegLoad, LockedLegs
 from ninedof.sheet.region_look import SAMPLES, Looked, even_poses, look_over, robot_of
 from ninedof.sheet.request import duty_of, load_rows, masses_of
 from ninedof.sheet.sheet import Extreme, extreme
 from ninedof.statics.accuracy import MOST_SAMPLES
-from ninedof.statics.dynamics import inverse_dynamics
-from ninedof.statics.masses import masses_for_core
+from ninedof.statics.dynamics import inverse_dynamics, masses_for_core
 from ninedof.support.arguments import finite, flag, whole
 from ninedof.support.arrays import Floats
 

@@ -14,7 +14,7 @@ from ninedof.sheet.region_look import RegionSearch
 from ninedof.sheet.sheet import Extreme
 from ninedof.support.arrays import Floats
 from ninedof.tables.html import notebook
-from ninedof.tables.plain import plain
+from ninedof.tables.table import plain
 
 
 class LockedLegs(NamedTuple):

@@ -132,7 +132,6 @@ def motion_words(failure: Any, twist: Floats) -> str:
 
 
 def _pairs_beside(failure: Any) -> Iterator[str]:
-    """Yield a sentence for pairs with external legs."""
     for count, words in ((5, "One external leg in a pair: five"), (4, "Two external legs: four")):
         some = [one for one in failure.pairs if one.freedoms == count]
         worst = max(some, key=lambda one: one.remaining)

@@ -1,7 +1,9 @@
-"""Short text of objects, and text that cannot act on a terminal, a page or a figure."""
+"""Text of values: JSON, short text of objects, and text that cannot act on a terminal, a page or a figure."""
 
 from __future__ import annotations
 
+import json
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass
@@ -111,3 +113,37 @@ def one_line(text: str) -> str:
     if len(text) > MOST:
         text = f"{text[:HEAD]} ... {text[-TAIL:]}"
     return escaped(text).replace("\n", "\\n").replace("\t", "\\t")
+
+
+NON_FINITE = ("inf", "-inf", "nan")
+
+
+def plain(value: Any) -> Any:
+    """Return plain JSON values: arrays and tuples become lists, non-finite numbers words."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(v) for key, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(v) for v in value]
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(float(value))
+    return value
+
+
+def encode(value: Any, *, indent: int | None = 2, sort_keys: bool = False) -> str:
+    """Return JSON text of a value."""
+    return json.dumps(plain(value), indent=indent, sort_keys=sort_keys, allow_nan=False)
+
+
+def decode(text: str) -> Any:
+    """Return the value of JSON text, numbers in place of the words for non-finite ones."""
+    return _numbers(json.loads(text))
+
+
+def _numbers(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _numbers(v) for key, v in value.items()}
+    if isinstance(value, list):
+        return [_numbers(v) for v in value]
+    return float(value) if value in NON_FINITE else value
