@@ -369,6 +369,15 @@ def test_the_page_of_an_interrupted_run_does_not_outlive_it(tmp_path, monkeypatc
     assert not (tmp_path / "report.html").exists()
 
 
+def test_the_command_says_what_it_does_before_it_is_done(folder, tmp_path, capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["report", str(folder), "--out", str(tmp_path / "page.html"), "--json"])
+    out, err = capsys.readouterr()
+    assert end.value.code == 0
+    assert list(json.loads(out)) == ["report"]
+    assert err.splitlines()[0].strip().startswith("writing the report")
+
+
 def test_the_command_names_its_option(folder, capsys):
     with pytest.raises(SystemExit) as ended:
         main(["report", str(folder), "--out", str(folder / "none" / "it.html")])
