@@ -28,7 +28,8 @@ from ninedof.design.indices import computed
 from ninedof.records.design_file import indices
 from ninedof.sheet.tables import limits_table, poses_table
 from ninedof.singularity.architecture import architecture_sentences
-from ninedof.support.units import unit_entry
+from ninedof.support.angles import DEG
+from ninedof.support.units import amount, unit_entry
 from ninedof.tables import Line, Table, columns
 
 PLACE = 3
@@ -84,7 +85,22 @@ def _changed(options: _Options) -> Answer:
     if result is None:
         raise ValueError(f"--set: got {options.design or 'no design'}, expected a run, whose study has variables")
     changes = changes_option(options.changes or ())
-    return compared(nd.compare(result, result.with_changes(**changes), names=("run", "changed")), options.plot)
+    changed = result.with_changes(**changes)
+    answer = compared(nd.compare(result, changed, names=("run", "changed")), options.plot)
+    words = (_set_words(name.removesuffix(DEG), result, changed) for name in changes)
+    return answer._replace(parts=[*words, *answer.parts])
+
+
+def _set_words(name: str, result: nd.Result, changed: nd.Result) -> str:
+    """Return from what to what a variable was set."""
+    study = result.study
+    ends = (study.shown(name, (one.variables or {})[name]) for one in (result, changed))
+    was, now = (amount(f"{end:.7g}", study.unit_of(name)) for end in ends)
+    return (
+        f"set: {name} is {was} in the run already, nothing is changed"
+        if was == now
+        else f"set: {name} from {was} to {now}"
+    )
 
 
 def _table(values: dict[str, Any], unit: str) -> Table:
