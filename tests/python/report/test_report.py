@@ -115,6 +115,22 @@ def test_the_question_names_what_the_machine_is_for():
     assert not re.search("tool|[Ll]oad|Masses|Speed|Tolerances|Forces", plain)
 
 
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({}, "Actuators are chosen from a catalogue of 2, one of them for each kind of legs: A, B."),
+        (
+            {"actuators_for": "all", "greatest_price": 90.0},
+            "catalogue of 2, one of them for all legs, all nine for 90 at most: A, B.",
+        ),
+    ],
+)
+def test_the_question_names_the_catalogue(more, words):
+    rows = [{"name": name, "shortest": 1.0, "longest": 2.0, "price": 9.0} for name in "AB"]
+    assert words in question(nd.Study(actuators=rows, **more))
+    assert "catalogue" not in question(nd.Study())
+
+
 def test_the_study_file_in_the_page_makes_the_same_study(page, result):
     text, _, _ = read(page)
     data = re.search(r'href="data:text/plain;base64,([^"]+)"', text)[1]
