@@ -56,3 +56,12 @@ def test_limits_of_forces_have_the_digits_of_forces(unit, text):
     row = LimitRow("force", "max", 900.0, 612.34567, 0.3, "l1", unit)
     assert limit_amount(row, row.value, "mm") == text
     assert limit_amount(row._replace(unit="length"), row.value, "mm") == "612.3457 mm"
+
+
+def test_the_name_of_a_row_stays_in_one_line_where_there_is_room():
+    name = "platform cone external (deg)"
+    heads = [Column("at every pose"), *(Column(head) for head in ("limit", "proved", "margin", ""))]
+    row = (name, "≤ 45", "≤ 44.9999999", "within 1e-06, on the limit", "proved of all the machines")
+    out = printed(Table("", heads, [row]), 80)
+    assert max(map(len, out.splitlines())) <= 80
+    assert name in out
