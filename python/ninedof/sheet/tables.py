@@ -10,7 +10,7 @@ import numpy as np
 
 from ninedof.redundancy.rules import WORDS
 from ninedof.robot.idle import NEVER_CARRY, NEVER_MOVE, unloaded_names
-from ninedof.sheet.pose_words import pose_words, vector_words
+from ninedof.sheet.pose_words import outside_words, pose_words, vector_words
 from ninedof.sheet.rows import limit_amount
 from ninedof.support.margins import is_violated, margin_words
 from ninedof.support.units import amount, per, times
@@ -45,6 +45,7 @@ def summary_parts(sheet: Any) -> Iterator[Part]:
     """Yield lengths, speeds and cones of the legs, and what is meant by them."""
     yield from region_words(sheet)
     yield from _study_words(sheet)
+    yield from outside_words(sheet.configurations, sheet.tool, sheet.unit)
     yield lengths_table(sheet), _motions(sheet)
     yield from _motion_words(sheet)
 

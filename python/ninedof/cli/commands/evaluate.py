@@ -26,6 +26,7 @@ from ninedof.cli.options import (
 from ninedof.cli.posed import beyond_words
 from ninedof.design.indices import computed
 from ninedof.records.design_file import indices
+from ninedof.sheet.pose_words import outside_words
 from ninedof.sheet.tables import limits_table, poses_table
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.angles import DEG
@@ -70,6 +71,7 @@ def evaluate(options: _Options) -> Answer:
             parts.append(f"{chosen.result.status}: {chosen.result.reason}")
         of_run = nd.sheet(chosen.result, characteristic_length=chosen.characteristic_length)
         parts += beyond_words(chosen.geometry, chosen.configuration, of_run.configurations)
+        parts += outside_words(of_run.configurations, of_run.tool, of_run.unit)
         parts += [poses_table(of_run)] if len(of_run.configurations) > 1 else []
         parts += [limits_table(of_run)] if of_run.limits else []
         values |= {"sheet": of_run.to_dict()}
