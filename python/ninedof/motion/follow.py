@@ -27,7 +27,7 @@ from ninedof.support.arrays import Floats, as_floats, as_number, broadcast_leadi
 from ninedof.support.files import Saved
 from ninedof.support.margins import TOLERANCE
 from ninedof.support.short import short_repr
-from ninedof.support.units import unit_entry
+from ninedof.support.units import metres, unit_entry
 
 FORCES = ("push", "pull", "rms")
 """The entries of `Followed.drives` that are forces."""
@@ -122,30 +122,35 @@ class Followed(Saved):
 
     @property
     def leg_powers(self) -> Floats | None:
-        """Force times rate, shaped as forces, positive where the actuator does work: N mm/s for millimetres."""
+        """Force times rate, shaped as forces, positive where the actuator does work; in watts for `force_unit` "N"."""
         if self.leg_forces is None:
             return None
         with np.errstate(over="ignore", invalid="ignore"):
-            return self.leg_forces * self.leg_rates
+            return self._watts * self.leg_forces * self.leg_rates
 
     @cached_property
     def drives(self) -> dict[str, Floats]:
         """Of each leg over the path: "push", "pull", "rms", "power", "braking", "work", "returned", shapes (9,).
 
         Greatest forces, root of the mean square of the force over time, greatest power forth and back, and their
-        integrals over time, force and power linear between poses. Of several loads each figure is the largest. Empty
-        without forces.
+        integrals over time, force and power linear between poses: joules where `force_unit` is "N". Of several loads
+        each figure is the largest. Empty without forces.
         """
         if self.leg_forces is None:
             return {}
         loads = self.leg_forces.reshape(-1, len(self.time), 9)
         each = [_core.drive_figures(self.time, forces, self.leg_rates) for forces in loads]
-        return {name: np.max([figures[name] for figures in each], axis=0) for name in each[0]}
+        scales = {name: 1.0 if name in FORCES else self._watts for name in each[0]}
+        return {name: scale * np.max([figures[name] for figures in each], axis=0) for name, scale in scales.items()}
 
     @property
     def load_count(self) -> int:
         """How many loads the forces are for, each on its own: 1 also for masses alone, 0 without forces."""
         return 0 if self.leg_forces is None else self.leg_forces.size // (9 * len(self.time))
+
+    @property
+    def _watts(self) -> float:
+        return metres(self.unit) if self.force_unit else 1.0
 
     def to_dict(self) -> dict[str, Any]:
         """Return a summary as plain values: extremes of each leg, the worst poses, limits that break, the check."""

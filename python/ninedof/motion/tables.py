@@ -45,7 +45,7 @@ def drives_table(motion: Mapping[str, Any]) -> Table | None:
     """Return the table of forces, powers and work of the legs; None without forces."""
     legs = motion["legs"]
     newton, unit = motion.get("force_unit", ""), motion.get("unit", "")
-    power, work = (times(newton or "force", of) for of in (per(unit, "s"), unit))
+    power, work = ("W", "J") if newton else (times("force", per(unit, "s")), times("force", unit))
     groups = ((newton, FORCES), (power, POWERS), (work, WORKS))
     units = {name: unit for unit, names in groups for name in names if all(name in leg for leg in legs.values())}
     if not units:
@@ -77,7 +77,7 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
             ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
         else:
             kind = row.get("kind", "length" if row["name"] in OF_LENGTHS else "")  # none in earlier records
-            unit = kind_unit(kind, motion.get("unit", ""), motion.get("force_unit") or "force")
+            unit = kind_unit(kind, motion.get("unit", ""))
             ends = [amount(f"{row[key]:.6g}", unit) for key in ("limit", "value")]
         margin = margin_words(row["margin"], "sign" if row["name"] == "singularity_free" else "")
         rows.append((f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"))

@@ -18,7 +18,7 @@ from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.pose_limits import PathLimits
 from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
-from ninedof.support.units import per, times, with_unit
+from ninedof.support.units import per, with_unit
 
 LEGS_FILE, POSES_FILE = "legs.csv", "poses.csv"
 LENGTHS = ("x", "y", "z", "o_x", "o_y", "o_z")  # columns of poses.csv
@@ -61,7 +61,7 @@ def _legs(motion: Followed) -> dict[str, Floats]:
         for k, (forces, powers) in enumerate(loads, start=1):
             number = f"_{k}" if motion.load_count > 1 else ""
             parts.append((FORCE + number, motion.force_unit, forces))
-            parts.append((POWER + number, times(motion.force_unit, per(unit, "s")), powers))
+            parts.append((POWER + number, "W" if motion.force_unit else "", powers))
     columns = {"t": motion.time}
     for what, of, values in parts:
         columns |= {with_unit(leg + what, of): values[:, k] for k, leg in enumerate(LEGS)}

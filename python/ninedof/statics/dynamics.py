@@ -13,7 +13,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.statics.masses import GRAVITY, gravity_for_core, masses_for_core
 from ninedof.support.arrays import Floats
 from ninedof.support.short import short_repr
-from ninedof.support.units import unit_argument
+from ninedof.support.units import metres, unit_argument
 
 
 @short_repr
@@ -25,7 +25,7 @@ class InverseDynamics(NamedTuple):
     rates: Floats
     """Of the legs, length/time, shape (..., 9)."""
     power: Floats
-    """Force times rate, positive where the actuator does work, shape (..., 9)."""
+    """Force times rate, in watts with a length unit, positive where the actuator does work, shape (..., 9)."""
     unbalanced: Floats
     """The part that no leg forces balance, as `leg_forces` has it, shape (..., 9). Exactly 0 unless singular."""
 
@@ -61,9 +61,9 @@ def inverse_dynamics(
     load : array_like, shape (..., 6)
         External load on the platform: moment about p and force, base axes; 0 by default.
     unit : str
-        Name of the length unit. With one, masses are kilograms, times seconds, forces newtons, and moments newtons
-        times the unit, so that gravity stays 9.81; powers are in N mm/s for millimetres. "" by default: units that go
-        together, where gravity is an acceleration in the unit of length.
+        Name of the length unit. With one, masses are kilograms, times seconds, forces newtons and powers watts, and
+        moments newtons times the unit, so that gravity stays 9.81. "" by default: units that go together, where
+        gravity is an acceleration in the unit of length.
 
     Returns
     -------
@@ -96,5 +96,5 @@ def inverse_dynamics(
     out = _core.inverse_dynamics(*flat, motion, bodies, gravity_for_core(gravity, name), 0)
     forces, rates, unbalanced = (out.reshape(*shape, 3, 9)[..., k, :].copy() for k in range(3))
     with np.errstate(over="ignore", invalid="ignore"):  # infinite where it is no number of double precision
-        power = forces * rates
+        power = metres(name) * forces * rates
     return InverseDynamics(forces, rates, power, unbalanced)

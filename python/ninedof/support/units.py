@@ -73,10 +73,10 @@ def times(above: str, unit: str) -> str:
     return f"{above} {unit}" if above and unit else ""
 
 
-def kind_unit(kind: str, of_lengths: str, of_forces: str = "force") -> str:
+def kind_unit(kind: str, of_lengths: str) -> str:
     """Return the unit of values of a kind: "deg", that of lengths, a rate or a power, "" for others."""
     rate = per(of_lengths, "s")
-    return {"angle": "deg", "length": of_lengths, "rate": rate, "power": times(of_forces, rate)}.get(kind, "")
+    return {"angle": "deg", "length": of_lengths, "rate": rate, "power": times("force", rate)}.get(kind, "")
 
 
 def metres(unit: str) -> float:
