@@ -21,14 +21,17 @@ from ninedof.support.units import DEG, unit_argument
 PLACE = ("x", "y", "z")
 RELATIVE = ("x_rel", "y_rel", "z_rel")
 QUATERNION = ("qw", "qx", "qy", "qz")
+MATRIX = tuple(f"Q{i}{j}" for i in range(1, 4) for j in range(1, 4))
 ROTATIONS: dict[tuple[str, ...], Callable[[Floats], Floats]] = {
     QUATERNION: from_quaternions,
     ("rx", "ry", "rz"): from_vectors,
     ("rx_deg", "ry_deg", "rz_deg"): lambda turns: from_vectors(np.radians(turns)),
     ("yaw", "pitch", "roll"): lambda turns: from_euler(*turns.T),
     ("yaw_deg", "pitch_deg", "roll_deg"): lambda turns: from_euler(*np.radians(turns).T),
+    MATRIX: lambda entries: entries.reshape(-1, 3, 3),
 }
 """The columns that a file may have for the rotation, and their matrices (n, 3, 3)."""
+COMPUTED = ("o_", "condition_number", "det_", "leg_margin", "margin_")  # other columns of `ninedof path`: not read
 RADIANS = {"rx", "ry", "rz", "yaw", "pitch", "roll"}
 ONE_OF = "one of " + ", ".join(map(" ".join, ROTATIONS))
 FEWEST = 3  # poses: accelerations need three
@@ -101,10 +104,11 @@ class Trajectory:
         ----------
         path : path
             Columns, in any order, separated by commas: t, x, y, z, and for the rotation none, qw qx qy qz, rx ry rz (a
-            rotation vector) or yaw pitch roll (Euler angles, R_z R_y R_x); angles in radians, at most a full turn, or
-            in degrees with names such as rx_deg and yaw_deg. Positions and rotations are those of the platform in the
-            base frame; x_rel y_rel z_rel are positions from that of `home`, along the base axes. A line that begins
-            with # is a comment.
+            rotation vector), yaw pitch roll (Euler angles, R_z R_y R_x) or Q11 to Q33 (the matrix by rows); angles in
+            radians, at most a full turn, or in degrees with names such as rx_deg and yaw_deg. Positions and rotations
+            are those of the platform in the base frame; x_rel y_rel z_rel are positions from that of `home`, along the
+            base axes. A line that begins with # is a comment. poses.csv of a run of `ninedof path` is such a file: its
+            poses are read, O and all that was computed are not.
         home : Configuration
             Its rotation is taken where the file has none; the origin of x_rel y_rel z_rel.
         unit : str
@@ -213,7 +217,8 @@ def _poses(text: str, origin: Floats, unit: str) -> tuple[Floats, Floats, Floats
     if len(body) < FEWEST:
         raise ValueError(f"got {len(body)} poses, expected at least {FEWEST}")
     require_entries(body, names)
-    table = np.array([[finite_or_nan(entry) for entry in row] for _, row in body])
+    used = {names.index(name) for name in ("t", *place, *turns)}
+    table = np.array([[finite_or_nan(text) if k in used else 0.0 for k, text in enumerate(row)] for _, row in body])
     for k, column in np.argwhere(np.isnan(table))[:1]:
         got = shown(body[k][1][column])
         raise ValueError(f"line {body[k][0]}, column {names[column]}: got {got}, expected a finite number")
@@ -245,7 +250,8 @@ def _pose_columns(where: str, names: Sequence[str]) -> tuple[tuple[str, ...], tu
     if missing := [name for name in needed if name not in names]:
         got = cleaned(", ".join(names))
         raise ValueError(f"{where}: got columns {got}, no {', '.join(missing)}; expected {', '.join(needed)}")
-    others = [name for name in names if name not in needed]
+    written = set(MATRIX) <= set(names)  # poses.csv of `ninedof path`, which has what was computed too
+    others = [name for name in names if name not in needed and not (written and name.startswith(COMPUTED))]
     for columns in ((), *ROTATIONS):
         if set(others) == set(columns):
             return place, columns

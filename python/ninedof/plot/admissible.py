@@ -136,7 +136,8 @@ def _iso_lines(axes: Any, found: AdmissibleSet, i: int, j: int) -> bool:
     low, high = style.finite_range(worst)
     shown = _shown(found, np.column_stack([x, y]), i, j)
     levels = style.round_levels(low, min(high, 3.0 * low), 7)
-    # Towards a singularity the number has no bound and its lines would be those of the grid: its inverse goes to 0.
-    drawn = axes.contour(*shown.T, 1.0 / worst, levels=1.0 / levels[::-1], colors=style.INK, linewidths=0.7)
+    drawn = style.condition_lines(axes, shown[:, 0], shown[:, 1], worst, levels, colors=style.INK, linewidths=0.7)
+    if drawn is None:
+        return False
     axes.clabel(drawn, fontsize=style.SMALL_SIZE - 1, fmt=lambda inverse: f"{1.0 / inverse:g}")
     return True

@@ -219,8 +219,8 @@ class _Panel:
             self.axes.plot(*tool, "v", color=style.REGION, ms=5.0, mec="white", mew=0.5, zorder=7)
             self.write("tool", self.beside(tool, "tool", tool - p)[:36], style.REGION)  # near it, whatever it covers
         for name, start, end in legs:
-            share = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8])[:, None]
+            share = 0.5 + 0.05 * np.array([0, -1, 1, -2, 2, -3, 3, -4, 4, -5, 5, -6, 6])[:, None]
             x, z = (end - start) / max(float(np.linalg.norm(end - start)), 1e-300)
             away = 6.5 * self.point * np.array([z, -x])
-            spots = [start + share * (end - start) + side * away for side in (1.0, -1.0, 2.0, -2.0)]
+            spots = [start + share * (end - start) + side * away for side in (1.0, -1.0)]
             self.write(name, np.concatenate(spots), style.LEG_COLOURS[name[0]])

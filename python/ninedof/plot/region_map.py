@@ -56,7 +56,9 @@ def region_map(region: RegionMap, figure: Figure | None = None) -> Figure:
         _fill(axes[0], x, y, kappa, style.finite_range(kappa, (0.0, 1.0)), style.CONDITION, "condition number")
         axes[0].set_title(f"worst condition number{over}")
         if region.margin is not None:
-            _fill(axes[1], x, y, *_percent(region.margin), MARGIN, "least margin (%)")
+            percent, ends = _percent(region.margin)
+            spans = "{:.4g} to {:.4g}".format(*style.finite_range(percent, (0.0, 0.0)))
+            _fill(axes[1], x, y, percent, ends, MARGIN, f"least margin (%), {spans}")
             axes[1].set_title(f"least margin of the limits at a pose{over}")
         for panel in axes:
             panel.grid(visible=False)

@@ -199,6 +199,22 @@ def round_levels(low: float, high: float, most: int = 9) -> Floats:
     return np.asarray(every[first : max(last, first + 1) + 1], dtype=np.float64)
 
 
+def condition_lines(axes: Any, x: Floats, y: Floats, values: Floats, levels: Floats, **look: Any) -> Any:
+    """Draw lines of a condition number over a grid, shape (y, x); return them, None where there is none.
+
+    Towards a singularity the number has no bound and its lines would be those of the grid: they are drawn of its
+    inverse, which goes to 0, and none so near to 0 that the grid does not resolve it.
+    """
+    inverse = np.ma.masked_invalid(1.0 / values)
+    least = 0.0
+    for pair in ((inverse[1:], inverse[:-1]), (inverse[:, 1:], inverse[:, :-1])):
+        step = abs(pair[0] - pair[1])
+        least = max(least, step[(np.minimum(*pair) < step).filled(False)].filled(0.0).max(initial=0.0))
+    lined = 1.0 / levels[::-1]
+    lined = lined[lined > least]
+    return axes.contour(x, y, inverse, levels=lined, **look) if lined.size else None
+
+
 def round_to(value: float, span: float) -> float:
     """Return a round value near `value`: a multiple of 1, 2 or 5 times a power of ten, of at most 1/25 of `span`."""
     power = 10.0 ** math.floor(math.log10(span / 25.0))

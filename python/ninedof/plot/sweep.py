@@ -146,10 +146,11 @@ def _maps(
             axes.grid(False)
             axes.set_title(title, size=None if single else style.TEXT_SIZE)
             if min(part.shape) > 1 and len(levels) > 2 and values.min() < values.max():
-                lined, ends = values, levels
-                if colours == style.CONDITION:  # without a bound towards a singularity, where its inverse goes to 0
-                    lined, ends = np.ma.masked_invalid(1.0 / part.T), 1.0 / levels[::-1]
-                axes.contour(x, y, lined, levels=ends, colors="white", linewidths=0.4, alpha=0.7)
+                line: dict[str, Any] = {"colors": "white", "linewidths": 0.4, "alpha": 0.7}
+                if colours == style.CONDITION:
+                    style.condition_lines(axes, x, y, part.T, levels, **line)
+                else:
+                    axes.contour(x, y, values, levels=levels, **line)
         for axes in list(grid.flat)[len(slices) :]:
             axes.set_axis_off()
         words = _label(result, name)

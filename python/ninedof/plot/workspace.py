@@ -44,8 +44,8 @@ KINDS: dict[str, tuple[str, str, Any]] = {  # limits: part of the name, words, c
     "power": ("leg power", "#DDAA33", (0, (4.0, 0.8, 2.0, 0.8))),
     "condition_number": ("condition number", style.INK, "-"),
     "det": ("singularity", "#CC3311", (0, (1.5, 0.6))),
-    "region": ("region", style.MUTED, (0, (2.0, 1.6))),
-    "box": ("box of the map", style.MUTED, (0, (2.0, 1.6))),
+    "region": ("region", "#000000", (0, (2.0, 1.6))),  # grey is a colour of the condition number
+    "box": ("box of the map", "#000000", (0, (2.0, 1.6))),
     "internal_point": ("no admissible O", "#999933", (0, (4.0, 1.5))),
 }
 ALLOWED, OPEN, EDGE = "#A9CCE3", "#E8871E", "#7FB0D1"  # proved, not decided, edges of proved boxes

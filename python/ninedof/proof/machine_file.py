@@ -34,8 +34,9 @@ def require_replayable(study: Study, tolerances: Tolerances) -> None:
     """Raise ValueError unless the checker knows all machines and poses of a proof."""
     if tolerances:
         raise ValueError(
-            f"tolerance: got {max(tolerances.joints, tolerances.legs):g}, expected 0 (--tolerance 0, tolerance=0) for "
-            "a file that is replayed: it is of the machine as it is drawn"
+            f"tolerance: got {max(tolerances.joints, tolerances.legs):g}, expected 0: the file that is replayed is of "
+            "the machine as it is drawn. `--tolerance 0`, in Python certify(tolerance=0), proves and writes that one; "
+            "without a file all machines within the tolerances are proved"
         )
     if o_is_placed(study):
         raise ValueError('internal_point: got "best", expected "shifted" or "held" for a file that is replayed')

@@ -55,6 +55,11 @@ def sentences(study: Study) -> Iterator[str]:
         words = amount(f"{length:g}", study.unit)
     unit = f"in {study.unit}" if study.unit else "in one unit, which the study does not name"
     yield f"Lengths are {unit}, angles in degrees. The characteristic length is {words}."
+    if rows := study.actuators:
+        price = "" if study.greatest_price is None else f", all nine for {study.greatest_price:g} at most"
+        how = "one of them for all legs" if study.actuators_for == "all" else "one of them for each kind of legs"
+        names = ", ".join(row.name for row in rows)
+        yield f"Actuators are chosen from a catalogue of {len(rows)}, {how}{price}: {names}."
     if duty := " ".join(duty_sentences(study)):
         yield duty
 

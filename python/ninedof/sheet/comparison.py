@@ -20,7 +20,7 @@ from ninedof.support.margins import is_violated, margin_words
 from ninedof.support.units import amount, metres, unit_entry
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table
 from ninedof.tables.html import notebook
-from ninedof.tables.numbers import ROUNDING, short
+from ninedof.tables.numbers import ROUNDING
 from ninedof.tables.table import WORDS, plain
 
 MOST = 3  # designs: more do not fit on 80 columns
@@ -263,7 +263,7 @@ def _limit_rows(label: str, entry: Sequence[LimitRow | None], sheets: Sequence[S
 def _limit_cells(row: LimitRow | None, unit: str) -> tuple[str, str, str]:
     if row is None:
         return "-", "-", ""
-    allowed, value = (limit_amount(row, x, short, unit) for x in (row.limit, row.value))
+    allowed, value = (limit_amount(row, x, unit) for x in (row.limit, row.value))
     return allowed, value, f"{'broken ' * _broken(row)}{margin_words(row.margin, row.unit)}"
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from ninedof.design.duty import Tool
 from ninedof.motion.rotations import to_quaternions, vectors_between
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
@@ -17,6 +18,17 @@ def pose_words(c: Configuration, neutral_rotation: Floats, unit: str = "") -> st
     """Return position, place of O and turn, as --position, --internal-point and --rotation-deg take them."""
     p, o = (amount(vector_words(point), unit) for point in (c.position, c.internal_point))
     return f"p = {p}, O = {o}, turned {vector_words(np.round(turn_deg(c, neutral_rotation), 4))}° from neutral"
+
+
+def outside_words(c: Configuration, tool: Tool, unit: str = "") -> Iterator[str]:
+    """Yield a sentence for each plate beyond which O lies at a pose of a stack: its plane is z = 0 of its own frame."""
+    plate = tool.plate(c)
+    beyond = (plate.internal_point - plate.position)[:, None] @ plate.rotation[:, :, 2:]
+    for far, words in ((-c.internal_point[:, 2], "below the base"), (beyond[:, 0, 0], "above the platform")):
+        k = int(np.argmax(np.nan_to_num(far, nan=-1.0)))
+        if far[k] > 1e-9 * np.linalg.norm(c.internal_point[k]):
+            p, o = (vector_words(float(f"{x:.5g}") for x in point[k]) for point in (c.position, c.internal_point))
+            yield f"O lies {words}, by up to {amount(f'{far[k]:.4g}', unit)}: at p = {p}, O = {o}."
 
 
 def turn_deg(c: Configuration, neutral_rotation: Floats) -> Floats:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -21,6 +21,7 @@ from ninedof.sheet.plain_values import rows_of
 from ninedof.singularity.singularity import mechanism_of
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount, kind_unit
+from ninedof.tables.numbers import load_text, short
 
 MOTIONS = ("shift", "turn", "internal")
 
@@ -83,10 +84,11 @@ class LimitRow(NamedTuple):
     length over zp or a radius."""
 
 
-def limit_amount(row: LimitRow, value: float, number: Callable[[float], str], unit: str) -> str:
-    """Return a value of a limit with its unit, as `number` writes it; an angle in degrees."""
+def limit_amount(row: LimitRow, value: float, unit: str) -> str:
+    """Return a value of a limit with its unit; an angle in degrees, forces, rates and powers as their tables do."""
     if row.unit == "angle":
         return f"{math.degrees(value):.2f}°"
+    number = load_text if row.unit in ("number", "rate", "power") else short
     return amount(number(value), kind_unit(row.unit, unit))
 
 

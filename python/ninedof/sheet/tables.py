@@ -10,12 +10,12 @@ import numpy as np
 
 from ninedof.redundancy.rules import WORDS
 from ninedof.robot.idle import NEVER_CARRY, NEVER_MOVE, unloaded_names
-from ninedof.sheet.pose_words import pose_words, vector_words
+from ninedof.sheet.pose_words import outside_words, pose_words, vector_words
 from ninedof.sheet.rows import limit_amount
 from ninedof.support.margins import is_violated, margin_words
 from ninedof.support.units import amount, per, times
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table, grouped
-from ninedof.tables.numbers import short, spread
+from ninedof.tables.numbers import load_text, short, spread
 from ninedof.tables.table import Part
 
 WAYS = {"shift": "shift with O", "turn": "turn, O at rest", "internal": "O alone"}
@@ -25,7 +25,6 @@ MECHANISMS = {
     "det_n": "the platform turns about a line through O",
 }
 BESIDE = 4  # loads; a table of more has no room for another at its side
-ROUNDING = 1e-11  # of the largest number of a column
 
 
 def sheet_parts(sheet: Any) -> Iterator[Part]:
@@ -46,6 +45,7 @@ def summary_parts(sheet: Any) -> Iterator[Part]:
     """Yield lengths, speeds and cones of the legs, and what is meant by them."""
     yield from region_words(sheet)
     yield from _study_words(sheet)
+    yield from outside_words(sheet.configurations, sheet.tool, sheet.unit)
     yield lengths_table(sheet), _motions(sheet)
     yield from _motion_words(sheet)
 
@@ -76,7 +76,7 @@ def limits_table(sheet: Any) -> Table:
     columns = [Column("limit"), *[Column()] * parts, Column(), *columns_of("allowed", "here", "margin")]
     rows = []
     for row in sheet.limits:
-        ends = (limit_amount(row, value, short, sheet.unit) for value in (row.limit, row.value))
+        ends = (limit_amount(row, value, sheet.unit) for value in (row.limit, row.value))
         rows.append([row.name, *[row.part] * parts, row.side, *ends, margin_words(row.margin, row.unit)])
     violated = [is_violated(row.margin, row.unit, row.limit) for row in sheet.limits]
     if any(violated):
@@ -175,8 +175,8 @@ def _speeds(sheet: Any, form: str = RIGHT) -> list[Column]:
 
 def _ranges(rows: Sequence[Sequence[tuple[float, float]]]) -> list[list[str]]:
     """Return ranges as text; what is rounding beside the largest number of its column is 0."""
-    tiny = [ROUNDING * max(abs(end) for ends in column for end in ends) for column in zip(*rows, strict=True)]
-    return [[spread(*ends, least) for ends, least in zip(row, tiny, strict=True)] for row in rows]
+    columns = [[end for ends in column for end in ends] for column in zip(*rows, strict=True)]
+    return [[spread(*ends, column) for ends, column in zip(row, columns, strict=True)] for row in rows]
 
 
 def _twist(sheet: Any) -> Table:
@@ -207,8 +207,8 @@ def _powers(sheet: Any) -> Table:
     speed = per(sheet.unit, "s")
     columns = [Column("force", "", RIGHT), Column("speed", speed, RIGHT), Column("power", times("force", speed), RIGHT)]
     numbers = [(leg.largest_force, leg.speed, leg.power) for leg in sheet.legs]
-    rounding = [ROUNDING * max(filter(math.isfinite, column), default=0.0) for column in zip(*numbers, strict=True)]
-    rows = ([f"{x if x > least else 0.0:.5g}" for x, least in zip(row, rounding, strict=True)] for row in numbers)
+    among = list(zip(*numbers, strict=True))
+    rows = ([load_text(*pair) for pair in zip(row, among, strict=True)] for row in numbers)
     note = "power: the most of force times speed at one pose, at rest or at constant speed"
     return _of_legs(f"Drives, largest {over(sheet)}", sheet, columns, rows, [note])
 

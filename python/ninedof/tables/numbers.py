@@ -41,7 +41,15 @@ def cell(value: Any, form: str, among: Iterable[float] = (), digits: int = PAGE)
     return f"{math.degrees(value):.2f}°" if form == DEGREES else format(value, form)
 
 
-def spread(low: float, high: float, tiny: float = 0.0) -> str:
-    """Return one number or both ends of a range, "2 to 3"; 0 where no more than `tiny` is left."""
-    ends = ["0" if abs(x) <= tiny else f"{x:.4g}" for x in (low, high)]
+def load_text(value: float, among: Iterable[float] = ()) -> str:
+    """Return a force, a speed or a power with the digits of a screen; 0 for rounding beside the largest of `among`."""
+    size = max((abs(x) for x in among if math.isfinite(x)), default=0.0)
+    text = "0" if abs(value) <= ROUNDING * size else f"{value:.{SCREEN}g}"
+    return f"{value:.0f}" if "e+" in text and abs(value) < 1e7 else text
+
+
+def spread(low: float, high: float, among: Iterable[float] = ()) -> str:
+    """Return one number or both ends of a range, "2 to 3", as `load_text` writes them."""
+    numbers = [*among]
+    ends = [load_text(x, numbers) for x in (low, high)]
     return ends[0] if ends[0] == ends[1] else f"{ends[0]} to {ends[1]}"

@@ -43,10 +43,13 @@ def _rich(one: Table, width: int) -> table.Table:
         max(_least(head, True), *(_least(text, folds) for text in others), 0)
         for (head, *others), folds in zip(texts, words, strict=True)
     ]
+    want = [max(len(line) for text in column for line in text.split("\n")) for column in texts]
+    names = [want[0], *least[1:]]  # a row's name in one line, where there is room and it is no sentence
+    if want[0] <= width // 2 and sum(names) + STYLES[-1][3] * len(heads) <= width:
+        least = names
     styles = (style for style in STYLES if sum(least) + style[3] * len(heads) + 2 * style[2] <= width)
     frame, padding, edge, beside = next(styles, STYLES[-1])
     out = table.Table(box=frame, padding=padding, pad_edge=edge, show_header=one.has_head)
-    want = [max(len(line) for text in column for line in text.split("\n")) for column in texts]
     widths = _widths(least, want, width - beside * len(heads) - edge)
     for head, folds, own in zip(heads, words, widths, strict=True):
         out.add_column(head, justify="left" if folds else "right", overflow="fold", width=own)

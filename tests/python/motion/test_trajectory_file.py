@@ -28,6 +28,7 @@ def written(path, names, columns):
         ("rx_deg ry_deg rz_deg", np.degrees(TURNS.as_rotvec())),
         ("yaw pitch roll", TURNS.as_euler("ZYX")),
         ("yaw_deg pitch_deg roll_deg", TURNS.as_euler("ZYX", degrees=True)),
+        ("Q11 Q12 Q13 Q21 Q22 Q23 Q31 Q32 Q33", TURNS.as_matrix().reshape(-1, 9)),
     ],
 )
 def test_every_way_to_give_a_rotation(tmp_path, names, turns):
@@ -130,3 +131,21 @@ def test_a_file_may_name_the_unit_of_lengths(tmp_path):
         assert nd.Trajectory.load(path, home, unit).position[1].tolist() == [1.0, 0.0, 1.0]
     with pytest.raises(ValueError, match="column x: got mm, expected m as in the design"):
         nd.Trajectory.load(path, home, "m")
+
+
+def test_the_poses_that_a_path_wrote_are_a_path(tmp_path):
+    """Whatever was computed, as margins without limits, which are infinite."""
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    path = nd.Trajectory(TIMES, 0.1 * PLACES + HOME.position, HOME.rotation, "mm")
+    nd.save(nd.follow(g, path, HOME), tmp_path / "run")
+    again = nd.Trajectory.load(tmp_path / "run" / "poses.csv", HOME, "mm")
+    for name in ("time", "position", "rotation"):
+        assert (getattr(again, name) == getattr(path, name)).all()
+    text = (tmp_path / "run" / "poses.csv").read_text()
+    broken = tmp_path / "broken.csv"
+    broken.write_text(text.replace("Q33", "Q34"))
+    with pytest.raises(ValueError, match="column 'Q34': not known"):
+        nd.Trajectory.load(broken, HOME)
+    broken.write_text(text.replace(text.splitlines()[1].split(",")[4], "2.0", 1))
+    with pytest.raises(ValueError, match="rotation"):
+        nd.Trajectory.load(broken, HOME, "mm")

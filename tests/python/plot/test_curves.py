@@ -103,6 +103,8 @@ def test_a_map_of_a_region_draws_no_noise_as_structure():
         (filled,) = [one for one in figure.axes[1].collections if one.get_array() is not None and one.filled]
         assert sum(len(path.vertices) > 0 for path in filled.get_paths()) == 1
         assert filled.levels[[0, -1]] == pytest.approx([low, low + 1.0])
+        says = f"{100.0 * level:.4g}"  # one colour says little: the words beside it say the values
+        assert figure.axes[-1].get_ylabel() == f"least margin (%), {says} to {says}"
         assert figure.legends[0].get_title().get_text() == (
             "least margin without limits that compare poses: stroke ratio (0.02 % over the region), stroke"
         )

@@ -227,6 +227,22 @@ def test_the_angles_of_a_small_circle_are_beside_their_arcs():
         assert min(np.linalg.norm(places[words] - places[axis]) for axis in "xy") > 0.3 * 220.0
 
 
+@pytest.mark.parametrize("heights", [(483.35, 319.32), (580.0, 362.0)])
+def test_the_name_of_a_leg_stands_beside_it_whatever_it_covers(heights):
+    """Where legs cross, free places are beyond others: a name there is read as that of the other leg."""
+    g = nd.Geometry.hexagonal(a1=0.0, a2=850.0, b1=292.91, b2=0.0)
+    front = plot.drawing(g, nd.Configuration.neutral(*heights), "mm").axes[2]
+    places = {text.get_text(): text.get_position() for text in front.texts}
+    points = {line.get_color(): [] for line in front.lines}
+    for line in front.lines:
+        points[line.get_color()].append(line.get_xydata())
+    reach = 0.04 * np.ptp(front.get_xlim())
+    for name in LEGS:
+        legs = points[style.LEG_COLOURS[name[0]]]
+        along = [leg[0] + np.linspace(0.0, 1.0, 99)[:, None] * (leg[-1] - leg[0]) for leg in legs]
+        assert min(np.linalg.norm(line - places[name], axis=1).min() for line in along) < reach
+
+
 def test_the_drawing_has_the_twist_and_the_tool_on_the_plates_as_they_are_made():
     turned, tool = nd.Configuration.neutral(3.9828, 2.3745, 0.3), nd.Tool((0.2, 0.0, -1.0), (0.0, 0.0, 0.5))
     without = plot.drawing(G, turned, "mm").axes

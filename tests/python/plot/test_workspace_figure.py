@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from figure_table import made, section, space
+from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.colors import to_hex
+from matplotlib.colors import to_hex, to_rgb
 
 import ninedof as nd
 from ninedof import plot
@@ -47,6 +48,12 @@ def test_bounds_are_drawn_in_the_style_of_their_limits():
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == ["upper internal legs"]
     assert len({str(KINDS[kind][2]) for kind in "lqr"}) == 3  # kinds differ without colours
+
+
+@pytest.mark.parametrize("kind", ["box", "region"])
+def test_what_ends_a_workspace_is_seen_on_every_colour_of_the_condition_number(kind):
+    ground = colormaps[style.CONDITION](np.linspace(0.0, 1.0, 64))[:, :3]
+    assert np.linalg.norm(ground - to_rgb(KINDS[kind][1]), axis=1).min() > 0.1
 
 
 def test_limits_of_one_kind_of_legs_have_the_colour_of_all():

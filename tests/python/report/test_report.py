@@ -115,6 +115,22 @@ def test_the_question_names_what_the_machine_is_for():
     assert not re.search("tool|[Ll]oad|Masses|Speed|Tolerances|Forces", plain)
 
 
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({}, "Actuators are chosen from a catalogue of 2, one of them for each kind of legs: A, B."),
+        (
+            {"actuators_for": "all", "greatest_price": 90.0},
+            "catalogue of 2, one of them for all legs, all nine for 90 at most: A, B.",
+        ),
+    ],
+)
+def test_the_question_names_the_catalogue(more, words):
+    rows = [{"name": name, "shortest": 1.0, "longest": 2.0, "price": 9.0} for name in "AB"]
+    assert words in question(nd.Study(actuators=rows, **more))
+    assert "catalogue" not in question(nd.Study())
+
+
 def test_the_study_file_in_the_page_makes_the_same_study(page, result):
     text, _, _ = read(page)
     data = re.search(r'href="data:text/plain;base64,([^"]+)"', text)[1]
@@ -367,6 +383,13 @@ def test_the_command_names_its_option(run, folder):
     status, _, err = run(f"report {folder} --out {folder / 'none' / 'it.html'}")
     assert status == 2
     assert "--out: got" in err
+
+
+def test_the_command_says_what_it_does_before_it_is_done(run, folder, tmp_path):
+    status, out, err = run(f"report {folder} --out {tmp_path / 'page.html'} --json")
+    assert status == 0
+    assert list(json.loads(out)) == ["report"]
+    assert err.splitlines()[0].strip().startswith("writing the report")
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import pytest
 
 import ninedof as nd
 from ninedof import plot
+from ninedof.cli.app import main
 
 LIMITS = {"leg_ratio": (None, 3.0), "stroke_ratio": (None, 1.3)}
 REGION = {"region": {"box": [0.3, 0.3, 0.2], "tilt_deg": 5.0}}
@@ -139,3 +140,20 @@ def test_heights_of_a_tool_are_explained(compared):
     assert both.numbers["height p"] == pytest.approx((3.5, 4.0))
     assert "height p its height; zp is that of the plate" in str(both)
     assert "of the plate" not in str(compared)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ("zp=4", "set: zp from {zp} mm to 4 mm"),
+        ("b1=+10%", "set: b1 from {b1} mm to {more} mm"),
+        ("theta_z_deg=30", "set: theta_z from 0 deg to 30 deg"),
+        ("a1=0", "set: a1 is 0 mm in the run already, nothing is changed"),
+    ],
+)
+def test_a_change_says_from_what_to_what(run, tmp_path, capsys, given, words):
+    nd.save(run, tmp_path / "run")
+    with pytest.raises(SystemExit):
+        main(["evaluate", str(tmp_path / "run"), "--set", given])
+    values = {name: f"{x:.7g}" for name, x in run.variables.items()} | {"more": f"{1.1 * run.variables['b1']:.7g}"}
+    assert words.format(**values) in capsys.readouterr().out.splitlines()

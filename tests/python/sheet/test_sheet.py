@@ -19,7 +19,7 @@ from ninedof import _core
 from ninedof.cli.posed import PoseOptions, named_design
 from ninedof.design.limit_numbers import PARTS, apart
 from ninedof.report.optimization import sheet_html
-from ninedof.sheet.pose_words import pose_words
+from ninedof.sheet.pose_words import outside_words, pose_words
 from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.sheet import Extreme
 from ninedof.sheet.tables import sheet_parts
@@ -310,3 +310,26 @@ def test_drives_without_a_force_are_zero():
     forces = [row[1] for row in drives.rows if row]
     assert forces[:3] == ["0"] * 3
     assert all(float(x) > 1.0 for x in forces[3:])
+
+
+def test_an_internal_point_that_is_not_between_the_plates_is_said(run, tmp_path):
+    place, turn = np.array([0.0, 0.0, 4.0]), Rotation.from_rotvec([0.3, 0.0, 0.0]).as_matrix()
+
+    def words(*points, tool=None):
+        return list(outside_words(nd.Configuration([place] * len(points), turn, points), tool or nd.Tool(), "mm"))
+
+    assert words((0.0, 0.0, 2.0), place + turn @ [3.0, 0.0, -0.1]) == []
+    below, above = words((0.0, 0.0, -1.0), (0.1, 0.2, -1.5), place + turn @ [0.5, 0.5, 0.25])
+    assert below == "O lies below the base, by up to 1.5 mm: at p = (0, 0, 4), O = (0.1, 0.2, -1.5)."
+    assert above.startswith("O lies above the platform, by up to 0.25 mm: at p = (0, 0, 4), O = (0.5")
+    assert len(words(place + turn @ [0.0, 0.0, 0.5], tool=nd.Tool(position=(0.0, 0.0, -1.0)))) == 0
+    assert words((np.nan, np.nan, np.nan)) == []
+    file = tmp_path / "design.toml"
+    text = "[geometry]\n" + "".join(f"{name} = {value}\n" for name, value in {
+        "base_external": [[3.0, 0.0, 0.0], [-1.5, 2.6, 0.0], [-1.5, -2.6, 0.0]],
+        "base_internal": [[1.5, 1.0, 0.0], [-1.7, 0.8, 0.0], [0.1, -1.8, 0.0]],
+        "platform_external": [[1.0, 0.9, 0.0], [-1.3, 0.5, 0.0], [0.2, -1.4, 0.0]],
+        "platform_internal": [[1.2, -0.5, 0.0], [0.0, 1.3, 0.0], [-1.2, -0.6, 0.0]],
+    }.items())  # fmt: skip
+    file.write_text(text + "[configuration]\nposition = [0, 0, 3.5]\ninternal_point = [0, 0, -1]\n")
+    assert "O lies below the base, by up to 1: at p" in run(f"sheet {file}")[1]

@@ -192,6 +192,20 @@ def test_a_sweep_that_is_singular_everywhere_is_drawn_without_values():
     assert np.isnan(curve.get_ydata()).all()
 
 
+@pytest.mark.parametrize("count", [49, 50])
+def test_no_line_of_a_map_is_a_bead_of_its_grid(count):
+    """With O at the platform the condition number has no bound: no grid tells how far a line there goes."""
+    found = nd.sweep(G, HOME, {"z_s": np.linspace(0.5, 6.5, count), "z_p": np.linspace(1.0, 6.0, count)})
+    assert found["condition_number"].max() > 100.0
+    (drawn,) = [one for one in plot.sweep(found).axes[0].collections if hasattr(one, "levels") and not one.filled]
+    low, high, count = np.array([0.5, 1.0]), np.array([6.5, 6.0]), 0
+    for inverse, path in zip(drawn.levels, drawn.get_paths(), strict=True):
+        for part in path.to_polygons(closed_only=False) if inverse < 0.15 else ():  # beside the ridge
+            assert (abs(part[[0, -1], None] - [low, high]).min(axis=(1, 2)) < 1e-9).all()  # from edge to edge
+            count += 1
+    assert count > 4
+
+
 def test_an_unknown_index_is_not_drawn():
     with pytest.raises(ValueError, match="name: got 'kappa', expected one of condition_number"):
         plot.sweep(nd.sweep(G, HOME, {"x_p": [0.0]}), "kappa")

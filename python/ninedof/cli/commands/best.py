@@ -15,7 +15,7 @@ from ninedof.cli.options import LC, LEG_LIMITS, Two, ends, option, struct
 from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home, with_length, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.redundancy.redundancy import CRITERIA
-from ninedof.sheet.pose_words import decimals_of, fixed, vector_words
+from ninedof.sheet.pose_words import decimals_of, fixed, outside_words, vector_words
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
@@ -50,6 +50,7 @@ def best(options: _Options) -> Answer:
         parts: list[Any] = list(_words(at, result, now, words))
     else:
         parts = [_table(at, result, now, words, small), *_over_poses(result, now, words, small)]
+    parts += outside_words(result.configuration, at.tool, at.unit)
     data = {
         "criterion": options.criterion,
         "limits": limits,

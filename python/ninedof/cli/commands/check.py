@@ -33,6 +33,7 @@ def check(options: _Options) -> Answer:
         makers = "of `ninedof optimize --certify`, or a file of `certify` or `admissible` with --certificate FILE"
         raise ValueError(f"{options.certificate}: got a folder without {FILE}, expected that {makers}")
     with options.screen.bar("points", "reading the certificate") as bar:
+        bar.phase("within a box no progress is known")  # the time is: a machine is one box, which may take minutes
         result = check_certificate(path, progress=bar)
     lines = [*result.study, UNIT] if result.study else []
     parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in lines)] if lines else []

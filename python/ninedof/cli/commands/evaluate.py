@@ -25,9 +25,10 @@ from ninedof.cli.options import (
 from ninedof.cli.posed import beyond_words, chosen_design, named_design
 from ninedof.design.indices import computed
 from ninedof.records.design_file import indices
+from ninedof.sheet.pose_words import outside_words
 from ninedof.sheet.tables import limits_table, poses_table
 from ninedof.singularity.architecture import architecture_sentences
-from ninedof.support.units import unit_entry
+from ninedof.support.units import DEG, amount, unit_entry
 from ninedof.tables import Line, Table, columns
 
 PLACE = 3
@@ -68,6 +69,7 @@ def evaluate(options: _Options) -> Answer:
             parts.append(f"{chosen.result.status}: {chosen.result.reason}")
         of_run = nd.sheet(chosen.result, characteristic_length=chosen.characteristic_length)
         parts += beyond_words(chosen.geometry, chosen.configuration, of_run.configurations)
+        parts += outside_words(of_run.configurations, of_run.tool, of_run.unit)
         parts += [poses_table(of_run)] if len(of_run.configurations) > 1 else []
         parts += [limits_table(of_run)] if of_run.limits else []
         values |= {"sheet": of_run.to_dict()}
@@ -83,7 +85,22 @@ def _changed(options: _Options) -> Answer:
     if result is None:
         raise ValueError(f"--set: got {options.design or 'no design'}, expected a run, whose study has variables")
     changes = changes_option(options.changes or ())
-    return compared(nd.compare(result, result.with_changes(**changes), names=("run", "changed")), options.plot)
+    changed = result.with_changes(**changes)
+    answer = compared(nd.compare(result, changed, names=("run", "changed")), options.plot)
+    words = (_set_words(name.removesuffix(DEG), result, changed) for name in changes)
+    return answer._replace(parts=[*words, *answer.parts])
+
+
+def _set_words(name: str, result: nd.Result, changed: nd.Result) -> str:
+    """Return from what to what a variable was set."""
+    study = result.study
+    ends = (study.shown(name, (one.variables or {})[name]) for one in (result, changed))
+    was, now = (amount(f"{end:.7g}", study.unit_of(name)) for end in ends)
+    return (
+        f"set: {name} is {was} in the run already, nothing is changed"
+        if was == now
+        else f"set: {name} from {was} to {now}"
+    )
 
 
 def _table(values: dict[str, Any], unit: str) -> Table:

@@ -44,8 +44,8 @@ def forces(options: _Options) -> Answer:
     balance = nd.inverse_dynamics(at.geometry, at.c, masses=masses, gravity=duty.loads.gravity, load=loads[:, None])
     result, size = balance.forces, np.abs(balance.forces).max(axis=(1, 2))
     heads = columns("leg", *(f">load {k}" for k in range(1, len(loads) + 1)))
-    least, most, tiny = result.min(axis=1), result.max(axis=1), 1e-12 * size
-    rows = [(leg, *map(spread, least[:, k], most[:, k], tiny)) for k, leg in enumerate(LEGS)]
+    least, most = result.min(axis=1), result.max(axis=1)
+    rows = [(leg, *map(spread, least[:, k], most[:, k], size[:, None])) for k, leg in enumerate(LEGS)]
     parts: list[Any] = [load_words(k, row, at.unit) for k, row in enumerate(loads, start=1)]
     parts += weight_words(weight, duty.tool, masses_besides_platform(duty) is not None)
     if masses is not None or not given:

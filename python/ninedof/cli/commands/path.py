@@ -51,7 +51,7 @@ class _Options(JobOptions):
     design: str | None = argument(DESIGN_OR_PUBLISHED, None)
     file: Path | None = argument(
         "Poses (CSV): columns t x y z (or x_rel y_rel z_rel, from the neutral pose), and for the rotation "
-        "qw qx qy qz, rx ry rz or yaw pitch roll, in degrees as rx_deg, yaw_deg.",
+        "qw qx qy qz, rx ry rz or yaw pitch roll, in degrees as rx_deg, yaw_deg, or Q11 to Q33; poses.csv of a run.",
         None,
     )
     circle: float | None = option("A horizontal circle about the neutral pose.", metavar="RADIUS")

@@ -19,6 +19,7 @@ from ninedof.sheet.tables import load_words
 from ninedof.support.arguments import Vector
 from ninedof.support.units import amount
 from ninedof.tables import Table, columns, grouped
+from ninedof.tables.numbers import load_text
 
 PLACE = 4
 EXAMPLES = """
@@ -66,9 +67,7 @@ def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
         )
     if found.leg:
         yield f"worst pose: {chosen.words(found.configuration)}"
-        tiny = 1e-12 * np.abs(found.forces[np.isfinite(found.forces)]).max(initial=0.0)  # rounding beside the others
-        texts = ("0" if abs(force) <= tiny else f"{force:.5g}" for force in found.forces)
-        rows = list(zip(LEGS, texts, strict=True))
+        rows = [(leg, load_text(force, found.forces)) for leg, force in zip(LEGS, found.forces.tolist(), strict=True)]
         under = "with the payload" if found.fits else "without a payload"
         yield Table(f"Leg forces there, {under}, + pushes", columns("leg", ">force"), list(grouped(rows)))
     if found.region is not None:
