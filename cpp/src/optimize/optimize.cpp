@@ -68,7 +68,7 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
       run_batch(p, size_limit, further, settings, control, progress, round);
       candidates = distinct_candidates(p, round);
       const bool at_limit = !candidates.empty() && round_best(p, size_limit, candidates.front()).at_size_limit;
-      more = settings.starts > 1 && round.batches < Settings::most_batches && !at_limit &&
+      more = p.coordinates.size() > 0 && settings.starts > 1 && round.batches < Settings::most_batches && !at_limit &&
              starts_disagree(round, candidates) && !control.stop.stop_requested();
       if (more) progress.expect(settings.starts);
     }

@@ -144,7 +144,7 @@ class Study:
         lengths or more counts as none.
     starts, seed : int
         Number of low-discrepancy starts and the shift of their sequence. `optimize` goes on to at most four times as
-        many while few of them agree, or fewer than 16 have led to no design.
+        many while few of them agree, or while fewer than 16 were tried and none led to a design.
     unit : str, optional
         Name of the length unit, "mm", "cm", "m", "in" or "ft", shown wherever a length stands. A label: nothing is
         converted. None by default. The `unit` of poses and regions is something else, the scale of their shifts.

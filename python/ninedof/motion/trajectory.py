@@ -10,7 +10,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors
+from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors, to_quaternions
 from ninedof.robot.configuration import Configuration, require_single
 from ninedof.support.arguments import cleaned, finite, path_argument, shown, vector, whole
 from ninedof.support.arrays import Floats, as_floats, frozen
@@ -36,6 +36,7 @@ RADIANS = {"rx", "ry", "rz", "yaw", "pitch", "roll"}
 ONE_OF = "one of " + ", ".join(map(" ".join, ROTATIONS))
 FEWEST = 3  # poses: accelerations need three
 UNIT = 1e-3  # a quaternion may differ from unit length by rounding, not by more; a full turn too, relative
+EXACT = 1e-9  # a matrix with more digits is taken as it is
 TURNS = 3  # of a spiral
 SHORTEST, LONGEST = 1e-300, 1e100  # of a motion: its times must differ, and their squares be numbers
 MOST_POINTS = 10_000_000
@@ -240,7 +241,14 @@ def _poses(text: str, origin: Floats, unit: str) -> tuple[Floats, Floats, Floats
             expected = f"expected radians, at most a full turn; degrees are in columns {degrees}"
             raise ValueError(f"line {body[k][0]}, column {turns[j]}: got {columns(turns)[k, j]:g}, {expected}")
     position = columns(place) + (origin if place == RELATIVE else 0.0)
-    return time, position, ROTATIONS[turns](columns(turns)) if turns else None
+    rotation = ROTATIONS[turns](columns(turns)) if turns else None
+    if turns == MATRIX and rotation is not None:
+        off = np.abs(np.swapaxes(rotation, 1, 2) @ rotation - np.eye(3)).max(axis=(1, 2))
+        for k in np.flatnonzero((off > UNIT) | (np.linalg.det(rotation) < 0.0))[:1]:
+            raise ValueError(f"line {body[k][0]}, column Q11: got no rotation in Q11 to Q33, expected one, to {UNIT:g}")
+        if off.max() > EXACT:  # few digits
+            rotation = from_quaternions(to_quaternions(rotation))
+    return time, position, rotation
 
 
 def _pose_columns(where: str, names: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:

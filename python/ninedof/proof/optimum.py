@@ -8,7 +8,6 @@ from time import perf_counter
 from typing import Any
 
 from ninedof import _core
-from ninedof.design.objective import Objective
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.proof.design_range import EXISTS, LONGEST, NONE, DesignRange, design_range, existence
@@ -40,8 +39,8 @@ def prove_optimum(
     seven (other planar designs) or eleven (non-planar ones) on which its singular values and limits depend, so that the
     paper's problem takes a second or two. Over a region, at listed poses, with a tool, for other families and for
     limits that the first proof does not know, boxes of one to six free variables break a limit, or have a greater
-    condition number, at a pose that is met: smaller and smaller gaps are proved, the first ones at the neutral
-    pose where that is in the region. Ctrl-C and the time limit return what is proved so far.
+    condition number, at a pose that is met: smaller and smaller gaps are proved, of five and six variables the
+    first ones at the neutral pose, without some limits. Ctrl-C and the time limit return what is proved so far.
 
     Parameters
     ----------
@@ -208,18 +207,20 @@ def prove_over_poses(
     threads: int,
     progress: Progress | None,
 ) -> OptimumProof:
-    """Prove that no design of a study is better than a known one by more than a gap, over all poses, with all limits.
+    """Prove that no design of a study is better than a known one by more than a gap, over all poses.
 
     Boxes of designs are cut until each is proved to break a limit, or to have a greater condition number, at one of its
     poses. Smaller gaps come later: what is proved when the time ends is returned. No worst condition number is below
-    that at the neutral pose: where that is in the region, the proof of the class comes first, as it takes fewer boxes.
+    that at the neutral pose: of many free variables, where that is in the region, the proof of the class comes first,
+    as it takes fewer boxes. It does without the limits that `left_out` names.
     """
     begin, boxes, bound = perf_counter(), 0, 1.0
-    home = _at_home(study)
+    many = len(_free(study)) > FEW
+    home = _at_home(study) if many else None
     left_out: tuple[str, ...] = ()
     where = "over the region" if study.objective.region is not None else "at its poses" if study.objective.poses else ""
     better, left, interrupted, aim, certificate = None, 0, False, condition_number * (1.0 - gap), b""
-    steps = STEPS if len(_free(study)) <= FEW else (*COARSE, *STEPS)
+    steps = (*COARSE, *STEPS) if many else STEPS
     for one in (*(step for step in steps if step > gap), gap):
         target = condition_number * (1.0 - one)
         if not target > 1.0:
@@ -265,7 +266,7 @@ def _at_home(study: Study) -> Study | None:
     region = study.objective.region
     if region is None or region.path is not None or study.tool or study.family not in ("hexagonal", "symmetric"):
         return None
-    alone = replace(study, objective=Objective())
+    alone = replace(study, objective=replace(study.objective, region=None))
     try:
         _left_out_of_class(alone)
     except ValueError:

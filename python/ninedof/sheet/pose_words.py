@@ -28,7 +28,8 @@ def outside_words(c: Configuration, tool: Tool, unit: str = "") -> Iterator[str]
         k = int(np.argmax(np.nan_to_num(far, nan=-1.0)))
         if far[k] > 1e-9 * np.linalg.norm(c.internal_point[k]):
             p, o = (vector_words(float(f"{x:.5g}") for x in point[k]) for point in (c.position, c.internal_point))
-            yield f"O lies {words}, by up to {amount(f'{far[k]:.4g}', unit)}: at p = {p}, O = {o}."
+            by = "by up to" if len(far) > 1 else "by"
+            yield f"O lies {words}, {by} {amount(f'{far[k]:.4g}', unit)}: at p = {p}, O = {o}."
 
 
 def turn_deg(c: Configuration, neutral_rotation: Floats) -> Floats:

@@ -39,6 +39,27 @@ def test_every_way_to_give_a_rotation(tmp_path, names, turns):
     assert result.rotation == pytest.approx(TURNS.as_matrix(), abs=1e-14)
 
 
+NINE = ["t", "x", "y", "z", *"Q11 Q12 Q13 Q21 Q22 Q23 Q31 Q32 Q33".split()]
+
+
+@pytest.mark.parametrize("decimals", [4, 6, 9, 12])
+def test_matrices_of_few_digits_are_rotations(tmp_path, decimals):
+    turns = TURNS.as_matrix().reshape(-1, 9).round(decimals)
+    result = nd.Trajectory.load(written(tmp_path / "path.csv", NINE, [TIMES, PLACES, turns]), HOME)
+    assert result.rotation == pytest.approx(TURNS.as_matrix(), abs=2.0 * 10.0**-decimals)
+    assert np.swapaxes(result.rotation, 1, 2) @ result.rotation == pytest.approx(
+        np.broadcast_to(np.eye(3), (len(turns), 3, 3)), abs=1e-9
+    )
+
+
+@pytest.mark.parametrize("change", [np.diag([1.0, 1.0, -1.0]), np.diag([1.0, 1.01, 1.0])], ids=["mirror", "stretch"])
+def test_a_matrix_that_turns_nothing_names_its_line(tmp_path, change):
+    turns = TURNS.as_matrix()
+    turns[1] = turns[1] @ change
+    with pytest.raises(ValueError, match=r"line 3, column Q11: got no rotation in Q11 to Q33, expected one"):
+        nd.Trajectory.load(written(tmp_path / "path.csv", NINE, [TIMES, PLACES, turns.reshape(-1, 9)]), HOME)
+
+
 def test_columns_in_any_order_comments_and_no_rotation(tmp_path):
     path = tmp_path / "path.csv"
     path.write_bytes(b"\xef\xbb\xbf# made by hand\r\nz, t ,y,x\r\n4,0,0,1\r\n\r\n4,1,0,2\r\n# here\r\n4,2,0,3\r\n")

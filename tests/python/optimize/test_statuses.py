@@ -281,3 +281,9 @@ def test_few_starts_that_find_nothing_are_followed_by_others(starts, seed):
     result = nd.optimize(study)
     assert result.status == "optimal"
     assert starts < result.starts_done <= 16 + starts
+
+
+def test_a_design_without_free_variables_is_tried_once():
+    fixed = nd.optimize(nd.Study(variables=PUBLISHED | {"theta_z": 0.0}, constraints={"radius_ratio": (None, 0.5)}))
+    assert fixed.status == "infeasible"
+    assert fixed.starts_done == 1

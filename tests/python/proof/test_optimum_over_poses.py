@@ -129,6 +129,14 @@ def test_the_neutral_pose_proves_wide_gaps_of_six_free_variables(tmp_path):
             assert worst_index(SIX, {"theta_z": 0.0} | x, 1, rng)[0] >= proof.lower_bound, x
 
 
+def test_the_file_of_a_bound_names_which_side_of_a_limit_it_leaves_out(tmp_path):
+    study = replace(SIX, constraints={"leg_ratio": (1.05, None)})
+    proof = nd.prove_optimum(study, 3.0, gap=0.5)
+    assert proof.complete
+    assert proof.left_out == ("leg_ratio.min",)
+    assert nd.check_certificate(proof.save(tmp_path / "optimum.certificate")).proved
+
+
 @pytest.mark.parametrize(
     "change",
     [

@@ -332,4 +332,4 @@ def test_an_internal_point_that_is_not_between_the_plates_is_said(run, tmp_path)
         "platform_internal": [[1.2, -0.5, 0.0], [0.0, 1.3, 0.0], [-1.2, -0.6, 0.0]],
     }.items())  # fmt: skip
     file.write_text(text + "[configuration]\nposition = [0, 0, 3.5]\ninternal_point = [0, 0, -1]\n")
-    assert "O lies below the base, by up to 1: at p" in run(f"sheet {file}")[1]
+    assert "O lies below the base, by 1: at p" in run(f"sheet {file}")[1]

@@ -20,6 +20,7 @@ constexpr double no_better = 2e-6;      // relative gain that is not worth the l
 constexpr int most_exact = 3;  // solutions without Newton's method, each from the last one, whose slack is too large
 constexpr double may_be_left = 5e-8;  // to gain after them, without the slack: half of most_gain
 constexpr int last_exact = 8;         // of them; then what is left is said
+constexpr int most_drops = 20;        // rounds: then none leaves and joins again for ever
 constexpr double replaces = 0.02;  // of the region: a later pose as near as this
 constexpr int first_comparison = 4;  // round from which a design is compared with the best known
 
@@ -176,7 +177,7 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
       if (out.settled) break;
     }
     exact += exact > 0 || out.look.excess <= passed;
-    drop(x, first.at.size(), known_before, imposed);
+    if (out.rounds <= most_drops) drop(x, first.at.size(), known_before, imposed);
     known_before = imposed.at.size();
     for (const Vec6& at : out.look.worst)
       if (std::ranges::none_of(imposed.at,

@@ -53,8 +53,8 @@ class Exchange {
  private:
   /// The optimum at the poses alone; `exactly`: until its slack is as small as what may be passed between the poses.
   Candidate solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly);
-  /// Leaves out the imposed poses from `first` up to `last` that do not hold the design and have later ones near them:
-  /// a worst pose that moves with the design leaves a row of them.
+  /// Leaves out the imposed poses from `first` up to `last` that do not hold the design and have a later one near them:
+  /// of the row that a worst pose leaves as it moves with the design its end stays.
   void drop(const Eigen::VectorXd& x, std::size_t first, std::size_t last, Imposed& imposed) const;
   bool hopeless(const Settled& here, const Settled* known) const;
   void tell(const Settled& here, const Imposed& at) const;

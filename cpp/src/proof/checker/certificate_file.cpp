@@ -28,9 +28,11 @@ Bound bound(const std::string& text) {
   return out;
 }
 
-/// The name of a limit, and perhaps where it holds: no other text is printed.
+/// The name of a limit, perhaps where it holds and which side of it: no other text is printed.
 std::string limit(const std::string& text) {
-  const std::string name = text.ends_with(" at neutral") ? text.substr(0, text.size() - 11) : text;
+  std::string name = text;
+  for (const std::string_view end : {".min", " at neutral"})
+    if (name.ends_with(end)) name.resize(name.size() - end.size());
   for (const char c : name)
     if (c != '_' && (c < 'a' || c > 'z')) refuse(quoted(text) + " is no name of a limit");
   if (name.empty()) refuse("a limit that is left out has no name");

@@ -94,13 +94,11 @@ def _changed(options: _Options) -> Answer:
 def _set_words(name: str, result: nd.Result, changed: nd.Result) -> str:
     """Return from what to what a variable was set."""
     study = result.study
-    ends = (study.shown(name, (one.variables or {})[name]) for one in (result, changed))
-    was, now = (amount(f"{end:.7g}", study.unit_of(name)) for end in ends)
-    return (
-        f"set: {name} is {was} in the run already, nothing is changed"
-        if was == now
-        else f"set: {name} from {was} to {now}"
-    )
+    was, now = (study.shown(name, (one.variables or {})[name]) for one in (result, changed))
+    unit, digits = study.unit_of(name), 7 if f"{was:.7g}" != f"{now:.7g}" else 15
+    if was == now:
+        return f"set: {name} is {amount(f'{was:.7g}', unit)} in the run already"
+    return f"set: {name} from {amount(f'{was:.{digits}g}', unit)} to {amount(f'{now:.{digits}g}', unit)}"
 
 
 def _table(values: dict[str, Any], unit: str) -> Table:

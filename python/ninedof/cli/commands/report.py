@@ -27,7 +27,8 @@ def report(options: _Options) -> Answer:
     """Write a run as one page of HTML: question, answer, the machine to turn by hand, sheet, figures, proof."""
     if options.out is not None:
         own_or_new("--out", options.out, MARK)
-    options.screen.say("writing the report: what it shows is searched and drawn")
+    if Path(options.run.partition("#")[0]).exists():
+        options.screen.say("writing the report: searching and drawing")
     file = nd.report(options.run, options.out)
     size = file.stat().st_size / 1e6
     return Answer([f"report {file}, {size:.2f} MB: open it in a browser"], {"report": str(file)})
