@@ -287,3 +287,21 @@ def test_a_design_without_free_variables_is_tried_once():
     fixed = nd.optimize(nd.Study(variables=PUBLISHED | {"theta_z": 0.0}, constraints={"radius_ratio": (None, 0.5)}))
     assert fixed.status == "infeasible"
     assert fixed.starts_done == 1
+
+
+@pytest.mark.parametrize(
+    "objective", [{"poses": [{"position": (0.2, 0, 0)}, {"position": (0, 0.2, 0.1)}]}, {"region": {"ball": 0.2}}]
+)
+def test_a_least_ratio_of_legs_alone_excludes_no_other_design(objective):
+    """With no greatest ratio beside it every design was called infeasible."""
+    free = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": (1.0, 4.0)}
+    open_ended = nd.optimize(nd.Study(variables=free, objective=objective, starts=8))
+    bound = nd.optimize(
+        nd.Study(variables=free, objective=objective, starts=8, constraints={"leg_ratio": (1.05, None)})
+    )
+    assert bound.status == "optimal"
+    assert bound.objective == pytest.approx(open_ended.objective, rel=1e-9)
+    tight = nd.optimize(nd.Study(variables=free, objective=objective, starts=8, constraints={"leg_ratio": (5.0, None)}))
+    assert tight.status == "optimal"
+    assert "leg_ratio" in tight.active
+    assert tight.objective > bound.objective

@@ -24,9 +24,9 @@ class Spread : public Constraint {
         each_leg_(row.spread->each_leg),
         groups_(each_leg_ ? 9 : 1),
         count_(each_leg_ ? poses : 9 * poses),
-        way_(purpose == Purpose::evaluate || count_ < 2 ? Way::ruling
-             : count_ <= few                            ? Way::pairs
-                                                        : Way::auxiliary) {}
+        way_(purpose == Purpose::evaluate || count_ < 2 || !std::isfinite(limit.high) ? Way::ruling
+             : count_ <= few                                                          ? Way::pairs
+                                                                                      : Way::auxiliary) {}
 
   bool compares_poses() const override { return !at_neutral(); }
   double price_factor(int row) const override {
