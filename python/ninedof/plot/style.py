@@ -203,20 +203,16 @@ def condition_lines(axes: Any, x: Floats, y: Floats, values: Floats, levels: Flo
     """Draw lines of a condition number over a grid, shape (y, x); return them, None where there is none.
 
     Towards a singularity the number has no bound and its lines would be those of the grid: they are drawn of its
-    inverse, which goes to 0, and none between points where that falls to less than half.
+    inverse, which goes to 0, and none so near to 0 that the grid does not resolve it.
     """
     inverse = np.ma.masked_invalid(1.0 / values)
-    hidden = np.zeros(inverse.shape, dtype=bool)
-    for later, earlier in (np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1]):
-        steep = abs(inverse[later] - inverse[earlier]) > np.minimum(inverse[later], inverse[earlier])
-        hidden[later] |= steep.filled(False)
-        hidden[earlier] |= steep.filled(False)
-    smooth = np.ma.masked_where(hidden, inverse)
-    if not smooth.count():
-        return None
+    least = 0.0
+    for pair in ((inverse[1:], inverse[:-1]), (inverse[:, 1:], inverse[:, :-1])):
+        step = abs(pair[0] - pair[1])
+        least = max(least, step[(np.minimum(*pair) < step).filled(False)].filled(0.0).max(initial=0.0))
     lined = 1.0 / levels[::-1]
-    lined = lined[(lined > smooth.min()) & (lined < smooth.max())]
-    return axes.contour(x, y, smooth, levels=lined, **look) if lined.size else None
+    lined = lined[lined > least]
+    return axes.contour(x, y, inverse, levels=lined, **look) if lined.size else None
 
 
 def round_to(value: float, span: float) -> float:
