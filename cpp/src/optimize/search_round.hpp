@@ -56,8 +56,8 @@ void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Ei
                const Settings& s, const Control& control, Progress& progress, SearchRound& round);
 
 /// Whether more starts are worth it: fewer than 16, and at most half, of those run to their end reached the best of
-/// `candidates`, or a feasible design is better than all of them; or fewer than 16
-/// were tried and none led to a design.
+/// `candidates`, or a feasible design is better than all of them; or fewer than 16 were tried and
+/// none led to a design.
 bool starts_disagree(const SearchRound& round, const std::vector<Candidate>& candidates);
 
 /// Whether a variable accepted by `counts` is within `near` of an internal bound, in solver coordinates.

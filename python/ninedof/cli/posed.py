@@ -37,6 +37,9 @@ from ninedof.support.arguments import vector
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry
 
+NO_SIDE = 1e-12  # a determinant that is zero but for rounding
+SAME = 1e-9  # relative: poses that differ by less coincide
+
 
 @dataclass(frozen=True)
 class Chosen:
@@ -114,10 +117,6 @@ def chosen_design(name: str | None, options: HexagonalOptions) -> Chosen:
 def with_length(chosen: C, lc: str | None) -> C:
     """Return the design with the characteristic length given by --lc, if any."""
     return chosen if lc is None else replace(chosen, characteristic_length=length_option(lc))
-
-
-NO_SIDE = 1e-12  # a determinant that is zero but for rounding
-SAME = 1e-9  # relative: poses that differ by less coincide
 
 
 @struct

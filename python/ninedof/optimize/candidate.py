@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 DERIVED = {"derived": True}  # fields that follow from others
 ROBOT = ("geometry", "configuration", "configurations")  # those of a candidate
+DENSE = 100_000  # poses of a dense search
+PASSED = 1e-7  # by which a limit or the index may be passed between the poses, relative
 
 
 @short_repr
@@ -95,10 +97,6 @@ def candidate_from(problem: _core.Problem, data: Mapping[str, Any], where: str) 
         raise ValueError(f"{where}.variables: got none of the name {missing[0]}, expected all of the study")
     x = [finite(f"{where}.variables.{name}", values[name]) for name in problem.names]
     return Candidate(**entries, **robot_at(problem, x))
-
-
-DENSE = 100_000  # poses of a dense search
-PASSED = 1e-7  # by which a limit or the index may be passed between the poses, relative
 
 
 @short_repr

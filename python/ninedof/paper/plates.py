@@ -24,6 +24,11 @@ if TYPE_CHECKING:
 LETTERS = ("A", r"\hat{A}", "B", r"\tilde{B}")
 SMALL = 0.3  # inches, for the words below
 LEFT = -scene.VIEW.right
+OUT = 0.17  # of the reach of a plate: how far its dimensions stand off
+EXTERNAL: dict[str, Any] = {"marker": "o", "ms": 6.5, "color": style.EXTERNAL, "mec": "white", "mew": 0.5, "ls": ""}
+BASE: dict[str, Any] = EXTERNAL | {"marker": "s", "ms": 4.0, "color": style.LOWER}
+PLATFORM: dict[str, Any] = EXTERNAL | {"marker": "D", "ms": 3.4, "color": style.UPPER}
+CENTRED: dict[str, Any] = {"ha": "center", "va": "center", "size": style.TEXT_SIZE}
 
 
 def figure_1(geometry: Geometry, configuration: Configuration, ax: Any = None) -> Figure:
@@ -106,13 +111,6 @@ def _arrow(axes: Any, start: Floats, end: Floats, colour: str, width: float) -> 
 def _word(axes: Any, at: Floats, text: str, colour: str, size: float = style.SMALL_SIZE) -> None:
     looks: dict[str, Any] = {"size": size, "color": colour, "zorder": 31, "path_effects": scene.HALO}
     axes.annotate(text, _flat(axes, at), parse_math=True, ha="center", va="center", **looks)
-
-
-OUT = 0.17  # of the reach of a plate: how far its dimensions stand off
-EXTERNAL: dict[str, Any] = {"marker": "o", "ms": 6.5, "color": style.EXTERNAL, "mec": "white", "mew": 0.5, "ls": ""}
-BASE: dict[str, Any] = EXTERNAL | {"marker": "s", "ms": 4.0, "color": style.LOWER}
-PLATFORM: dict[str, Any] = EXTERNAL | {"marker": "D", "ms": 3.4, "color": style.UPPER}
-CENTRED: dict[str, Any] = {"ha": "center", "va": "center", "size": style.TEXT_SIZE}
 
 
 def figure_5(geometry: Geometry, unit: str = "", figure: Figure | None = None) -> Figure:

@@ -18,6 +18,11 @@ from ninedof.support.store import Store
 from ninedof.support.units import amount, degrees_of
 
 BETTER = 1e-12  # relative: what the objective of an optimum must gain to replace another
+MOST_OBJECTIVE = 3.0  # times the best objective: designs above it are ignored
+WIDE = 4.0  # times the study's own limit: the loosest where the study is unbounded without it
+NEAR_LEAST = 1.002  # times the least condition number; at 1 only one design is left
+STEPS_DOWN = 12  # halvings; fewer steps of a tolerance
+BISECTIONS, IN_REGIONS = 6, 4  # a study over a region takes seconds
 
 
 class FrontSolver:
@@ -119,13 +124,6 @@ def _rank(result: Result, better_by: float = 0.0) -> tuple[int, float]:
     if result.best is None or result.status == Status.INFEASIBLE:
         return 2, 0.0
     return int(result.status != Status.OPTIMAL), result.best.objective * (1.0 - better_by)
-
-
-MOST_OBJECTIVE = 3.0  # times the best objective: designs above it are ignored
-WIDE = 4.0  # times the study's own limit: the loosest where the study is unbounded without it
-NEAR_LEAST = 1.002  # times the least condition number; at 1 only one design is left
-STEPS_DOWN = 12  # halvings; fewer steps of a tolerance
-BISECTIONS, IN_REGIONS = 6, 4  # a study over a region takes seconds
 
 
 def of_a_limit(solver: FrontSolver) -> tuple[float, float] | None:

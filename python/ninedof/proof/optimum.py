@@ -95,10 +95,7 @@ def prove_optimum(
     count = thread_argument(threads)
     if over_poses:
         return prove_over_poses(study, best, gap=aim, time_limit=limit or LONGEST, threads=count, progress=progress)
-    settings = _core.OptimumSettings(
-        target=best * (1.0 - aim), threads=count, box_limit=MOST_BOXES, time_limit=limit, keep_tree=True
-    )
-    proof = _core.prove_optimum(study.problem(), settings, progress)
+    proof = _prove_class(study, best * (1.0 - aim), MOST_BOXES, limit, count, progress)
     return from_core(OptimumProof, proof, target=best * (1.0 - aim), where="")
 
 
@@ -130,8 +127,17 @@ def _is_over_poses(study: Study) -> bool:
 
 
 def _left_out_of_class(study: Study) -> tuple[str, ...]:
-    settings = _core.OptimumSettings(target=2.0, threads=1, box_limit=0)  # looks at the study and at no box
-    return _core.prove_optimum(study.problem(), settings, None).left_out
+    return _prove_class(study, 2.0, 0, 0.0, 1, None).left_out  # looks at the study and at no box
+
+
+def _prove_class(
+    study: Study, target: float, box_limit: int, time_limit: float, threads: int, progress: Progress | None
+) -> _core.OptimumProof:
+    """Return the core's proof that no design is below `target` at the neutral pose, with its tree; 0 s: no limit."""
+    settings = _core.OptimumSettings(
+        target=target, threads=threads, box_limit=box_limit, time_limit=time_limit, keep_tree=True
+    )
+    return _core.prove_optimum(study.problem(), settings, progress)
 
 
 @short_repr
@@ -228,10 +234,7 @@ def prove_over_poses(
         phase(progress, f"proving that no design is below {target:.6g}")
         seconds = begin + time_limit - perf_counter()
         if home is not None and seconds > 0.0:
-            settings = _core.OptimumSettings(
-                target=target, threads=threads, box_limit=FEW_BOXES, time_limit=seconds, keep_tree=True
-            )
-            proof = _core.prove_optimum(home.problem(), settings, progress)
+            proof = _prove_class(home, target, FEW_BOXES, seconds, threads, progress)
             boxes, left, interrupted = boxes + proof.boxes, proof.open, proof.interrupted
             if proof.complete:
                 bound, certificate, left_out = target, proof.certificate, proof.left_out

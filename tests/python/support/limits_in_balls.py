@@ -130,7 +130,10 @@ def clearance(w, m, kept):
 def nearest(a, u, c, v):
     """Places on segments where they are nearest, by turns."""
     s = t = np.full((len(a), 1), 0.5)
-    along = lambda x, y: (x * y).sum(axis=1, keepdims=True)  # noqa: E731
+
+    def along(x, y):
+        return (x * y).sum(axis=1, keepdims=True)
+
     for _ in range(60):
         s = np.clip(along(c + t * v - a, u) / along(u, u), 0.0, 1.0)
         t = np.clip(along(a + s * u - c, v) / along(v, v), 0.0, 1.0)

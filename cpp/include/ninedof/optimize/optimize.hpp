@@ -21,8 +21,8 @@ namespace ninedof {
 struct Settings {
   /// Low-discrepancy starts of one batch. If fewer than 16, and at most half, of those run to their end reach the best
   /// objective, or a feasible design is better than all ends, or fewer than 16 were tried and none led to a design,
-  /// further batches follow: `most_batches` in all for each cap of open variables. One start alone is never followed by others.
-  /// 0: the warm starts alone, near an optimum.
+  /// further batches follow: `most_batches` in all for each cap of open variables. One start alone is never followed by
+  /// others. 0: the warm starts alone, near an optimum.
   int starts = 64;
   static constexpr int most_batches = 4;
   std::uint64_t seed = 0;                  ///< shifts their sequence

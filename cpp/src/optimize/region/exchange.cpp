@@ -55,9 +55,13 @@ double gain_of(const Settled& found) {
   return out;
 }
 
-Candidate Exchange::solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly) {
+PreparedProblem Exchange::prepared(const Imposed& imposed) const {
   const Problem there = posed(problem_, poses_of(problem_, region_, imposed));
-  const PreparedProblem p(there, size_limits(there).back());
+  return {there, size_limits(there).back()};
+}
+
+Candidate Exchange::solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly) {
+  const PreparedProblem p = prepared(imposed);
   LocalRun run = run_from_start(p, p.coordinates.coordinates(x), Formulation::minimax,
                                 {.max_evaluations = settings_.max_evaluations, .restarts = 1}, control_.stop);
   evaluations_ += run.evaluations;
@@ -71,20 +75,17 @@ Candidate Exchange::solved(const Imposed& imposed, const Eigen::VectorXd& x, boo
 }
 
 double Exchange::slack(const Settled& of) const {
-  const Problem there = posed(problem_, poses_of(problem_, region_, of.imposed));
-  const PreparedProblem p(there, size_limits(there).back());
+  const PreparedProblem p = prepared(of.imposed);
   return least_slack(p, p.coordinates.coordinates(of.best.variables));
 }
 
 Candidate Exchange::at_imposed(const Imposed& imposed, const Eigen::VectorXd& x) const {
-  const Problem there = posed(problem_, poses_of(problem_, region_, imposed));
-  const PreparedProblem p(there, size_limits(there).back());
+  const PreparedProblem p = prepared(imposed);
   return candidate_at(p, p.coordinates.coordinates(x));
 }
 
 Imposed Exchange::holding(const Imposed& imposed, const Eigen::VectorXd& x) const {
-  const Problem there = posed(problem_, poses_of(problem_, region_, imposed));
-  const PreparedProblem p(there, size_limits(there).back());
+  const PreparedProblem p = prepared(imposed);
   DesignEvaluation design;
   const Eigen::VectorXd y = p.with_auxiliary(p.coordinates.coordinates(x));
   design.state.length_joint = p.pieces(y).front();
@@ -96,7 +97,7 @@ Imposed Exchange::holding(const Imposed& imposed, const Eigen::VectorXd& x) cons
   for (const int k : support.row_levels) poses.insert(p.pose_of(p.row_levels[at_index(k)].row));
   for (const int k : support.margins)
     for (const int pose : poses_of_margin(p, design.state, k)) poses.insert(p.objective_pose(pose));
-  const auto first = static_cast<int>(there.objective.poses.size() - imposed.at.size());
+  const auto first = static_cast<int>(p.problem.objective.poses.size() - imposed.at.size());
   Imposed out{imposed.nodes, {}};
   for (const int pose : poses)
     if (pose >= first) out.at.push_back(imposed.at[at_index(pose - first)]);

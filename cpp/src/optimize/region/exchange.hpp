@@ -3,6 +3,7 @@
 /// is worse there, and again.
 
 #include "ninedof/optimize/region_study.hpp"
+#include "optimize/minimax/prepared_problem.hpp"
 #include "optimize/region/look.hpp"
 
 namespace ninedof {
@@ -51,6 +52,7 @@ class Exchange {
   long evaluations() const { return evaluations_; }
 
  private:
+  PreparedProblem prepared(const Imposed& imposed) const;
   /// The optimum at the poses alone; `exactly`: until its slack is as small as what may be passed between the poses.
   Candidate solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly);
   /// Leaves out the imposed poses from `first` up to `last` that do not hold the design and have a later one near them:
