@@ -69,17 +69,24 @@ def computed(
     executor_argument(executor)
     progress_argument(progress)
     if out is None:
+        _countable(work)
         yield None, _computed(work, None, executor, progress)
         return
     with Store(path_argument("out", out), work.question(), work.chunk) as store:
         own: Any = work  # every work is a dataclass
-        yield store, _computed(replace(own, chunk=store.chunk), store, executor, progress)
+        work = replace(own, chunk=store.chunk)
+        _countable(work)
+        yield store, _computed(work, store, executor, progress)
 
 
-def _computed(work: Work, store: Store | None, executor: Executor | None, progress: Progress | None) -> Computed:
+def _countable(work: Work) -> None:
+    """Refuse more chunks than a run may have, before there is room made for their values."""
     if work.points > MOST_CHUNKS * work.chunk:
         least = -(-work.points // MOST_CHUNKS)
         raise ValueError(f"chunk: got {work.chunk} of {work.points} points, expected at least {least}")
+
+
+def _computed(work: Work, store: Store | None, executor: Executor | None, progress: Progress | None) -> Computed:
     done, missing, some = 0, [], store is not None and store.kept()
     for k, first in enumerate(range(0, work.points, work.chunk)):
         chunk = Chunk(first, min(first + work.chunk, work.points))

@@ -33,7 +33,7 @@ LINES = {
     "certify run --gap 0": "--gap: got 0.0, expected a finite number at least 1e-09",
     "atlas --designs 1125899906842625": "designs: got 1125899906842625",
     "sweep --over x_p=-1:1:1000000000 --over y_p=-1:1:1000000000": "points, expected at most",
-    "sweep --over x_p=-1:1:1000000000 --chunk 1": "chunk: got 1 of 1000000000 points, expected at least 239",
+    "sweep --over x_p=-1:1:1099511627776 --chunk 1": "chunk: got 1 of 1099511627776 points, expected at least 262144",
     "sweep figure-6 --points 10000000": "points: got 10000000",
     "workspace --legs 1 6 --points 10000000000": "points: got 10000000000",
     "workspace --legs 1 6 --points 0": "points: got 0, expected",

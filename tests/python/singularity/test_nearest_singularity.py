@@ -83,7 +83,7 @@ def refined(g, c, tangents, most, rng):
 def test_refined_directions_are_no_nearer_and_the_sheet_says_the_same():
     """The valleys of some robots are narrow, and a search about one direction alone ends in the wrong one."""
     rng = np.random.default_rng(2027)
-    for _ in range(size(40, 300)):
+    for _ in range(size(15, 300)):
         g = robot(rng)
         c = nd.Configuration(rng.normal([0, 0, 4.0], 0.3), internal_point=rng.normal([0, 0, 2.0], 0.3))
         longest = 4.0 * nd.leg_lengths(g, c).max()
