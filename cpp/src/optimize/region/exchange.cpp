@@ -62,16 +62,18 @@ PreparedProblem Exchange::prepared(const Imposed& imposed) const {
 
 Candidate Exchange::solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly) {
   const PreparedProblem p = prepared(imposed);
-  LocalRun run = run_from_start(p, p.coordinates.coordinates(x), Formulation::minimax,
-                                {.max_evaluations = settings_.max_evaluations, .restarts = 1}, control_.stop);
-  evaluations_ += run.evaluations;
-  if (exactly && run.end.feasible() && !control_.stop.stop_requested()) {
-    // Newton's method was content with values that are equal to 1e-6 only.
-    run = run_from_start(p, p.coordinates.coordinates(run.end.variables), Formulation::minimax,
-                         {.max_evaluations = settings_.max_evaluations, .restarts = 0, .polish = false}, control_.stop);
-    evaluations_ += run.evaluations;
-  }
-  return std::move(run.end);
+  const auto run = [&](const Eigen::VectorXd& from, RunSettings how) {
+    how.max_evaluations = settings_.max_evaluations;
+    LocalRun out = run_from_start(p, p.coordinates.coordinates(from), Formulation::minimax, how, control_.stop);
+    evaluations_ += out.evaluations;
+    return std::move(out.end);
+  };
+  // Newton's method is content with values that are equal to 1e-6 only.
+  constexpr RunSettings without_newton{.restarts = 0, .polish = false};
+  Candidate out = run(x, exactly ? without_newton : RunSettings{.restarts = 1});
+  if (!exactly || out.feasible()) return out;
+  out = run(x, {.restarts = 1});
+  return out.feasible() ? run(out.variables, without_newton) : out;
 }
 
 double Exchange::slack(const Settled& of) const {

@@ -7,6 +7,7 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/optimize/evaluate.hpp"
+#include "ninedof/optimize/leg_range.hpp"
 #include "optimize/region/design_at_poses.hpp"
 
 namespace ninedof {
@@ -35,6 +36,44 @@ bool is_of_spread(const std::string& name) {
 
 bool compares_poses(const Problem& problem) {
   return std::ranges::any_of(problem.limits, [](const Limit& l) { return is_of_spread(l.label()); });
+}
+
+/// Whether a limit wants legs to differ by no less.
+bool wants_spread(const Problem& problem) {
+  return std::ranges::any_of(problem.limits, [](const Limit& l) { return is_of_spread(l.label()) && l.low > 0.0; });
+}
+
+/// Of the poses where legs are longest or shortest those of legs that nearly break a limit that compares poses; all
+/// where a limit wants legs to differ.
+std::vector<Vec6> nearly_too_far_apart(const Problem& problem, const Region& region, const Eigen::VectorXd& own,
+                                       const RegionWorst& found) {
+  std::vector<Vec6> out;
+  if (wants_spread(problem)) {
+    for (const auto* ends : {&found.longest_at, &found.shortest_at}) std::ranges::copy(*ends, std::back_inserter(out));
+    return out;
+  }
+  DesignAtPoses design(problem, region, own);
+  const auto length = [&](const Vec6& at, std::size_t leg) {
+    design.go(at);
+    return design.lengths()[static_cast<Eigen::Index>(leg)];
+  };
+  Vec9 longest, shortest;
+  for (std::size_t leg = 0; leg < 9; ++leg) {
+    longest[static_cast<Eigen::Index>(leg)] = length(found.longest_at[leg], leg);
+    shortest[static_cast<Eigen::Index>(leg)] = length(found.shortest_at[leg], leg);
+  }
+  for (LegRange& range : leg_ranges(problem)) {
+    range.set_zp(own[design_family(problem.family).index("zp")]);
+    const auto measured = [&](double x) { return range.measured(x); };
+    const Vec9 high = longest.unaryExpr(measured), low = shortest.unaryExpr(measured);
+    const double near = range.width() - worst_window;
+    for (std::size_t leg = 0; leg < 9; ++leg) {
+      const auto k = static_cast<Eigen::Index>(leg);
+      if (high[k] - (range.each_leg ? low[k] : low.minCoeff()) > near) out.push_back(found.longest_at[leg]);
+      if ((range.each_leg ? high[k] : high.maxCoeff()) - low[k] > near) out.push_back(found.shortest_at[leg]);
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -88,10 +127,9 @@ Look look_over(const Problem& problem, const Region& region, const Imposed& impo
     // Margins of limits that compare poses are those at the poses where legs are longest and shortest.
     Imposed extremes;
     for (const auto* ends : {&found.longest_at, &found.shortest_at})
-      for (const Vec6& at : *ends) {
-        extremes.at.push_back(at);
-        worse.push_back({0.0, at});
-      }
+      std::ranges::copy(*ends, std::back_inserter(extremes.at));
+    for (const Vec6& at : nearly_too_far_apart(alone, region, own_variables(problem, x), found))
+      worse.push_back({0.0, at});
     Problem there = posed(problem, poses_of(problem, region, extremes));
     there.objective.aggregate = Aggregate::worst;
     for (const Evaluation::Margin& margin : evaluate(there, x).margins)
