@@ -6,12 +6,12 @@
 #include <sstream>
 #include <string>
 
-#include "bytes.hpp"
 #include "ninedof/batch/batch.hpp"
 #include "ninedof/conditioning/symmetric.hpp"
 #include "ninedof/proof/checker.hpp"
 #include "proof/checker/certificate_file.hpp"
 #include "proof/checker/spelling.hpp"
+#include "support/bytes.hpp"
 
 using namespace fuzz;
 using checker::Certificate;

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 
-#include "bytes.hpp"
 #include "ninedof/batch/batch.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/conditioning/symmetric.hpp"
 #include "ninedof/proof/bounds.hpp"
 #include "ninedof/proof/closed_form_bounds.hpp"
 #include "ninedof/robot/legs.hpp"
+#include "support/bytes.hpp"
 
 using namespace fuzz;
 

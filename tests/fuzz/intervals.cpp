@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "bytes.hpp"
 #include "ninedof/math/interval.hpp"
+#include "support/bytes.hpp"
 
 using namespace fuzz;
 

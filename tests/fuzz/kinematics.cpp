@@ -3,11 +3,11 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "bytes.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/kinematics/velocity.hpp"
 #include "ninedof/proof/bounds.hpp"
 #include "ninedof/robot/legs.hpp"
+#include "support/bytes.hpp"
 
 using namespace fuzz;
 

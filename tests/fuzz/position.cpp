@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "bytes.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/position/certified_modes.hpp"
 #include "ninedof/position/forward_position.hpp"
 #include "ninedof/position/tracking.hpp"
 #include "ninedof/robot/legs.hpp"
+#include "support/bytes.hpp"
 
 using namespace fuzz;
 
