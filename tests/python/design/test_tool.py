@@ -62,6 +62,7 @@ def test_a_machine_and_its_twin_agree_to_the_last_bit():
     )
 
 
+@pytest.mark.slow
 def test_searches_of_a_region_agree_to_the_last_bit():
     one, other = both(objective={"region": REGION})
     a, b = nd.optimize(one), nd.optimize(other)
@@ -207,6 +208,7 @@ def test_loads_are_about_the_point_of_the_tool():
     assert np.allclose(nd.leg_forces(a.geometry, c, moment, force).forces, expected, rtol=1e-11, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_positions_in_zp_are_of_the_plate():
     tool = {"position": (0.25, 0.0, -1.5)}
     region = {"box": (0.1, 0.05, 0.05), "tilt_deg": 5, "unit": "zp"}
@@ -218,6 +220,7 @@ def test_positions_in_zp_are_of_the_plate():
     assert nd.check(result).passed
 
 
+@pytest.mark.slow
 def test_o_placed_anew_stays_between_the_plates():
     tool = nd.Tool((0.5, 0.25, -3.0), (0.0, 0.2, 0.3))
     region = {"box": (0.4, 0.4, 0.3), "tilt_deg": 12, "internal_point": "best"}

@@ -47,6 +47,7 @@ def assert_choice(result, ranked):
         assert result.study.constraints[f"{kind}_length"] == (row.shortest, row.longest)
 
 
+@pytest.mark.slow
 def test_the_choice_is_the_best_of_all_combinations():
     result = nd.optimize(replace(POSES, actuators=BOTH))
     ranked = every_combination(POSES, *[BOTH] * 3)
@@ -62,6 +63,7 @@ def test_the_choice_is_the_best_of_all_combinations():
     )
 
 
+@pytest.mark.slow
 def test_rows_are_compared_without_the_reserve_for_tolerances():
     """The chosen ones were 0.034 % better than the next best with it, and those without it."""
     study = replace(POSES, actuators=BOTH)
@@ -101,6 +103,7 @@ def test_forces_and_rates_choose_too():
     assert cheap.objective > 1.01 * result.objective
 
 
+@pytest.mark.slow
 def test_equally_good_rows_go_by_their_price():
     """The lower legs of the optimum use little of their rows."""
     wide = [replace(LARGE, name=name, shortest=LARGE.shortest - k, price=price)
@@ -110,6 +113,7 @@ def test_equally_good_rows_go_by_their_price():
     assert result.actuators.next_best.price > result.actuators.chosen.price
 
 
+@pytest.mark.slow
 def test_a_row_that_another_replaces_is_left_out():
     worse = nd.Actuator("worse", 420.0, 640.0, price=300.0)
     short = nd.Actuator("short", 500.0, 550.0, price=10.0)  # of a stroke below 80, the least of external and lower legs
@@ -129,6 +133,7 @@ def test_all_legs_may_take_one_row():
     assert result.actuators.combinations == 3
 
 
+@pytest.mark.slow
 def test_a_price_may_be_too_low():
     thrifty = nd.Actuator("thrifty", 420.0, 650.0, price=280.0)
     study = replace(POSES, actuators=[*BOTH, thrifty])
@@ -141,6 +146,7 @@ def test_a_price_may_be_too_low():
     assert none.study.actuators == study.actuators
 
 
+@pytest.mark.slow
 def test_what_fails_where_no_row_fits():
     rows = [nd.Actuator("tiny", 20.0, 60.0), nd.Actuator("less tiny", 40.0, 120.0)]
     result = nd.optimize(replace(POSES, actuators=rows))
@@ -163,6 +169,7 @@ def test_columns_without_effect_are_named():
     assert "lower_rate" not in result.study.constraints
 
 
+@pytest.mark.slow
 def test_interrupted_the_best_so_far_is_returned(tmp_path):
     study, begun = replace(POSES, actuators=[*BOTH, LONG]), []
 
@@ -197,6 +204,7 @@ def test_the_time_limit_ends_the_search():
     assert result.reason.startswith("the search of actuators ended after 0 studies")
 
 
+@pytest.mark.slow
 def test_a_run_keeps_the_choice(tmp_path):
     result = nd.optimize(replace(POSES, actuators=BOTH))
     nd.save(result, tmp_path / "run")

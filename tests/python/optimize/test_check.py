@@ -303,6 +303,7 @@ def residual_by_samples(result):
     return nnls(np.vstack([rows.T, heavy]), np.append(np.zeros(len(free)), 1e3))[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper", "displaced", "frobenius", "neutral", "narrow"])
 def test_stationarity_agrees_with_sampled_gradients(name):
     result = solved(name)

@@ -22,6 +22,7 @@ def optimum(limit, starts=8, **options):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("poses", [None, nd.poses.box((0.2, 0.2, 0.2))])
 def test_an_optimum_keeps_it_and_pays_its_price(poses):
     objective = {} if poses is None else {"poses": poses}
@@ -67,6 +68,7 @@ def test_a_region():
     assert proof.which == failing.worst.legs[0]
 
 
+@pytest.mark.slow
 def test_a_workspace():
     g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     home = nd.Configuration.neutral(3.9828, 2.4432)

@@ -59,6 +59,7 @@ def forces_at(result, c):
     return np.abs(found).max(axis=0)
 
 
+@pytest.mark.slow
 def test_a_force_that_rules_is_kept_at_every_pose_and_proved():
     study = replace(STUDY, masses={"platform": 12.0, "centre": (0, 0, 30)}, constraints={"force": (None, 480.0)})
     found = nd.optimize(study)
@@ -71,6 +72,7 @@ def test_a_force_that_rules_is_kept_at_every_pose_and_proved():
     assert replace(found, study=tighter).certify(time_limit=60.0, gap=0.5).limits[1].answer == "violated"
 
 
+@pytest.mark.slow
 def test_enclosures_hold_what_random_poses_have(result):
     poses = random_poses(result.configuration, 1000)
     home, length = result.configuration, result.characteristic_length
@@ -85,6 +87,7 @@ def test_enclosures_hold_what_random_poses_have(result):
             assert proof.unit("mm") == {"rate": "mm/s", "power": "force mm/s"}.get(proof.name, "")
 
 
+@pytest.mark.slow
 def test_power_is_force_times_rate_and_all_are_those_of_the_sheet(result):
     poses = random_poses(result.configuration, 40)
     rows = pose_limits(STUDY, result.geometry, poses, result.configuration, result.characteristic_length)
@@ -100,6 +103,7 @@ def test_power_is_force_times_rate_and_all_are_those_of_the_sheet(result):
     assert STUDY.leg_duty.internal == sheet.motion.internal == "shifted"
 
 
+@pytest.mark.slow
 def test_workspaces_have_them_as_criteria(result):
     found = nd.workspace(result, tolerance=5e-3)
     question, left = study_question(result)
@@ -138,6 +142,7 @@ def test_a_path_is_held_against_its_own_rates_and_forces(result):
     assert worst["rate"] < 0.0 < worst["force"]
 
 
+@pytest.mark.slow
 def test_the_largest_payload_is_proved(result):
     with_legs = replace(STUDY, constraints={})
     mass = nd.largest_payload(replace(result, study=with_legs), force=600.0).mass
@@ -148,6 +153,7 @@ def test_the_largest_payload_is_proved(result):
         assert replace(result, study=study).certify(time_limit=60.0, gap=0.5).limits[1].answer == answer
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("objective", "rule"),
     [

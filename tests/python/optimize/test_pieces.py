@@ -56,6 +56,7 @@ def count_calls(monkeypatch):
     return computed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("whole", ["shifted", "best", "proved"], indirect=True)
 def test_pieces_change_nothing(whole):
     asked, without, kept, folder = whole

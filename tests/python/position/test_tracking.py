@@ -142,6 +142,7 @@ def modes(g, lengths):
     return len(result.position)
 
 
+@pytest.mark.slow
 def test_a_mode_is_lost_where_the_list_of_all_modes_gets_shorter():
     """Against `forward_position`: at a fold two modes end; just before it they are there, and just beyond they are not.
 

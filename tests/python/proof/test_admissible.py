@@ -142,6 +142,7 @@ def variables_of(found, row):
     return dict(found.of.at) | dict(zip(found.vary, row.tolist(), strict=True))
 
 
+@pytest.mark.slow
 def test_pieces_are_a_partition(case):
     volume = np.prod(case.high - case.low, axis=1)
     whole = math.prod(high - low for low, high in case.of.ranges)
@@ -167,6 +168,7 @@ def test_something_is_proved_on_both_sides(case):
     assert case.shares["undecided"] < 0.35
 
 
+@pytest.mark.slow
 def test_no_design_inside_breaks_a_limit(case):
     rng = np.random.default_rng(2)
     for row in drawn_in(case.inside, 6 if "force" in case.study.constraints else 40, rng)[0]:

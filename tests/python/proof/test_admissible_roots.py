@@ -63,6 +63,7 @@ class Here(Executor):
         return future
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ASKED, ids=[name.replace(" ", "-") for name in ASKED])
 def test_the_set_does_not_depend_on_the_workers_and_contradicts_no_other(name):
     study, vary, options = ASKED[name]

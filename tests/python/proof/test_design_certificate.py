@@ -67,6 +67,7 @@ def test_a_genuine_file_is_proved_and_says_what_it_is_about(designs, lines, verd
     assert min(len(boxes(lines, state)) for state in ("inside", "outside", "undecided")) > 5
 
 
+@pytest.mark.slow
 def test_a_box_called_inside_that_is_not_is_refused(lines, verdict):
     rng, named = np.random.default_rng(1), 0
     for n in rng.choice(boxes(lines, "outside"), 15, replace=False):
@@ -77,6 +78,7 @@ def test_a_box_called_inside_that_is_not_is_refused(lines, verdict):
     assert named > 10
 
 
+@pytest.mark.slow
 def test_an_undecided_box_called_inside_is_refused_not_confirmed_or_true(lines, verdict):
     rng = np.random.default_rng(3)
     refused = 0
@@ -98,6 +100,7 @@ def test_a_box_called_outside_that_is_not_is_refused(lines, verdict):
         assert "called outside" in found.words
 
 
+@pytest.mark.slow
 def test_a_pose_that_was_moved_is_refused_or_shows_as_much(lines, verdict):
     refused = 0
     for n in boxes(lines, "outside")[:10]:

@@ -45,6 +45,7 @@ def test_a_set_with_limits_of_forces_and_rates_is_replayed(lines, verdict):
         assert sum(f" {state}" in line for line in lines) > 20
 
 
+@pytest.mark.slow
 def test_a_machine_that_keeps_its_forces_and_rates_is_replayed(tmp_path):
     fixed = SIZES | {"a2": 6.0, "b1": 3.0}
     region = REGION | {"tilt": 0.1, "yaw": 0.1, "internal_point": "held"}
@@ -135,6 +136,7 @@ def test_a_changed_duty_that_a_machine_does_not_bear_is_proved_by_neither(start,
     assert set_in_balls.check(sealed(forged)) == "incomplete"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["force", "rate"])
 def test_a_tighter_limit_is_refused(name, lines, verdict):
     n = line_of(lines, f"limit {name} ")
@@ -177,6 +179,7 @@ def holds(lines, rng):
     return True
 
 
+@pytest.mark.slow
 def test_what_is_proved_of_changed_loads_masses_speeds_and_limits_is_true(lines, verdict):
     """A number before the boxes, moved by a fifth; of the legs, all nine."""
     rng = np.random.default_rng(17)

@@ -59,6 +59,7 @@ def worst_index(study, variables, count, rng):
     return index_at(there, robot).max(), least
 
 
+@pytest.mark.slow
 def test_the_best_design_is_within_the_gap(result):
     proof = result.proof
     assert proof.complete
@@ -69,6 +70,7 @@ def test_the_best_design_is_within_the_gap(result):
     assert nd.OptimumProof.from_dict(proof.to_dict()) == proof
 
 
+@pytest.mark.slow
 def test_no_design_drawn_at_random_that_keeps_the_limits_is_below_the_bound(result):
     rng, study, kept = np.random.default_rng(1), result.study, 0
     free = {name: ends for name, ends in study.variables.items() if isinstance(ends, tuple)}
@@ -97,6 +99,7 @@ def test_where_a_better_design_is_hidden_only_less_than_it_is_proved():
     assert proof.lower_bound < best
 
 
+@pytest.mark.slow
 def test_all_limits_count():
     """Without one of them there is a better design: the bound of both is above it."""
     free = replace(REGION, constraints={})
@@ -112,6 +115,7 @@ def test_without_time_nothing_is_proved():
 SIX = replace(REGION, variables={**SIZES, "a1": (0.0, 6.0), "b2": (0.0, 3.0), "zp": (3.0, 7.0), "zs": (1.0, 5.0)})
 
 
+@pytest.mark.slow
 def test_the_neutral_pose_proves_wide_gaps_of_six_free_variables(tmp_path):
     best = nd.optimize(SIX).condition_number
     proof = nd.prove_optimum(SIX, best, gap=0.4)

@@ -73,6 +73,7 @@ def proved(region, rule, **options):
     return certify(study(region), GEOMETRY, NEUTRAL, 150.0, rule=rule, **options)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("shape", "degree"), [*((shape, 2) for shape in REGIONS), ("box", 3), ("line", 6), ("six", 1)])
 def test_no_sampled_pose_passes_what_is_proved_of_a_rule(shape, degree):
     region, rng = REGIONS[shape], np.random.default_rng(23)

@@ -51,6 +51,7 @@ def fitted(region, constraints, objective, progress=None):
     return rule_of(place, GEOMETRY, NEUTRAL, 1.0, progress=progress)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", REGIONS)
 def test_a_rule_is_nearly_as_good_as_the_best_o(shape):
     region = REGIONS[shape]

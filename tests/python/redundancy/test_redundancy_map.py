@@ -185,6 +185,7 @@ def test_limits_hold_and_are_named(published):
     assert np.isnan(best.value.ravel()[~with_o]).all()
 
 
+@pytest.mark.slow
 def test_infeasible_for_internal_legs_as_in_a_search(published):
     limits = (np.full(9, 1.0), np.r_[np.full(3, 20.0), np.full(6, 4.6)])
     grid = plane(24, 3.0)
@@ -195,6 +196,7 @@ def test_infeasible_for_internal_legs_as_in_a_search(published):
     assert all(best.active[best.status == "infeasible"])
 
 
+@pytest.mark.slow
 def test_a_pose_with_nan_does_not_affect_others(published):
     grid = plane(20)
     whole = nd.best_internal_map(published, grid)

@@ -14,6 +14,7 @@ def plane(n, reach=1.6, height=3.9828):
     return np.stack([*np.meshgrid(x, x, indexing="ij"), np.full((n, n), height)], axis=-1)
 
 
+@pytest.mark.slow
 def test_progress_of_a_map_rises_to_the_total(published):
     history = []
     nd.best_internal_map(published, plane(64), progress=lambda *a: history.append(a))

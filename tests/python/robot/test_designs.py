@@ -84,6 +84,7 @@ def test_a_sweep_a_path_and_a_workspace_of_a_result(result):
         nd.follow(result.geometry, line)
 
 
+@pytest.mark.slow
 def test_a_workspace_of_a_result_has_the_limits_and_the_actuators_of_its_study():
     study = nd.Study(
         family="symmetric",

@@ -271,6 +271,7 @@ def test_units_of_length_change_nothing(published, unscaled, scale):
     assert other.home_volume == pytest.approx(np.array(unscaled.home_volume) * scale**3, rel=1e-15 if exact else 0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("archetype", ["inclusive", "reachable"])
 def test_sets_of_rotations(published, archetype):
     rng = np.random.default_rng(2)

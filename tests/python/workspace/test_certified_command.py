@@ -11,6 +11,7 @@ import ninedof as nd
 ASKED = "workspace --legs 2.5 6.5 --condition 5 --tolerance 1e-2 --x -2.5 2.5 --y -2.5 2.5 --z 3 7"
 
 
+@pytest.mark.slow
 def test_the_proof_is_said_and_kept(run, tmp_path):
     folder = tmp_path / "run"
     code, out, _ = run(f"{ASKED} --certify --gap 0.2 --out {folder}")

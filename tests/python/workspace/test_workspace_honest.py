@@ -150,6 +150,7 @@ def test_boxes_much_larger_than_the_workspace(published, expected, half):
     assert abs(found.volume - expected.volume) <= found.error + expected.error
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("method", "few"), [("grid", {"resolution": 8}), ("sample", {"points": 200})])
 def test_nothing_found_is_not_nothing(published, method, few):
     criteria = {"condition_number": 4.003}

@@ -30,8 +30,9 @@ void conclude(Result& result, bool settled, int rounds, const Candidate& best, d
   std::array<char, 200> text{};
   result.status = Status::stopped;
   if (!settled) {
-    std::snprintf(text.data(), text.size(), "after %d rounds the design is still worse between the poses than at them",
-                  rounds);
+    std::snprintf(text.data(), text.size(),
+                  "after %d rounds the design is still worse between the poses than at them: %.1e may be left to gain",
+                  rounds, gain);
   } else if (best.stationary() && gain > most_gain) {
     std::snprintf(text.data(), text.size(),
                   "no limit is passed in the region, but %.1e may be left to gain near this design", gain);
