@@ -21,6 +21,11 @@ LEG_KINDS = ("external", "upper", "lower")
 FOR = ("kinds", "all")
 
 
+def price_words(price: float) -> str:
+    """Return a price with all of its digits: six would make 12345.67 another one."""
+    return f"{price:.15g}"
+
+
 def _name(name: str, value: Any) -> str:
     if not text(name, value).strip():
         raise ValueError(f"{name}: got {shown(value)}, expected a name")

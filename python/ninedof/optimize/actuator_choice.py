@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from ninedof.design.actuators import LEG_KINDS, Actuator
+from ninedof.design.actuators import LEG_KINDS, Actuator, price_words
 from ninedof.design.duty import duty
 from ninedof.design.study import Study
 from ninedof.support.arguments import items, number, text, whole
@@ -83,7 +83,7 @@ class ActuatorChoice(Table):
 
 
 def _priced(one: Combination) -> str:
-    return "" if one.price is None else f"; price {one.price:g}"
+    return "" if one.price is None else f"; price {price_words(one.price)}"
 
 
 def notes_of(study: Study) -> tuple[str, ...]:

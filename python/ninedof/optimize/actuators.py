@@ -15,7 +15,7 @@ from functools import partial
 from heapq import heappop, heappush
 from typing import Any
 
-from ninedof.design.actuators import LEG_KINDS, Actuator, hull, row_limits
+from ninedof.design.actuators import LEG_KINDS, Actuator, hull, price_words, row_limits
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.optimize.actuator_choice import EACH, ActuatorChoice, Combination, notes_of
@@ -189,8 +189,9 @@ class ActuatorSearch:
                 causes |= dict.fromkeys(nearest.causes)
         if not reasons:
             most, least = self.study.greatest_price, self._least_price((None,) * len(self.groups))
-            price = "" if most is None else f" of at most {most:g} does; the cheapest costs {least:g}"
-            reasons = [f"rows fit each kind of legs, but no combination{price or ' does'}"]
+            price = "" if most is None else f" of at most {price_words(most)}"
+            cheapest = "" if most is None else f"; the cheapest costs {price_words(least)}"
+            reasons = [f"rows fit each kind of legs, but no combination{price} does{cheapest}"]
         return replace(
             free,
             status=Status.INFEASIBLE,

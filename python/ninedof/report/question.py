@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ninedof.design.actuators import price_words
 from ninedof.design.limits import Limit
 from ninedof.design.study import Study
 from ninedof.optimize.tables import listed_variables
@@ -15,6 +16,7 @@ from ninedof.support.units import amount, degrees_of, per
 from ninedof.tables import Line, Table, columns
 from ninedof.tables.html import Html, html_of, joined, paragraphs
 
+MOST_NAMES = 12  # of a catalogue; the study file has them all
 MASSES = ("platform", "cylinder", "rod", "internal_point")
 FAMILIES = {
     "hexagonal": "hexagonal plates, eqs. (37) and (38)",
@@ -56,9 +58,10 @@ def sentences(study: Study) -> Iterator[str]:
     unit = f"in {study.unit}" if study.unit else "in one unit, which the study does not name"
     yield f"Lengths are {unit}, angles in degrees. The characteristic length is {words}."
     if rows := study.actuators:
-        price = "" if study.greatest_price is None else f", all nine for {study.greatest_price:g} at most"
+        price = "" if study.greatest_price is None else f", all nine for {price_words(study.greatest_price)} at most"
         how = "one of them for all legs" if study.actuators_for == "all" else "one of them for each kind of legs"
-        names = ", ".join(row.name for row in rows)
+        names = ", ".join([row.name for row in rows[:MOST_NAMES]])
+        names += f" and {len(rows) - MOST_NAMES} more" * (len(rows) > MOST_NAMES)
         yield f"Actuators are chosen from a catalogue of {len(rows)}, {how}{price}: {names}."
     if duty := " ".join(duty_sentences(study)):
         yield duty

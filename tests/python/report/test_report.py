@@ -120,8 +120,8 @@ def test_the_question_names_what_the_machine_is_for():
     [
         ({}, "Actuators are chosen from a catalogue of 2, one of them for each kind of legs: A, B."),
         (
-            {"actuators_for": "all", "greatest_price": 90.0},
-            "catalogue of 2, one of them for all legs, all nine for 90 at most: A, B.",
+            {"actuators_for": "all", "greatest_price": 12345.67},
+            "catalogue of 2, one of them for all legs, all nine for 12345.67 at most: A, B.",
         ),
     ],
 )
@@ -129,6 +129,9 @@ def test_the_question_names_the_catalogue(more, words):
     rows = [{"name": name, "shortest": 1.0, "longest": 2.0, "price": 9.0} for name in "AB"]
     assert words in question(nd.Study(actuators=rows, **more))
     assert "catalogue" not in question(nd.Study())
+    many = [{"name": f"N{k}", "shortest": 1.0, "longest": 2.0} for k in range(40)]
+    assert "catalogue of 40, one of them for each kind of legs: N0, N1, " in question(nd.Study(actuators=many))
+    assert ", N11 and 28 more." in question(nd.Study(actuators=many))
 
 
 def test_the_study_file_in_the_page_makes_the_same_study(page, result):
