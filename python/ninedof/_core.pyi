@@ -157,9 +157,6 @@ def follow(
     rule: str | float,
     limits: tuple[_Floats, _Floats],
     characteristic_length: float,
-    loads: _Floats,
-    masses: Masses | None,
-    gravity: _Floats,
     /,
 ) -> dict[str, Any]: ...
 

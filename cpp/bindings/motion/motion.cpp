@@ -57,16 +57,12 @@ py::list tuples_of(const std::vector<LimitBreak>& breaks) {
   return out;
 }
 
-/// Loads: moment and force for each pose, shape (n, 6); no rows for none.
 py::dict followed(const Geometry& g, const Configuration& home, const Array& time, const Array& position,
                   const Array& rotation, const py::object& rule, const std::pair<Array, Array>& limits,
-                  double characteristic_length, const Array& loads, const std::optional<Masses>& masses,
-                  const Vec3& gravity) {
+                  double characteristic_length) {
   const Trajectory trajectory{{time.data(), time.data() + time.size()}, poses_from(position, rotation)};
-  FollowSettings settings{
-      trajectory_rule_from(rule), limits_from(limits.first, limits.second), characteristic_length, {}, masses, gravity};
-  for (const double* row = loads.data(); row != loads.data() + loads.size(); row += 6)
-    settings.loads.push_back({Eigen::Map<const Vec3>(row), Eigen::Map<const Vec3>(row + 3)});
+  const FollowSettings settings{trajectory_rule_from(rule), limits_from(limits.first, limits.second),
+                                characteristic_length};
   const Followed found =
       interruptible(py::none(), [&](const Control& control) { return follow(g, trajectory, home, settings, control); });
   py::dict out;
@@ -78,7 +74,6 @@ py::dict followed(const Geometry& g, const Configuration& home, const Array& tim
   out["acceleration"] = table(found.derivatives.acceleration, 9);
   out["condition_number"] = array_from(Eigen::VectorXd::Map(found.condition_number.data(), time.size()));
   out["singularity_margins"] = rows_from(found.singularity_margins);
-  out["leg_forces"] = table(found.leg_forces, 9);
   out["tracked"] = found.tracked;
   out["tracking_error"] = found.tracking_error;
   return out;

@@ -309,9 +309,9 @@ def follow(
     rule = choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
     lc = float(length_of(geometry, home, lc)) if isinstance(lc, str) else as_number("characteristic_length", lc)
     path, bounds, ends, forces = trajectory, leg_limits(limits), items("load", load, "force and moment", 2), None
-    without_loads = np.empty((0, 6)), None, gravity_for_core(gravity, path.unit)
-    motion = _core.follow(g, home, path.time, path.position, path.rotation, rule, bounds, lc, *without_loads)
-    poses, margins, _ = (motion.pop(name) for name in ("tracked", "singularity_margins", "leg_forces"))
+    gravity_for_core(gravity, path.unit)  # refuses what is no gravity, even where nothing weighs
+    motion = _core.follow(g, home, path.time, path.position, path.rotation, rule, bounds, lc)
+    poses, margins = (motion.pop(name) for name in ("tracked", "singularity_margins"))
     c = Configuration(path.position, path.rotation, motion.pop("internal_point"))
     if masses is not None or any(end is not None for end in ends):
         v, a = motion["velocity"], motion["acceleration"]
