@@ -157,7 +157,7 @@ def beside_study(path: str | os.PathLike[str], name: str, unit: str) -> tuple[Ac
 def require_together(rows: Sequence[Actuator], greatest_price: float | None, constraints: Mapping[str, Any]) -> None:
     """Raise ValueError if entries of a study do not go together with its actuators."""
     if greatest_price is not None and not rows:
-        raise ValueError(f"greatest_price: got {greatest_price:g} without actuators, expected both")
+        raise ValueError(f"greatest_price: got {price_words(greatest_price)} without actuators, expected both")
     for k, row in enumerate(rows):
         if greatest_price is not None and row.price is None:
             raise ValueError(f"actuators[{k}].price: got none, expected a number, as greatest_price is given")

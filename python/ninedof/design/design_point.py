@@ -70,7 +70,8 @@ def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:
     names = list(problem.names)
     core = problem.evaluate(x)
     objective = infinite_if_singular(core["objective"])
-    slope = objective * core["gradient"] if math.isfinite(objective) else np.full(len(names), np.nan)
+    with np.errstate(over="ignore"):  # nearly singular: the slope may be infinite where the value is not
+        slope = objective * core["gradient"] if math.isfinite(objective) else np.full(len(names), np.nan)
     return DesignPoint(
         variables=dict(zip(names, x, strict=True)),
         objective=objective,

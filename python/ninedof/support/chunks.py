@@ -69,24 +69,24 @@ def computed(
     executor_argument(executor)
     progress_argument(progress)
     if out is None:
-        _countable(work)
         yield None, _computed(work, None, executor, progress)
         return
     with Store(path_argument("out", out), work.question(), work.chunk) as store:
         own: Any = work  # every work is a dataclass
         work = replace(own, chunk=store.chunk)
-        _countable(work)
+        _countable(work)  # before room is made on the disk
         yield store, _computed(work, store, executor, progress)
 
 
 def _countable(work: Work) -> None:
-    """Refuse more chunks than a run may have, before there is room made for their values."""
+    """Refuse more chunks than a run may have."""
     if work.points > MOST_CHUNKS * work.chunk:
         least = -(-work.points // MOST_CHUNKS)
         raise ValueError(f"chunk: got {work.chunk} of {work.points} points, expected at least {least}")
 
 
 def _computed(work: Work, store: Store | None, executor: Executor | None, progress: Progress | None) -> Computed:
+    _countable(work)
     done, missing, some = 0, [], store is not None and store.kept()
     for k, first in enumerate(range(0, work.points, work.chunk)):
         chunk = Chunk(first, min(first + work.chunk, work.points))

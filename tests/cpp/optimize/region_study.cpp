@@ -171,6 +171,27 @@ TEST_SUITE("region_study") {
     CHECK(allowed_designs > 0);
   }
 
+  TEST_CASE("limits that compare poses count a listed pose outside of the region too") {
+    const Region region = box(Vec3(0.3, 0.2, 0.0), 0.05);
+    Problem free = paper_study();
+    free.objective.poses.emplace_back();  // above it: legs are longest there and shortest in the region
+    free.objective.poses.back().position = free.objective.poses.back().internal = Vec3(0.0, 0.0, 0.9);
+    const Eigen::VectorXd without = optimize_region(free, region, few(2)).result.candidates.front().variables;
+    Random random(41);
+    const Problem drawn_poses = at_poses(free, region, 2000, random);
+    for (const char* name : {"stroke", "stroke_ratio", "leg_ratio"}) {
+      CAPTURE(name);
+      const double value = 1.0 - hand::margin(drawn_poses, {.name = name, .high = 1.0}, without);
+      const Limit limit{.name = name, .high = std::string(name) == "stroke" ? 0.95 * value : 0.05 + 0.95 * value};
+      Problem p = free;
+      p.limits.push_back(limit);
+      const RegionResult found = optimize_region(p, region, few(2));
+      CAPTURE(found.result.reason);
+      REQUIRE(found.result.status == Status::optimal);
+      CHECK(hand::margin(drawn_poses, limit, found.result.candidates.front().variables) >= -passed);
+    }
+  }
+
   TEST_CASE("threads do not change a bit") {
     for (const int threads : {1, 3}) {
       if (sanitized && threads == 3) continue;

@@ -1,6 +1,6 @@
-/// Runs a fuzz target without libFuzzer, with any compiler: replay_NAME CORPUS INPUTS feeds it every file of a folder, and
-/// then so many inputs made from them, the same in every run; replay_NAME FILE feeds it one. What it is fed is in the
-/// file replay_NAME.input until the next: after a failure, what failed.
+/// Runs a fuzz target without libFuzzer, with any compiler. replay_NAME CORPUS INPUTS feeds it every file of a folder,
+/// and then so many inputs made from them, the same in every run. What it is fed stands in the file replay_NAME.input
+/// until the next: after a failure, what failed. replay_NAME FILE feeds it that.
 
 #include <algorithm>
 #include <cstdint>
@@ -71,14 +71,18 @@ class Mutator {
 
 int main(int count, char** arguments) {
   namespace fs = std::filesystem;
-  if (count != 2 && count != 3) {
+  const bool one = count == 2 && fs::is_regular_file(arguments[1]);
+  const long inputs = count == 3 ? std::strtol(arguments[2], nullptr, 10) : 0;
+  if (!one && !(count == 3 && fs::is_directory(arguments[1]) && inputs > 0)) {
     std::fprintf(stderr, "usage: %s CORPUS INPUTS, or %s FILE\n", arguments[0], arguments[0]);
     return 2;
   }
+  if (one) {
+    const Input in = read(arguments[1]);
+    return LLVMFuzzerTestOneInput(in.data(), in.size());
+  }
   std::vector<fs::path> files;
-  if (fs::is_directory(arguments[1]))
-    for (const fs::directory_entry& entry : fs::directory_iterator(arguments[1])) files.push_back(entry.path());
-  else files.emplace_back(arguments[1]);
+  for (const fs::directory_entry& entry : fs::directory_iterator(arguments[1])) files.push_back(entry.path());
   std::ranges::sort(files);
   std::vector<Input> corpus;
   for (const fs::path& file : files) corpus.push_back(read(file));
@@ -86,14 +90,14 @@ int main(int count, char** arguments) {
     std::fprintf(stderr, "%s: no file in it\n", arguments[1]);
     return 2;
   }
-  const std::string kept = fs::path(arguments[0]).filename().string() + ".input";
+  const fs::path kept = fs::absolute(fs::path(arguments[0]).filename().string() + ".input");
+  std::fprintf(stderr, "what fails is kept in %s\n", kept.c_str());
   const auto feed = [&](const Input& in) {
     std::ofstream(kept, std::ios::binary)
         .write(reinterpret_cast<const char*>(in.data()), static_cast<std::streamsize>(in.size()));
     LLVMFuzzerTestOneInput(in.data(), in.size());
   };
   for (const Input& in : corpus) feed(in);
-  const long inputs = count == 3 ? std::strtol(arguments[2], nullptr, 10) : 0;
   Mutator mutator(corpus);
   for (long k = 0; k < inputs; ++k) feed(mutator.next());
   fs::remove(kept);

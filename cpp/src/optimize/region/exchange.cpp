@@ -30,9 +30,11 @@ void conclude(Result& result, bool settled, int rounds, const Candidate& best, d
   std::array<char, 200> text{};
   result.status = Status::stopped;
   if (!settled) {
-    std::snprintf(text.data(), text.size(),
-                  "after %d rounds the design is still worse between the poses than at them: %.1e may be left to gain",
-                  rounds, gain);
+    std::snprintf(
+        text.data(), text.size(),
+        "after %d rounds the design is still worse between the poses than at them: the optimum may be up to %.1e "
+        "worse",
+        rounds, gain);
   } else if (best.stationary() && gain > most_gain) {
     std::snprintf(text.data(), text.size(),
                   "no limit is passed in the region, but %.1e may be left to gain near this design", gain);
@@ -72,9 +74,9 @@ Candidate Exchange::solved(const Imposed& imposed, const Eigen::VectorXd& x, boo
   // Newton's method is content with values that are equal to 1e-6 only.
   constexpr RunSettings without_newton{.restarts = 0, .polish = false};
   Candidate out = run(x, exactly ? without_newton : RunSettings{.restarts = 1});
-  if (!exactly || out.feasible()) return out;
+  if (!exactly || (out.feasible() && out.stationary()) || control_.stop.stop_requested()) return out;
   out = run(x, {.restarts = 1});
-  return out.feasible() ? run(out.variables, without_newton) : out;
+  return out.feasible() && !control_.stop.stop_requested() ? run(out.variables, without_newton) : out;
 }
 
 double Exchange::slack(const Settled& of) const {

@@ -8,6 +8,7 @@
 #include "math/numbers.hpp"
 #include "ninedof/optimize/evaluate.hpp"
 #include "ninedof/optimize/leg_range.hpp"
+#include "ninedof/robot/legs.hpp"
 #include "optimize/region/design_at_poses.hpp"
 
 namespace ninedof {
@@ -43,34 +44,36 @@ bool wants_spread(const Problem& problem) {
   return std::ranges::any_of(problem.limits, [](const Limit& l) { return is_of_spread(l.label()) && l.low > 0.0; });
 }
 
-/// Of the poses where legs are longest or shortest those of legs that nearly break a limit that compares poses; all
-/// where a limit wants legs to differ.
-std::vector<Vec6> nearly_too_far_apart(const Problem& problem, const Region& region, const Eigen::VectorXd& own,
-                                       const RegionWorst& found) {
+/// Of the poses where legs are longest or shortest in a region, the last ones of `there`, those of legs that nearly break
+/// a limit that compares poses, listed ones too; all where a limit wants legs to differ.
+std::vector<Vec6> nearly_too_far_apart(const Problem& there, const Eigen::VectorXd& x, const RegionWorst& found) {
   std::vector<Vec6> out;
-  if (wants_spread(problem)) {
+  if (wants_spread(there)) {
     for (const auto* ends : {&found.longest_at, &found.shortest_at}) std::ranges::copy(*ends, std::back_inserter(out));
     return out;
   }
-  DesignAtPoses design(problem, region, own);
-  const auto length = [&](const Vec6& at, std::size_t leg) {
-    design.go(at);
-    return design.lengths()[static_cast<Eigen::Index>(leg)];
-  };
-  Vec9 longest, shortest;
-  for (std::size_t leg = 0; leg < 9; ++leg) {
-    longest[static_cast<Eigen::Index>(leg)] = length(found.longest_at[leg], leg);
-    shortest[static_cast<Eigen::Index>(leg)] = length(found.shortest_at[leg], leg);
+  const Geometry g = geometry(there, x);
+  const std::vector<Configuration> all = configurations(there, x);  // the first is the neutral one
+  Vec9 longest = Vec9::Zero(), shortest = Vec9::Constant(infinity), long_here, short_here;
+  for (std::size_t k = 1; k < all.size(); ++k) {
+    const Vec9 lengths = leg_lengths(g, all[k]);
+    longest = longest.cwiseMax(lengths);
+    shortest = shortest.cwiseMin(lengths);
+    if (const std::size_t left = all.size() - k; left <= 18) {
+      const auto leg = static_cast<Eigen::Index>((18 - left) % 9);
+      (left > 9 ? long_here : short_here)[leg] = lengths[leg];
+    }
   }
-  for (LegRange& range : leg_ranges(problem)) {
-    range.set_zp(own[design_family(problem.family).index("zp")]);
-    const auto measured = [&](double x) { return range.measured(x); };
+  for (LegRange& range : leg_ranges(there)) {
+    range.set_zp(x[design_family(there.family).index("zp")]);
+    const auto measured = [&](double length) { return range.measured(length); };
     const Vec9 high = longest.unaryExpr(measured), low = shortest.unaryExpr(measured);
     const double near = range.width() - worst_window;
     for (std::size_t leg = 0; leg < 9; ++leg) {
       const auto k = static_cast<Eigen::Index>(leg);
-      if (high[k] - (range.each_leg ? low[k] : low.minCoeff()) > near) out.push_back(found.longest_at[leg]);
-      if ((range.each_leg ? high[k] : high.maxCoeff()) - low[k] > near) out.push_back(found.shortest_at[leg]);
+      const double top = range.each_leg ? high[k] : high.maxCoeff(), bottom = range.each_leg ? low[k] : low.minCoeff();
+      if (measured(long_here[k]) - bottom > near) out.push_back(found.longest_at[leg]);
+      if (top - measured(short_here[k]) > near) out.push_back(found.shortest_at[leg]);
     }
   }
   return out;
@@ -128,10 +131,9 @@ Look look_over(const Problem& problem, const Region& region, const Imposed& impo
     Imposed extremes;
     for (const auto* ends : {&found.longest_at, &found.shortest_at})
       std::ranges::copy(*ends, std::back_inserter(extremes.at));
-    for (const Vec6& at : nearly_too_far_apart(alone, region, own_variables(problem, x), found))
-      worse.push_back({0.0, at});
     Problem there = posed(problem, poses_of(problem, region, extremes));
     there.objective.aggregate = Aggregate::worst;
+    for (const Vec6& at : nearly_too_far_apart(there, x, found)) worse.push_back({0.0, at});
     for (const Evaluation::Margin& margin : evaluate(there, x).margins)
       if (is_of_spread(margin.name)) take_margin(margin.value, margin.name);
   }
