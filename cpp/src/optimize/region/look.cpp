@@ -44,8 +44,9 @@ bool wants_spread(const Problem& problem) {
   return std::ranges::any_of(problem.limits, [](const Limit& l) { return is_of_spread(l.label()) && l.low > 0.0; });
 }
 
-/// Of the poses where legs are longest or shortest in a region, the last ones of `there`, those of legs that nearly break
-/// a limit that compares poses, listed ones too; all where a limit wants legs to differ.
+/// Of the poses where legs are longest or shortest in a region, those of legs that nearly break a limit that compares
+/// poses, listed ones too; all where a limit wants legs to differ. The last 18 poses of `there` are these: nine longest,
+/// nine shortest.
 std::vector<Vec6> nearly_too_far_apart(const Problem& there, const Eigen::VectorXd& x, const RegionWorst& found) {
   std::vector<Vec6> out;
   if (wants_spread(there)) {
