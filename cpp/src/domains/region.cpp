@@ -17,6 +17,15 @@ Vector shortened(const Vector& v, double longest) {
   return length > longest ? Vector(v * (longest / length)) : v;
 }
 
+/// The derivatives of `shortened`.
+template <class Vector>
+auto shortened_slopes(const Vector& v, double longest) {
+  using Matrix = Eigen::Matrix<double, Vector::RowsAtCompileTime, Vector::RowsAtCompileTime>;
+  const double length = v.norm();
+  if (!(length > longest)) return Matrix(Matrix::Identity());
+  return Matrix(longest / length * (Matrix::Identity() - v * v.transpose() / (length * length)));
+}
+
 /// A point of a path, its derivative by t, and the t of the corners between which it lies.
 struct PathPoint {
   Vec3 at, slope = Vec3::Zero();
@@ -79,6 +88,19 @@ Vec6 Region::nearest(Vec6 at) const {
   if (shape == Shape::cylinder) at.head<2>() = shortened(Eigen::Vector2d(at.head<2>()), size[0]);
   at.segment<2>(3) = shortened(Eigen::Vector2d(at.segment<2>(3)), tilt);
   return at;
+}
+
+Mat6 Region::nearest_slopes(const Vec6& at) const {
+  const Vec6 most = reach(), kept = at.cwiseMax(-most).cwiseMin(most);
+  Mat6 out = (kept.array() == at.array() && most.array() > 0.0).cast<double>().matrix().asDiagonal();
+  const auto round = [&](Eigen::Index first, const auto& v, double longest) {
+    const Eigen::Index n = v.size();
+    out.middleRows(first, n) = (shortened_slopes(v, longest) * out.middleRows(first, n)).eval();
+  };
+  if (shape == Shape::ball) round(0, Vec3(kept.head<3>()), size[0]);
+  if (shape == Shape::cylinder) round(0, Eigen::Vector2d(kept.head<2>()), size[0]);
+  round(3, Eigen::Vector2d(kept.segment<2>(3)), tilt);
+  return out;
 }
 
 Pose Region::pose(const Vec6& at) const {

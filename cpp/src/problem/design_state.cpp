@@ -51,6 +51,8 @@ void DesignState::set(const DesignFamily& family, const Problem& problem, const 
   tool_arm_ = blueprint.theta_z == 0.0 ? tool.position : rotation_about_z(blueprint.theta_z) * tool.position;
   tool_arm_by_theta_z_ = Vec3::UnitZ().cross(tool_arm_);
   columns_ = c.size();
+  free_.resize(at_index(c.size()));
+  for (int k = 0; k < c.size(); ++k) free_[at_index(k)] = c.variable(k);
   if (column_.size() != own) {
     column_.resize(own);
     for (std::size_t v = 0; v < own; ++v) column_[v] = c.coordinate(static_cast<int>(v));
@@ -82,7 +84,8 @@ void DesignState::set_pose(int k, const PoseSpec& spec) {
 }
 
 void DesignState::place(const PoseSpec& spec, PoseState& out) const {
-  const Pose& pose = spec.pose;
+  const std::optional<Vec6> at = spec.follows ? std::optional(spec.follows->at_design(x)) : std::nullopt;
+  const Pose pose = at ? spec.follows->region.pose(*at) : spec.pose;
   const double f = spec.fraction;
   const double size = pose.in_zp ? blueprint.zp : 1.0;
   Vec3 offset = Vec3::Zero();  // of s, in zp
@@ -107,8 +110,18 @@ void DesignState::place(const PoseSpec& spec, PoseState& out) const {
   out.legs = nine_legs(out.at);
   out.fraction = f;
   out.coordinate = spec.coordinate;
-  out.moves = spec.slopes.has_value();
-  if (out.moves) out.by_at = at_fraction(*spec.slopes, f, size, pose.rotation);
+  out.moves = spec.slopes || at;
+  if (out.moves) out.by_at = at_fraction(at ? spec.follows->region.slopes(*at) : *spec.slopes, f, size, pose.rotation);
+  out.follows = at.has_value();
+  if (at) follow(*spec.follows, out);
+}
+
+void DesignState::follow(const FollowingPose& pose, PoseState& out) const {
+  const Mat6 by_moved = pose.region.nearest_slopes(pose.moved(x));
+  out.at_by_y.setZero(6, columns_);
+  for (Eigen::Index k = 0; k < columns_; ++k)
+    if (const int v = free_[at_index(k)]; v < pose.variables.size())
+      out.at_by_y.col(k) = slopes_[k] * (by_moved * pose.by_variables.col(v));
 }
 
 void DesignState::set_extremes() {
@@ -189,7 +202,7 @@ void DesignState::add_joint(int joint, const Vec3& g, Row out) const {
 
 void DesignState::add_turn(int k, const Vec3& g, Row out) const {
   add_jet(g.dot(pose(k).twist_axis), row_theta_z, out);
-  if (pose(k).moves) add_at(g, pose(k).by_at.turn, out);
+  if (pose(k).moves) add_at(pose(k), g, pose(k).by_at.turn, out);
 }
 
 void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
@@ -197,7 +210,7 @@ void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
   if (point == point_s) {
     add_zs(g.z(), out);
     add_zp(g.dot(v.s_by_zp), out);
-    if (v.moves) add_at(g, v.by_at.internal, out);
+    if (v.moves) add_at(v, g, v.by_at.internal, out);
     for (int axis = 0; axis < 3; ++axis)
       if (v.coordinate[at_index(axis)] >= 0) out[v.coordinate[at_index(axis)]] += v.fraction * blueprint.zp * g[axis];
     return;
@@ -205,7 +218,7 @@ void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
   if (point < 6) return add_joint(point, g, out);
   add_zp(g.dot(v.p_by_zp), out);
   add_jet(g.dot(tool_arm_by_theta_z_), row_theta_z, out);
-  if (v.moves) add_at(g, v.by_at.position, out);
+  if (v.moves) add_at(v, g, v.by_at.position, out);
   if (point == point_p) return;
   add_joint(point, v.plate.transpose() * g, out);
   add_turn(k, (v.at[at_index(point)] - v.at[point_p]).cross(g), out);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,6 +18,19 @@ namespace ninedof {
 using Row = Eigen::Ref<Eigen::RowVectorXd>;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// A pose of a region that moves with the design, as the worst one of a row does: the row then has the slopes and, near
+/// the design where it starts, the curvature of the row's worst.
+struct FollowingPose {
+  Region region;
+  Vec6 at;                    ///< at that design
+  Eigen::VectorXd variables;  ///< the first ones of that design
+  Eigen::Matrix<double, 6, Eigen::Dynamic> by_variables;
+
+  /// The coordinates that lead to the pose of a design, before they are moved into the region.
+  Vec6 moved(const Eigen::VectorXd& x) const { return at + by_variables * (x.head(variables.size()) - variables); }
+  Vec6 at_design(const Eigen::VectorXd& x) const { return region.nearest(moved(x)); }
+};
+
 /// What fixes a pose: the displacement, and the variables that move s.
 struct PoseSpec {
   Pose pose;
@@ -24,6 +38,7 @@ struct PoseSpec {
   std::array<int, 3> offset{-1, -1, -1};        ///< full variables that move s, or -1
   std::array<int, 3> coordinate{-1, -1, -1};    ///< free coordinates behind them
   std::optional<PoseSlopes> slopes{};  ///< where derivatives by the coordinates of the pose in a region are wanted
+  std::shared_ptr<const FollowingPose> follows{};  ///< in place of the displacement
 };
 
 /// The neutral pose, the poses of the objective, and poses between them for singularity_free.
@@ -36,8 +51,10 @@ struct PoseState : PosedPoints {
   Vec3 p_by_zp, s_by_zp;
   double fraction;
   std::array<int, 3> coordinate;
-  bool moves = false;  ///< whether these are known: the derivatives of `slopes` at the fraction
+  bool moves = false;  ///< whether these are known: the derivatives by the coordinates in a region, at the fraction
   PoseSlopes by_at;
+  bool follows = false;  ///< the design; then these are the derivatives of the coordinates by the free ones
+  Eigen::Matrix<double, 6, Eigen::Dynamic> at_by_y;
 };
 
 /// A leg at a pose, the longest or shortest of some.
@@ -100,8 +117,12 @@ class DesignState {
   void set_natural_length(const PoseState& home);
   double trial_length() const { return std::max(blueprint.zp, 1e-150); }
   void place(const PoseSpec& spec, PoseState& out) const;
-  void add_at(const Vec3& g, const PoseSlopes::Columns& slopes, Row out) const {
-    out.segment<6>(columns_) += g.transpose() * slopes;
+  /// The derivatives of the coordinates of such a pose by the free ones.
+  void follow(const FollowingPose& pose, PoseState& out) const;
+  void add_at(const PoseState& v, const Vec3& g, const PoseSlopes::Columns& slopes, Row out) const {
+    const Eigen::Matrix<double, 1, 6> by_at = g.transpose() * slopes;
+    if (v.follows) out.head(v.at_by_y.cols()) += by_at * v.at_by_y;
+    else out.segment<6>(columns_) += by_at;
   }
   void set_extremes();
 
@@ -111,6 +132,7 @@ class DesignState {
   Eigen::Index columns_ = 0;  ///< the free coordinates; those of internal points, of which there may be many, are last
   bool moves_ = false;  ///< whether a pose has slopes
   Eigen::VectorXd slopes_;
+  std::vector<int> free_;  ///< full variable behind each free coordinate
   std::vector<int> column_;  ///< free coordinate behind each of the family's variables, or -1
 };
 

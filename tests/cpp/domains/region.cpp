@@ -44,6 +44,21 @@ TEST_SUITE("region") {
     }
   }
 
+  TEST_CASE("slopes of the nearest coordinates against differences") {
+    constexpr double h = 1e-6;
+    for (const Region::Shape shape : shapes) {
+      const Region region = region_of(shape);
+      for (long n = 0; n < 500; ++n) {
+        const Vec6 at = (static_cast<double>(n % 3) + 0.5) * region_sample(region, n, 9);  // within and beside it
+        const Mat6 slopes = region.nearest_slopes(at);
+        for (int k = 0; k < 6; ++k) {
+          const Vec6 e = h * Vec6::Unit(k);
+          CHECK((slopes.col(k) - (region.nearest(at + e) - region.nearest(at - e)) / (2.0 * h)).norm() <= 1e-8);
+        }
+      }
+    }
+  }
+
   TEST_CASE("the coordinates of a pose are those that it was made of") {
     for (const Region::Shape shape : shapes) {
       const Region region = region_of(shape);

@@ -39,6 +39,8 @@ struct Region {
   Vec6 reach() const;
   /// The nearest coordinates in the region.
   Vec6 nearest(Vec6 at) const;
+  /// The derivatives of `nearest`.
+  Mat6 nearest_slopes(const Vec6& at) const;
   Pose pose(const Vec6& at) const;
   /// The coordinates of a pose in the unit of the region, which may lie beside it; on a path those of the nearest point.
   Vec6 coordinates(const Pose& pose) const;

@@ -10,6 +10,12 @@
 
 namespace ninedof {
 
+/// The numbers of a design that a region is searched for, the worse the lower: minus the logarithm of the index, the
+/// length of every leg and its negative, the margins of all limits.
+struct RegionNumber {
+  static constexpr int index = 0, shortest = 1, longest = 10, first_margin = 19;
+};
+
 /// The worst values of one design over a region, each with the coordinates of the pose where it was met (see Region).
 struct RegionWorst {
   struct Limit {

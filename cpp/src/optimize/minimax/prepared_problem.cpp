@@ -207,6 +207,13 @@ double PreparedProblem::violation_factor(int k) const {
   return constraint < 0 ? 1.0 : constraints[at_index(constraint)]->violation_factor(row);
 }
 
+bool PreparedProblem::follow(int pose, const std::shared_ptr<const FollowingPose>& how) {
+  if (closed[at_index(pose)]) return false;
+  for (std::size_t k = 1; k < pose_specs.size(); ++k)
+    if (objective_pose(static_cast<int>(k)) == pose) pose_specs[k].follows = how;
+  return true;
+}
+
 void PreparedProblem::set_state(const Eigen::VectorXd& y, DesignState& state) const {
   state.set(*family, problem, coordinates, pose_specs, objective_poses, y);
   state.unit = problem.unit();

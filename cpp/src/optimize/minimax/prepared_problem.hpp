@@ -65,6 +65,8 @@ struct PreparedProblem {
   double limited_value(int k, double margin) const;
   std::string margin_part(int k) const;
   double violation_factor(int k) const;
+  /// Lets a pose of the objective follow the design; false, and it does not, where the closed form is used.
+  bool follow(int pose, const std::shared_ptr<const FollowingPose>& how);
   /// The state of the design at `y`, in solver coordinates.
   void set_state(const Eigen::VectorXd& y, DesignState& state) const;
   /// The pieces of the characteristic length that a design at `y` belongs to, as DesignState::length_joint, the

@@ -1,36 +1,49 @@
 #pragma once
-/// One design at poses of a region, one after another: values alone.
+/// One design at poses of a region, one after another.
 
-#include "ninedof/domains/region.hpp"
+#include "ninedof/domains/pose_numbers.hpp"
+#include "ninedof/optimize/region_search.hpp"
 #include "optimize/minimax/design_evaluation.hpp"
 #include "optimize/region/posed.hpp"
 
 namespace ninedof {
 
-class DesignAtPoses {
+/// The numbers of RegionNumber, in one group.
+class DesignAtPoses : public PoseNumbers {
  public:
-  /// `variables`: a full set of the problem without poses.
-  DesignAtPoses(const Problem& problem, const Region& region, const Eigen::VectorXd& variables)
-      : region_(region), p_(with_one_pose(problem), variables), specs_(p_.pose_specs), none_(selection_of(p_)) {
-    p_.set_state({}, design_.state);
-  }
+  /// `variables`: a full set of the problem without poses; where `with_design`, derivatives by them are there too.
+  DesignAtPoses(const Problem& problem, const Region& region, const Eigen::VectorXd& variables,
+                bool with_design = false);
 
-  void go(const Vec6& at) {
-    for (std::size_t k = 1; k < specs_.size(); ++k) specs_[k].pose = region_.pose(at);
-    design_.state.set_poses(specs_);
-    evaluate_rows(p_, design_, &none_);
-  }
-  const PreparedProblem& rows() const { return p_; }
-  const Eigen::VectorXd& margins() const { return design_.margins; }
+  int margins() const { return static_cast<int>(p_.margins.size()); }
+  const std::string& margin_name(int k) const { return p_.margin_name(k); }
+  ShownMargin shown_margin(int k, double margin) const { return p_.shown_margin(k, margin); }
+
+  /// Goes to a pose and evaluates it.
+  void look_at(const Vec6& at);
+  double margin(int k) const { return design_.margins[k]; }
   double log_index() const { return design_.log_objective; }
-  const Vec9& lengths() const { return design_.state.pose(1).legs.length; }
+  Vec9 lengths() const { return design_.state.pose(1).legs.length; }
+
+  std::vector<int> groups() const override { return {RegionNumber::first_margin + margins()}; }
+  void go(const Vec6& at) override;
+  void evaluate(int group, double* out) override;
+  bool smooth(int group, int number) const override;
+  double slopes(int group, int number, const Vec6& at, Vec6& by_at) override;
+  std::vector<double> worthwhile(const std::vector<double>& sampled) const override;
+
+  /// A number and its derivatives, by the variables if asked for, then by the six coordinates of the pose; none by these
+  /// of a number that has no pose.
+  double differentiate(int number, const Vec6& at, Eigen::RowVectorXd& slopes);
 
  private:
+  void go_with_slopes(int pose, const Vec6& at);
+
   Region region_;
   PreparedProblem p_;
   std::vector<PoseSpec> specs_;
   DesignEvaluation design_;
-  RowSelection none_;
+  RowSelection none_;  // no derivatives
 };
 
 }  // namespace ninedof

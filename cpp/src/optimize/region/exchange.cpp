@@ -22,7 +22,7 @@ constexpr double may_be_left = 5e-8;  // to gain after them, without the slack: 
 constexpr int last_exact = 8;         // of them; then what is left is said
 constexpr int most_drops = 20;        // rounds: then none leaves and joins again for ever
 constexpr double replaces = 0.02;  // of the region: a later pose as near as this
-constexpr int first_comparison = 4;  // round from which a design is compared with the best known
+constexpr int first_comparison = 3;  // round from which a design is compared with the best known
 
 }  // namespace
 
@@ -63,8 +63,12 @@ PreparedProblem Exchange::prepared(const Imposed& imposed) const {
   return {there, size_limits(there).back()};
 }
 
-Candidate Exchange::solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly) {
-  const PreparedProblem p = prepared(imposed);
+Candidate Exchange::solved(const Following& following, const Eigen::VectorXd& x, bool exactly, Imposed& imposed) {
+  PreparedProblem p = prepared(imposed);
+  const auto first = p.objective_poses - static_cast<int>(imposed.at.size());
+  Following moving;
+  for (const auto& [k, pose] : following)
+    if (p.follow(first + static_cast<int>(k), pose)) moving.emplace_back(k, pose);
   const auto run = [&](const Eigen::VectorXd& from, RunSettings how) {
     how.max_evaluations = settings_.max_evaluations;
     LocalRun out = run_from_start(p, p.coordinates.coordinates(from), Formulation::minimax, how, control_.stop);
@@ -74,6 +78,7 @@ Candidate Exchange::solved(const Imposed& imposed, const Eigen::VectorXd& x, boo
   // Newton's method is content with values that are equal to 1e-6 only.
   constexpr RunSettings without_newton{.restarts = 0, .polish = false};
   Candidate out = run(x, exactly ? without_newton : RunSettings{.restarts = 1});
+  for (const auto& [k, pose] : moving) imposed.at[k] = pose->at_design(out.variables);
   if (!exactly || (out.feasible() && out.stationary()) || control_.stop.stop_requested()) return out;
   out = run(x, {.restarts = 1});
   return out.feasible() && !control_.stop.stop_requested() ? run(out.variables, without_newton) : out;
@@ -145,17 +150,32 @@ void Exchange::drop(const Eigen::VectorXd& x, std::size_t first, std::size_t las
   imposed.at = std::move(kept);
 }
 
+Exchange::Following Exchange::join(const Eigen::VectorXd& x, const std::vector<Look::Worst>& worst, bool moving,
+                                   Imposed& imposed) const {
+  Following out;
+  PoseFollower follower(problem_, region_, x);
+  for (const Look::Worst& one : worst) {
+    const auto near = [&](const Vec6& other) { return distance_in(region_, one.at, other) <= one_place; };
+    if (std::ranges::any_of(imposed.at, near)) continue;
+    if (moving)
+      if (auto pose = follower.following(one)) out.emplace_back(imposed.at.size(), std::move(pose));
+    imposed.at.push_back(one.at);
+  }
+  return out;
+}
+
 Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, const Settled* known) {
   Settled out;
   Imposed imposed = first;
   std::size_t known_before = first.at.size();  // poses that did not join in the last round
   Eigen::VectorXd x = start;
   int exact = 0;  // rounds without Newton's method
+  Following moving;  // poses that joined in the last round
   while (out.rounds < most_exchanges && !control_.stop.stop_requested()) {
     ++out.rounds;
     ++rounds_;
     tell(out, imposed);
-    Candidate next = solved(imposed, x, exact > 0);
+    Candidate next = solved(moving, x, exact > 0, imposed);
     if (control_.stop.stop_requested()) {
       if (out.rounds == 1) out.rounds = 0;  // there is no design yet
       break;
@@ -180,15 +200,13 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     if (holds()) {
       out.slack = slack(out);
       out.settled = out.slack <= passed || (exact >= most_exact && gain_of(out) <= most_gain) || exact >= last_exact;
+      if (!moving.empty() && !at_imposed(imposed, x).stationary()) out.settled = false;  // while they moved with it
       if (out.settled) break;
     }
     exact += exact > 0 || out.look.excess <= passed;
     if (out.rounds <= most_drops) drop(x, first.at.size(), known_before, imposed);
     known_before = imposed.at.size();
-    for (const Vec6& at : out.look.worst)
-      if (std::ranges::none_of(imposed.at,
-                               [&](const Vec6& other) { return distance_in(region_, at, other) <= one_place; }))
-        imposed.at.push_back(at);
+    moving = join(x, out.look.worst, exact == 0, imposed);
   }
   return out;
 }

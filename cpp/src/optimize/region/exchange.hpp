@@ -1,10 +1,11 @@
 #pragma once
 /// From one design to the optimum over a region near it: solve at the poses imposed, look over the region, impose what
-/// is worse there, and again.
+/// is worse there, and again. What was imposed last follows the design while it is solved, as the worst pose does (local
+/// reduction): its row then bends as the worst does, and few rounds are needed.
 
 #include "ninedof/optimize/region_study.hpp"
 #include "optimize/minimax/prepared_problem.hpp"
-#include "optimize/region/look.hpp"
+#include "optimize/region/pose_follower.hpp"
 
 namespace ninedof {
 
@@ -53,8 +54,14 @@ class Exchange {
 
  private:
   PreparedProblem prepared(const Imposed& imposed) const;
-  /// The optimum at the poses alone; `exactly`: until its slack is as small as what may be passed between the poses.
-  Candidate solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly);
+  /// Imposed poses by their place in the list, and how they follow the design.
+  using Following = std::vector<std::pair<std::size_t, std::shared_ptr<const FollowingPose>>>;
+
+  /// The optimum at the poses alone; those that follow the design move to where they are then. `exactly`: until its
+  /// slack is as small as what may be passed between the poses.
+  Candidate solved(const Following& following, const Eigen::VectorXd& x, bool exactly, Imposed& imposed);
+  /// Imposes the local worsts of a design; how they follow it, where `moving`.
+  Following join(const Eigen::VectorXd& x, const std::vector<Look::Worst>& worst, bool moving, Imposed& imposed) const;
   /// Leaves out the imposed poses from `first` up to `last` that do not hold the design and have a later one near them:
   /// of the row that a worst pose leaves as it moves with the design its end stays.
   void drop(const Eigen::VectorXd& x, std::size_t first, std::size_t last, Imposed& imposed) const;

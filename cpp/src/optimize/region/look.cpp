@@ -45,37 +45,37 @@ bool wants_spread(const Problem& problem) {
 }
 
 /// Of the poses where legs are longest or shortest in a region, those of legs that nearly break a limit that compares
-/// poses, listed ones too; all where a limit wants legs to differ. The last 18 poses of `there` are these: nine longest,
-/// nine shortest.
-std::vector<Vec6> nearly_too_far_apart(const Problem& there, const Eigen::VectorXd& x, const RegionWorst& found) {
-  std::vector<Vec6> out;
-  if (wants_spread(there)) {
-    for (const auto* ends : {&found.longest_at, &found.shortest_at}) std::ranges::copy(*ends, std::back_inserter(out));
-    return out;
-  }
+/// poses, listed ones too; all where a limit wants legs to differ. `there` ends with these poses: nine longest, nine
+/// shortest.
+std::vector<Look::Worst> nearly_too_far_apart(const Problem& there, const Eigen::VectorXd& x,
+                                              const RegionWorst& found) {
   const Geometry g = geometry(there, x);
   const std::vector<Configuration> all = configurations(there, x);  // the first is the neutral one
-  Vec9 longest = Vec9::Zero(), shortest = Vec9::Constant(infinity), long_here, short_here;
-  for (std::size_t k = 1; k < all.size(); ++k) {
-    const Vec9 lengths = leg_lengths(g, all[k]);
-    longest = longest.cwiseMax(lengths);
-    shortest = shortest.cwiseMin(lengths);
-    if (const std::size_t left = all.size() - k; left <= 18) {
-      const auto leg = static_cast<Eigen::Index>((18 - left) % 9);
-      (left > 9 ? long_here : short_here)[leg] = lengths[leg];
-    }
-  }
+  Eigen::Matrix<double, 9, Eigen::Dynamic> lengths(9, static_cast<Eigen::Index>(all.size()) - 1);
+  for (std::size_t k = 1; k < all.size(); ++k) lengths.col(static_cast<Eigen::Index>(k) - 1) = leg_lengths(g, all[k]);
+  const Vec9 longest = lengths.rowwise().maxCoeff(), shortest = lengths.rowwise().minCoeff();
+  const Vec9 long_here = lengths.rightCols<18>().leftCols<9>().diagonal();
+  const Vec9 short_here = lengths.rightCols<9>().diagonal();
+  std::array<bool, 9> long_joins{}, short_joins{};
+  long_joins.fill(wants_spread(there));
+  short_joins = long_joins;
   for (LegRange& range : leg_ranges(there)) {
     range.set_zp(x[design_family(there.family).index("zp")]);
     const auto measured = [&](double length) { return range.measured(length); };
     const Vec9 high = longest.unaryExpr(measured), low = shortest.unaryExpr(measured);
     const double near = range.width() - worst_window;
-    for (std::size_t leg = 0; leg < 9; ++leg) {
-      const auto k = static_cast<Eigen::Index>(leg);
-      const double top = range.each_leg ? high[k] : high.maxCoeff(), bottom = range.each_leg ? low[k] : low.minCoeff();
-      if (measured(long_here[k]) - bottom > near) out.push_back(found.longest_at[leg]);
-      if (top - measured(short_here[k]) > near) out.push_back(found.shortest_at[leg]);
+    for (Eigen::Index leg = 0; leg < 9; ++leg) {
+      const double top = range.each_leg ? high[leg] : high.maxCoeff();
+      const double bottom = range.each_leg ? low[leg] : low.minCoeff();
+      long_joins[at_index(leg)] |= measured(long_here[leg]) - bottom > near;
+      short_joins[at_index(leg)] |= top - measured(short_here[leg]) > near;
     }
+  }
+  std::vector<Look::Worst> out;
+  for (int leg = 0; leg < 9; ++leg) {
+    const std::size_t k = at_index(leg);
+    if (long_joins[k]) out.push_back({found.longest_at[k], RegionNumber::longest + leg});
+    if (short_joins[k]) out.push_back({found.shortest_at[k], RegionNumber::shortest + leg});
   }
   return out;
 }
@@ -97,6 +97,7 @@ Look look_over(const Problem& problem, const Region& region, const Imposed& impo
   struct Worse {
     double by;
     Vec6 at;
+    int number;
   };
   std::vector<Worse> worse;
   Look out;
@@ -114,7 +115,8 @@ Look look_over(const Problem& problem, const Region& region, const Imposed& impo
   for (const RegionWorst::Limit& limit : found.limits) {
     if (is_of_spread(limit.name)) continue;
     take_margin(limit.margin, limit.name);
-    if (limit.margin < worst_window && is_of_poses(limit.name)) worse.push_back({-limit.margin, limit.at});
+    if (limit.margin < worst_window && is_of_poses(limit.name))
+      worse.push_back({-limit.margin, limit.at, RegionNumber::first_margin + limit.row});
   }
   const double held = imposed_index(problem, region, imposed, x);
   out.log_index = -infinity;
@@ -126,7 +128,7 @@ Look look_over(const Problem& problem, const Region& region, const Imposed& impo
   if (held < infinity) out.gain = std::max(0.0, out.log_index - held);
   out.excess = std::max(out.excess, out.log_index - held);
   for (const RegionWorst::Index& end : found.index)
-    if (end.logarithm > held - worst_window) worse.push_back({end.logarithm - held, end.at});
+    if (end.logarithm > held - worst_window) worse.push_back({end.logarithm - held, end.at, RegionNumber::index});
   if (compares_poses(problem)) {
     // Margins of limits that compare poses are those at the poses where legs are longest and shortest.
     Imposed extremes;
@@ -134,14 +136,15 @@ Look look_over(const Problem& problem, const Region& region, const Imposed& impo
       std::ranges::copy(*ends, std::back_inserter(extremes.at));
     Problem there = posed(problem, poses_of(problem, region, extremes));
     there.objective.aggregate = Aggregate::worst;
-    for (const Vec6& at : nearly_too_far_apart(there, x, found)) worse.push_back({0.0, at});
+    for (const Look::Worst& w : nearly_too_far_apart(there, x, found)) worse.push_back({0.0, w.at, w.number});
     for (const Evaluation::Margin& margin : evaluate(there, x).margins)
       if (is_of_spread(margin.name)) take_margin(margin.value, margin.name);
   }
   std::ranges::stable_sort(worse, std::ranges::greater(), &Worse::by);
   for (const Worse& w : worse)
-    if (std::ranges::none_of(out.worst, [&](const Vec6& at) { return distance_in(region, at, w.at) <= one_pose; }))
-      out.worst.push_back(w.at);
+    if (std::ranges::none_of(out.worst,
+                             [&](const Look::Worst& o) { return distance_in(region, o.at, w.at) <= one_pose; }))
+      out.worst.push_back({w.at, w.number});
   return out;
 }
 
@@ -157,17 +160,17 @@ std::string so_far(double objective, double excess, int rounds, double passed) {
 std::vector<Vec6> nearly_deciding(const Problem& problem, const Region& region, const std::vector<Vec6>& at,
                                   const Eigen::VectorXd& x, double near) {
   DesignAtPoses design(problem, region, own_variables(problem, x));
-  const auto count = static_cast<int>(design.rows().margins.size());
+  const auto count = design.margins();
   std::vector<int> of_poses;
   for (int k = 0; k < count; ++k)
-    if (is_of_poses(design.rows().margin_name(k))) of_poses.push_back(k);
+    if (is_of_poses(design.margin_name(k))) of_poses.push_back(k);
   const auto n = static_cast<Eigen::Index>(at.size());
   Eigen::VectorXd index(n), margin = Eigen::VectorXd::Constant(n, infinity);
   Eigen::Matrix<double, 9, Eigen::Dynamic> lengths(9, n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    design.go(at[at_index(k)]);
+    design.look_at(at[at_index(k)]);
     index[k] = design.log_index();
-    for (const int row : of_poses) margin[k] = std::min(margin[k], design.margins()[row]);
+    for (const int row : of_poses) margin[k] = std::min(margin[k], design.margin(row));
     lengths.col(k) = design.lengths();
   }
   const bool means = problem.objective.aggregate == Aggregate::mean_inverse;

@@ -21,7 +21,11 @@ struct Look {
   double excess = 0.0;  ///< the most by which a limit, or the index at the imposed poses, is passed; not positive: none
   double gain = 0.0;  ///< by which the index is passed
   std::map<std::string, double> passed;  ///< by which each limit is passed, 0 where it is kept
-  std::vector<Vec6> worst;  ///< local worsts that pass or nearly do, the worst first
+  struct Worst {
+    Vec6 at;
+    int number;  ///< see RegionNumber
+  };
+  std::vector<Worst> worst;  ///< local worsts that pass or nearly do, the worst first
   long poses = 0;  ///< looked at
 };
 

@@ -22,7 +22,7 @@ double harmonic_mean(const Problem& problem, const Region& region, const std::ve
   DesignAtPoses design(plain, region, own_variables(problem, x));
   double sum = 0.0;
   for (const Vec6& pose : at) {
-    design.go(pose);
+    design.look_at(pose);
     sum += std::exp(-design.log_index());
   }
   return static_cast<double>(at.size()) / sum;

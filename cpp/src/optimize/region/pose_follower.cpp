@@ -1,0 +1,84 @@
+#include "optimize/region/pose_follower.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace ninedof {
+namespace {
+
+using Ways = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+constexpr double step = 1e-3;             // of the differences, in parts of the region
+constexpr double least_curvature = 1e-2;  // of the largest: a pose does not follow along what is nearly flat
+constexpr double any_curvature = 1e-5;    // over the region
+
+/// The directions in which a pose can move both ways within the region, or along its round edge; each as long as the
+/// region.
+Ways free_ways(const Region& region, const Vec6& at) {
+  const Vec6 reach = region.reach();
+  std::vector<Vec6> out;
+  const auto line = [&](Eigen::Index k) {
+    if (reach[k] > 0.0 && std::abs(at[k]) < reach[k] * (1.0 - 2.0 * step)) out.push_back(reach[k] * Vec6::Unit(k));
+  };
+  const auto round = [&](Eigen::Index first, Eigen::Index count) {
+    const double radius = reach[first];
+    if (radius == 0.0) return;
+    Eigen::MatrixXd within = Eigen::MatrixXd::Identity(count, count);
+    const Eigen::VectorXd v = at.segment(first, count) / radius;
+    if (v.norm() >= 1.0 - 2.0 * step) within = v.transpose().fullPivLu().kernel().colwise().normalized();
+    for (const auto& way : within.colwise()) {
+      out.emplace_back(Vec6::Zero());
+      out.back().segment(first, count) = radius * way;
+    }
+  };
+  Eigen::Index single = 0;
+  if (region.shape == Region::Shape::ball) round(0, single = 3);
+  if (region.shape == Region::Shape::cylinder) round(0, single = 2);
+  if (region.shape == Region::Shape::path) {
+    const auto [from, to] = region.straight(at[0]);
+    if (at[0] - from > 2.0 * step && to - at[0] > 2.0 * step) out.push_back(Vec6::Unit(0));
+    single = 3;
+  }
+  for (; single < 3; ++single) line(single);
+  round(3, 2);
+  line(5);
+  Ways ways(6, static_cast<Eigen::Index>(out.size()));
+  for (std::size_t k = 0; k < out.size(); ++k) ways.col(static_cast<Eigen::Index>(k)) = out[k];
+  return ways;
+}
+
+}  // namespace
+
+PoseFollower::PoseFollower(const Problem& problem, const Region& region, const Eigen::VectorXd& x)
+    : region_(region),
+      variables_(own_variables(problem, x)),
+      design_(without_poses(problem), region, variables_, true) {}
+
+std::shared_ptr<const FollowingPose> PoseFollower::following(const Look::Worst& worst) {
+  const Ways ways = free_ways(region_, worst.at);
+  const Eigen::Index m = ways.cols(), n = variables_.size();
+  if (m == 0) return nullptr;
+  // Differences of the slopes along the ways, and of those by the variables.
+  Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(m, m), mixed = Eigen::MatrixXd::Zero(m, n);
+  for (Eigen::Index j = 0; j < m; ++j)
+    for (const double side : {1.0, -1.0}) {
+      const Vec6 moved = worst.at + side * step * ways.col(j);
+      Eigen::RowVectorXd slopes;
+      design_.differentiate(worst.number, region_.nearest(moved), slopes);
+      if (slopes.size() != n + 6) return nullptr;  // the number is of no pose
+      const double by = side / (2.0 * step);
+      curvature.col(j) += by * (slopes.tail<6>() * region_.nearest_slopes(moved) * ways).transpose();
+      mixed.row(j) += by * slopes.head(n);
+    }
+  if (!curvature.allFinite() || !mixed.allFinite()) return nullptr;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (curvature + curvature.transpose()));
+  const double least = std::max(any_curvature, least_curvature * solver.eigenvalues().maxCoeff());
+  const Eigen::VectorXd inverse =
+      solver.eigenvalues().unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
+  if (inverse.isZero(0.0)) return nullptr;
+  const Eigen::MatrixXd& axes = solver.eigenvectors();
+  return std::make_shared<const FollowingPose>(
+      FollowingPose{region_, worst.at, variables_, -ways * axes * inverse.asDiagonal() * axes.transpose() * mixed});
+}
+
+}  // namespace ninedof
