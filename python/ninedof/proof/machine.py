@@ -18,8 +18,8 @@ from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate, ProofPose
 from ninedof.proof.point_rule import PointRule
-from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.robot.geometry import Geometry, triples
 from ninedof.support.arguments import finite, instance, shown, whole
 from ninedof.support.arrays import MOST_THREADS as MOST
 from ninedof.support.files import sha256
@@ -72,23 +72,19 @@ def certify(
     resume, progress, keep = values["resume"], values["progress"], values["keep"]
     if (condition_number := values["condition_number"]) is not None:
         condition_number = finite("condition_number", condition_number, 1.0)
-    if resume is not None:
-        instance("resume", resume, MachineCertificate)
     if keep is not None and not callable(keep):
         raise ValueError(f"keep: got {shown(keep)}, expected a callable of one argument")
+    size, most = max(built.joints, built.legs), LARGEST * study.zp(configurations[0])
+    if not size < most:
+        raise ValueError(f"tolerance: got {size:g}, expected less than a tenth of the machine's height, {most:.6g}")
     only_neutral = region is None and len(configurations) == 1
-    if resume is not None and resume.where != _where(study, only_neutral):
-        raise ValueError(
-            f"resume: got a certificate over {resume.where}, expected one over {_where(study, only_neutral)}"
-        )
-    if not max(built.joints, built.legs) < LARGEST * study.zp(configurations[0]):
-        raise ValueError(
-            f"tolerance: got {max(built.joints, built.legs):g}, expected less than a tenth of the machine's height, "
-            f"{LARGEST * study.zp(configurations[0]):.6g}"
-        )
+    where = _where(study, only_neutral)
     digest = machine_digest(study, geometry, configurations, characteristic_length, built)
-    if resume is not None and resume.machine != digest:
-        raise ValueError("resume: got a certificate of another machine, expected one of this machine")
+    if resume is not None:
+        if instance("resume", resume, MachineCertificate).where != where:
+            raise ValueError(f"resume: got a certificate over {resume.where}, expected one over {where}")
+        if resume.machine != digest:
+            raise ValueError("resume: got a certificate of another machine, expected one of this machine")
     begin = perf_counter()
     rule = _rule(study, configurations[0], values["rule"], resume)
     end = perf_counter() + seconds  # finding a rule does not count for the time limit
@@ -123,7 +119,7 @@ def certify(
     def certificate(state: _core.ConditionState, interrupted: bool) -> MachineCertificate:
         of_condition = [_condition_proof(*bound, state, only_neutral, slack) for bound in limits_of_index.items()]
         return MachineCertificate(
-            where=_where(study, only_neutral),
+            where=where,
             unit=study.unit,
             limits=(*limits, *of_condition, *at_neutral),
             lengths=over_poses.lengths,
@@ -225,9 +221,8 @@ def machine_digest(
         digest.update(repr((built.joints, built.legs)).encode())
     if study.tool:
         digest.update(repr((study.tool.position, study.tool.rotation)).encode())
-    joints = (geometry.base_external, geometry.base_internal, geometry.platform_external, geometry.platform_internal)
-    for array in (*joints, configurations.position, configurations.rotation, configurations.internal_point):
-        digest.update(repr(np.asarray(array, float).tolist()).encode())
+    for array in (*triples(geometry).values(), *arrays_of(configurations).values()):
+        digest.update(repr(array.tolist()).encode())
     return digest.hexdigest()
 
 
