@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -12,7 +12,7 @@ from ninedof.design.duty import Tolerances
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.geometry import LEGS
 from ninedof.support.arguments import flag, number, table, text, whole
-from ninedof.support.structs import entries_of
+from ninedof.support.structs import made
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount, kind_unit
 
@@ -144,69 +144,64 @@ class MachineCertificate:
 
     def sentences(self) -> list[str]:
         """Return what is proved, and what is not, in words."""
-        kinds = []
-        for k, kind in ((0, "external"), (3, "upper internal"), (6, "lower internal")):
-            low, high = min(a for a, _ in self.lengths[k : k + 3]), max(b for _, b in self.lengths[k : k + 3])
-            kinds.append(f"the {kind} legs are {outward(low, False)} to {amount(outward(high, True), self.unit)} long")
-        legs = ", ".join(kinds)
-        index = ""
-        if math.isfinite(self.condition[1]):
-            index = f", and the condition number is at most {outward(self.condition[1], True)}"
-        by_rule = "" if self.rule is None else ", O placed by the rule"
+        return [*self._of_poses(), *self._of_condition(), *(words for one in self.limits if (words := self._open(one)))]
+
+    def _of_poses(self) -> Iterator[str]:
+        """Yield what all is proved of, the lengths of the legs, and the limits that are proved."""
         if self.tolerances:
-            by_rule += ", as built"
-        out = [f"Proved: at every pose of {self.where}{by_rule}, {legs}{index}."]
+            yield self._as_built()
         if self.rule is not None:
-            out.insert(
-                0,
+            yield (
                 f"O follows the rule stored in the certificate: {self.rule.words} in the shift, the tilt and the yaw. "
                 "What is proved holds for this rule. With O placed for the least condition number, that is at no "
-                "pose larger.",
+                "pose larger."
             )
-        if self.tolerances:
-            out.insert(0, self._as_built())
-        names = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
+        legs = []
+        for k, kind in ((0, "external"), (3, "upper internal"), (6, "lower internal")):
+            low, high = min(a for a, _ in self.lengths[k : k + 3]), max(b for _, b in self.lengths[k : k + 3])
+            legs.append(f"the {kind} legs are {outward(low, False)} to {amount(outward(high, True), self.unit)} long")
+        if math.isfinite(self.condition[1]):
+            legs[-1] += f", and the condition number is at most {outward(self.condition[1], True)}"
+        how = ", O placed by the rule" * (self.rule is not None) + ", as built" * bool(self.tolerances)
+        yield f"Proved: at every pose of {self.where}{how}, {', '.join(legs)}."
         if self.limits and self.limits[0].answer == PROVED:
-            out.append(
-                "Proved: none of these poses is singular, and the machine never leaves its side of a singularity."
-            )
+            yield "Proved: none of these poses is singular, and the machine never leaves its side of a singularity."
+        names = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
         if names:
-            limits = "the limit" if len(names) == 1 else "the limits"
-            out.append(f"Proved, up to {self.slack:g} of each: {limits} {', '.join(names)}.")
-        if self.condition[0] > 0.0:
-            out.append(
-                f"The worst condition number met is {outward(self.condition[0], False)}, at "
-                f"{self.condition_at.worded(self.unit)}."
-            )
+            yield f"Proved, up to {self.slack:g} of each: the limit{'s' * (len(names) > 1)} {', '.join(names)}."
+
+    def _of_condition(self) -> Iterator[str]:
+        """Yield the worst condition number met, and what is not proved of it."""
+        low, high = self.condition
+        if low > 0.0:
+            at = self.condition_at.worded(self.unit)
+            yield f"The worst condition number met is {outward(low, False)}, at {at}."
         boxes = f", with {self.left_count} {'box' if self.left_count == 1 else 'boxes'} of poses left"
-        if not math.isfinite(self.condition[1]):
-            out.append(f"No bound of the condition number is proved{boxes if self.left_count else ''}.")
+        if not math.isfinite(high):
+            yield f"No bound of the condition number is proved{boxes if self.left_count else ''}."
         elif self.left_count:
-            out.append(f"Not decided: whether the condition number is at most {self.target:.6g}{boxes}.")
-        elif self.tolerances and self.target < self.condition[1]:
-            out.append(
+            yield f"Not decided: whether the condition number is at most {self.target:.6g}{boxes}."
+        elif self.tolerances and self.target < high:
+            yield (
                 f"No bound of the condition number below {outward(self.target, False)} is proved of machines that "
                 "differ by these tolerances, however long the search."
             )
-        for limit in self.limits:
-            name = ", ".join(filter(None, [limit.name.replace("_", " "), limit.which]))
-            ends = [limit.outward(x, up, 9) for x, up in zip(limit.value, (False, True), strict=True)]
-            size = [amount(end, limit.unit(self.unit)) for end in ends]
-            if limit.answer == VIOLATED:
-                poses = [pose.worded(self.unit) for pose in limit.at]
-                at = f" at {poses[0]}" if len(poses) == 1 else f" between {' and '.join(poses)}" if poses else ""
-                by = "" if self.rule is None else " by the rule"
-                out.append(f"Violated{by}: {name}: {size[limit.side == 'min']}{at}.")
-            elif limit.answer == UNDECIDED:
-                met = size[limit.side == "min"]
-                open_end = math.isinf(limit.value[limit.side == "max"])
-                between = (
-                    f"the worst value met is {met}, and nothing bounds it"
-                    if open_end
-                    else (f"the worst value is between {' and '.join(size)}")
-                )
-                out.append(f"Undecided: {name}: {between}.")
-        return out
+
+    def _open(self, limit: LimitProof) -> str:
+        """Return how a limit is violated, or what is known of one that is undecided; "" of one that is proved."""
+        if limit.answer == PROVED:
+            return ""
+        name = ", ".join(filter(None, [limit.name.replace("_", " "), limit.which]))
+        ends = [limit.outward(x, up, 9) for x, up in zip(limit.value, (False, True), strict=True)]
+        size = [amount(end, limit.unit(self.unit)) for end in ends]
+        met = size[limit.side == "min"]
+        if limit.answer == UNDECIDED:
+            if math.isinf(limit.value[limit.side == "max"]):
+                return f"Undecided: {name}: the worst value met is {met}, and nothing bounds it."
+            return f"Undecided: {name}: the worst value is between {' and '.join(size)}."
+        poses = [pose.worded(self.unit) for pose in limit.at]
+        at = f" at {poses[0]}" if len(poses) == 1 else f" between {' and '.join(poses)}" if poses else ""
+        return f"Violated{' by the rule' * (self.rule is not None)}: {name}: {met}{at}."
 
     @property
     def tolerances(self) -> Tolerances:
@@ -227,8 +222,7 @@ class MachineCertificate:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values, for a file."""
-        out = {"format": FORMAT, **asdict(self), "proved": self.proved}
-        return out | {"rule": None if self.rule is None else self.rule.to_dict()}
+        return {"format": FORMAT, **asdict(self), "proved": self.proved}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> MachineCertificate:
@@ -240,8 +234,7 @@ class MachineCertificate:
             If it is not whole.
 
         """
-        rule = table("certificate", data).get("rule")
-        return cls(**entries_of(cls, data, skipped=["rule"]), rule=None if rule is None else PointRule.from_dict(rule))
+        return made(cls, table("certificate", data))
 
     def __str__(self) -> str:
         """Return the sentences."""

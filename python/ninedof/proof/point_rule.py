@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -17,7 +16,6 @@ from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
 from ninedof.support.running import Progress, phase
-from ninedof.support.structs import made
 from ninedof.support.text import short_repr
 
 Six = tuple[float, ...]
@@ -96,22 +94,6 @@ class PointRule:
     def for_core(self) -> _core.PointRule:
         """Return the rule as the core takes it."""
         return _core.PointRule(scale=self.scale, powers=self.powers, coefficients=self.coefficients)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain values."""
-        return dict(self.__dict__)
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> PointRule:
-        """Return the rule of a mapping as `to_dict` makes it.
-
-        Raises
-        ------
-        ValueError
-            If it is not whole.
-
-        """
-        return made(cls, data, "rule")
 
 
 def _tuples(value: Any) -> Any:

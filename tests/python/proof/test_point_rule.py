@@ -172,7 +172,7 @@ def test_the_rule_comes_back_from_the_file():
     assert again == certificate
     assert again.rule == rule
     with pytest.raises(ValueError, match=r"^rule\.scale: got 'x', expected a list"):
-        PointRule.from_dict(data["rule"] | {"scale": "x"})
+        MachineCertificate.from_dict(data | {"rule": data["rule"] | {"scale": "x"}})
 
 
 def test_a_proof_goes_on_with_its_own_rule_alone():
