@@ -16,7 +16,7 @@ from ninedof.sheet.rows import LimitRow, limit_amount
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.sheet.tables import over, pose_of
 from ninedof.support.arguments import shown
-from ninedof.support.margins import is_violated, margin_words
+from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, metres, unit_entry
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table
 from ninedof.tables.html import notebook
@@ -50,7 +50,7 @@ class Comparison:
     def broken(self) -> tuple[tuple[str, ...], ...]:
         """Names of the limits that each design breaks."""
         return tuple(
-            tuple(name for name, rows in self.limits.items() if (row := rows[k]) and _broken(row))
+            tuple(name for name, rows in self.limits.items() if (row := rows[k]) and row.violated)
             for k in range(len(self.names))
         )
 
@@ -91,7 +91,7 @@ class Comparison:
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values; angles of limits in radians."""
         limits = {
-            label: [None if row is None else row._asdict() | {"broken": _broken(row)} for row in rows]
+            label: [None if row is None else row._asdict() | {"broken": row.violated} for row in rows]
             for label, rows in self.limits.items()
         }
         return {
@@ -247,10 +247,6 @@ def _flat(tree: Mapping[str, Any], before: str = "") -> dict[str, Any]:
     return out
 
 
-def _broken(row: LimitRow) -> bool:
-    return is_violated(row.margin, row.unit, row.limit)
-
-
 def _limit_rows(label: str, entry: Sequence[LimitRow | None], sheets: Sequence[Sheet]) -> list[list[str]]:
     cells = (_limit_cells(row, one.unit) for row, one in zip(entry, sheets, strict=True))
     allowed, values, margins = zip(*cells, strict=True)
@@ -264,7 +260,7 @@ def _limit_cells(row: LimitRow | None, unit: str) -> tuple[str, str, str]:
     if row is None:
         return "-", "-", ""
     allowed, value = (limit_amount(row, x, unit) for x in (row.limit, row.value))
-    return allowed, value, f"{'broken ' * _broken(row)}{margin_words(row.margin, row.unit)}"
+    return allowed, value, f"{'broken ' * row.violated}{margin_words(row.margin, row.unit)}"
 
 
 def _short_entry(value: Any) -> str:

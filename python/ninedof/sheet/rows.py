@@ -20,6 +20,7 @@ from ninedof.robot.idle import idle_legs
 from ninedof.sheet.plain_values import rows_of
 from ninedof.singularity.singularity import mechanism_of
 from ninedof.support.arrays import Floats
+from ninedof.support.margins import is_violated
 from ninedof.support.units import amount, kind_unit
 from ninedof.tables.numbers import load_text, short
 
@@ -82,6 +83,11 @@ class LimitRow(NamedTuple):
     unit: str
     """"ratio", "length", "angle", "sign", "number", "rate" or "power" as in the table of constraints; "ratio" for a
     length over zp or a radius."""
+
+    @property
+    def violated(self) -> bool:
+        """Whether the limit is passed beyond the tolerance, or nothing is known of it."""
+        return is_violated(self.margin, self.unit, self.limit)
 
 
 def limit_amount(row: LimitRow, value: float, unit: str) -> str:

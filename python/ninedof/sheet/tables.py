@@ -12,7 +12,7 @@ from ninedof.redundancy.rules import WORDS
 from ninedof.robot.idle import NEVER_CARRY, NEVER_MOVE, unloaded_names
 from ninedof.sheet.pose_words import outside_words, pose_words, vector_words
 from ninedof.sheet.rows import limit_amount
-from ninedof.support.margins import is_violated, margin_words
+from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, per, times
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table, grouped
 from ninedof.tables.numbers import load_text, short, spread
@@ -78,10 +78,9 @@ def limits_table(sheet: Any) -> Table:
     for row in sheet.limits:
         ends = (limit_amount(row, value, sheet.unit) for value in (row.limit, row.value))
         rows.append([row.name, *[row.part] * parts, row.side, *ends, margin_words(row.margin, row.unit)])
-    violated = [is_violated(row.margin, row.unit, row.limit) for row in sheet.limits]
-    if any(violated):
+    if any(row.violated for row in sheet.limits):
         columns.append(Column())
-        rows = [[*row, "violated" * mark] for row, mark in zip(rows, violated, strict=True)]
+        rows = [[*cells, "violated" * row.violated] for cells, row in zip(rows, sheet.limits, strict=True)]
     return Table(f"Limits of the study, {where}", columns, rows)
 
 

@@ -9,7 +9,7 @@ from html import escape
 from ninedof.plot.style import LEG_COLOURS
 from ninedof.robot.geometry import LEGS
 from ninedof.sheet.rows import LimitRow
-from ninedof.support.margins import is_violated, margin_words
+from ninedof.support.margins import margin_words
 from ninedof.support.units import kind_unit, with_unit
 from ninedof.viewer.numbers import Numbers
 
@@ -113,7 +113,7 @@ def _leg(numbers: Numbers, k: int) -> str:
 
 
 def _limit(row: LimitRow, unit: str) -> str:
-    red = f"color:{RED};font-weight:650;" if is_violated(row.margin, row.unit, row.limit) else ""
+    red = f"color:{RED};font-weight:650;" if row.violated else ""
     name = kind_unit(row.unit, unit)
     of = "°" if row.unit == "angle" else f" {name}" if name else ""
     here, end = "", "of the design"
