@@ -19,6 +19,7 @@ from ninedof.records.design_file import Design
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration
+from ninedof.sheet.pose_words import turn_deg
 from ninedof.statics.statics import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.support.arguments import choice, known_keys
 from ninedof.support.arrays import Floats
@@ -119,8 +120,7 @@ class State:
     def coordinates(self) -> list[float]:
         """Position, rotation vector from the neutral orientation (base axes, degrees), and O: nine numbers."""
         c = self.configuration
-        first, second = to_quaternions(np.stack([self.variant.home.rotation, c.rotation]))
-        turn = np.degrees(vectors_between(first, second))
+        turn = turn_deg(c, self.variant.home.rotation)
         return [*c.position.tolist(), *turn.tolist(), *c.internal_point.tolist()]
 
     def set_coordinate(self, k: int, value: float) -> None:
