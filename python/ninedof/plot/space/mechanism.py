@@ -148,7 +148,7 @@ def mechanisms(robots: Sequence[Robot], unit: str = "", figure: Figure | None = 
     return figure
 
 
-def draw(axes: Any, robot: Robot, clear_of: Sequence[Floats] = (), names: bool = True) -> None:
+def draw(axes: Any, robot: Robot, clear_of: Sequence[Floats] = ()) -> None:
     """Draw plates, legs and joints with their names, which keep away from further lines (2, 3)."""
     points = robot.points()
     base, platform, o = points[:6], points[6:12], points[12]
@@ -174,7 +174,7 @@ def draw(axes: Any, robot: Robot, clear_of: Sequence[Floats] = (), names: bool =
     axes.plot(*joints.T, "o", color=style.INK, ms=3.2, mec="white", mew=0.5, zorder=21)
     axes.plot(*o[:, None], **POINT_O, zorder=22)
     away = 0.05 * np.ptp(axes.get_xlim())
-    write_names(axes, legs if names else [], o, away, outlines(base), clear_of)
+    write_names(axes, legs, o, away, outlines(base), clear_of)
 
 
 def legs_of(points: Floats) -> list[Leg]:
