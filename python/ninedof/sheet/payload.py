@@ -45,9 +45,8 @@ class Payload(NamedTuple):
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values."""
-        look = None if self.region is None else self.region._asdict()
-        search = None if look is None else {name: look[name] for name in ("region", "looked_at")}
-        pose = arrays_of(self.configuration)
+        look, pose = self.region, arrays_of(self.configuration)
+        search = None if look is None else {"region": look.region, "looked_at": look.looked_at}
         return {**self._asdict(), "configuration": pose, "region": search, "proved": False}
 
 
