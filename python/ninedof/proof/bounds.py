@@ -115,10 +115,8 @@ def axis_condition_number_bounds(
         Every joint triple a C3 orbit about z, to 1e-9 of its size.
     configuration : Configuration
         Shape (...); position and internal point on z, rotation about z.
-    characteristic_length : float, array_like of shape (...), or str
-        Length l_c > 0, or a kind as in `characteristic_length`; then the length computed is taken as exact.
-    threads : int, optional
-        Number of threads; one per processor by default. The result does not depend on it.
+    characteristic_length, threads : optional
+        As in `condition_number_bounds`.
 
     Returns
     -------
@@ -155,7 +153,7 @@ def hexagonal_condition_number_bounds(
     a1, a2, b1, b2, zp, zs : array_like
         Sides of base and platform, heights of platform and O, divided by the characteristic length. They broadcast.
     threads : int, optional
-        Number of threads; one per processor by default. The result does not depend on it.
+        As in `condition_number_bounds`.
 
     Returns
     -------
