@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof.design.duty import Tool
-from ninedof.design.limit_numbers import leg_limits_of
+from ninedof.design.limit_numbers import cone_limits, leg_limits_of
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
@@ -111,16 +111,15 @@ class Model:
         joint along the leg.
         """
         p, q, s = self.configuration.position, self.configuration.rotation, self.configuration.internal_point
-        axes: dict[str, Floats] = {}
+        axes, cones = dict[str, Floats](), cone_limits(self.study)
         for name, at in self.own_frame.items():
             body, kind, number = name.split("_")
             other = self.own_frame[f"{'platform' if body == 'base' else 'base'}_{kind}_{number}"]
             in_base = body == "base"
             end = s if kind == "internal" else p + q @ other if in_base else other
             axis = end - at if in_base else q.T @ (end - p) - at
-            for limit in () if self.study is None else self.study.limits:
-                if limit.axis and limit.name in (f"{body}_cone", f"{body}_cone_{kind}"):
-                    axis = np.array(limit.axis)
+            if (limit := cones[f"{body}_cone_{kind}"]) is not None and limit.axis:
+                axis = np.array(limit.axis)
             axes[name] = axis / max(float(np.linalg.norm(axis)), 1e-300)
         return axes
 

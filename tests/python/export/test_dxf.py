@@ -218,6 +218,15 @@ def test_the_axis_of_a_limit_is_drawn_in_the_place_of_the_leg():
         assert np.linalg.norm(axis) == pytest.approx(1.0)
 
 
+def test_the_axis_of_a_kind_of_joint_comes_before_that_of_its_body():
+    own = {"max_deg": 80, "axis": [0.0, 0.6, 0.8]}
+    limits = {"base_cone_external": own, "base_cone": {"max_deg": 85, "axis": [0.0, 0.0, 1.0]}}
+    result = nd.optimize(nd.Study(constraints=limits), starts=2)
+    axes, of_sheet = model_of(result).cone_axes, nd.sheet(result).cone_axes
+    for kind in ("external", "internal"):
+        assert axes[f"base_{kind}_1"] == pytest.approx(of_sheet[f"base_cone_{kind}"])
+
+
 def test_angles_are_dimensioned_and_listed():
     document = drawn("threefold")
     angles = [one.get_measurement() for one in on(document, "DIMENSIONS", "DIMENSION") if one.dimtype == ANGULAR]
