@@ -18,7 +18,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.robot.idle import idle_legs
 from ninedof.sheet.plain_values import rows_of
-from ninedof.singularity.singularity import mechanism_of
+from ninedof.singularity.singularity import mechanisms_of
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import is_violated
 from ninedof.support.units import amount, kind_unit
@@ -55,7 +55,7 @@ def near_singularities(g: Geometry, c: Configuration, internal: str) -> dict[str
         out[name] = NearSingularity(
             name,
             near.distance,
-            str(mechanism_of(near.mechanism)),
+            str(mechanisms_of(near.mechanism)),
             near.pose,
             tuple(near.direction.tolist()),
             tuple(there.position.tolist()),

@@ -6,6 +6,7 @@ from enum import StrEnum
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands, single
@@ -189,12 +190,7 @@ def _margins(flat: Floats, shape: tuple[int, ...]) -> SingularityMargins:
     return SingularityMargins(*(flat[:, k].reshape(shape)[()] for k in range(3)))
 
 
-def mechanism_of(code: int) -> Mechanism:
-    """Return the mechanism of the core's code: members are in its order."""
-    return list(Mechanism)[code]
-
-
-def mechanisms_of(codes: Floats, shape: tuple[int, ...]) -> Any:
+def mechanisms_of(codes: ArrayLike, shape: tuple[int, ...] = ()) -> Any:
     """Return the mechanisms of the core's codes: one, or an array of their values."""
-    values = np.array(list(Mechanism), dtype="U1")[codes.astype(int)].reshape(shape)  # members in the core's order
+    values = np.array(list(Mechanism), dtype="U1")[np.asarray(codes, dtype=int)].reshape(shape)  # in the core's order
     return values if shape else Mechanism(str(values))

@@ -13,7 +13,7 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration, operands, operands_with
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
-from ninedof.singularity.singularity import mechanism_of, mechanisms_of
+from ninedof.singularity.singularity import mechanisms_of
 from ninedof.support.arguments import choice, finite, whole
 from ninedof.support.arrays import Floats, as_number, thread_argument
 from ninedof.support.text import short_repr
@@ -173,4 +173,4 @@ def nearest_singularity(
     reach = 2.0 * size if most is None else finite("most", most, 0.0, FARTHEST * size)
     near = _core.nearest_singularity(geometry, configuration, motions, reach, count, thread_argument(threads))
     there = near.configuration if math.isfinite(near.distance) or configuration.shape else configuration
-    return NearestSingularity(near.distance, mechanism_of(near.mechanism), near.direction, near.pose, there)
+    return NearestSingularity(near.distance, mechanisms_of(near.mechanism), near.direction, near.pose, there)
