@@ -238,10 +238,8 @@ class Viewer:
             client, is_held = event.client_id, event.phase != "end"
             position = np.asarray(event.target.position) / self.scene.scale
             turn = from_quaternions(np.asarray(event.target.wxyz, dtype=np.float64)[None])[0]
-            if is_held:
-                self.submit(f"hold {name} {client}", lambda: self.held.update({node: client}))
-            else:
-                self.submit(f"hold {name} {client}", lambda: self._release(client))
+            hold, release = partial(self.held.update, {node: client}), partial(self._release, client)
+            self.submit(f"hold {name} {client}", hold if is_held else release)
             if name == "O":
                 self.submit("O", lambda: self.state.set_internal_point(position))
             else:

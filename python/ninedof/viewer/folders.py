@@ -120,7 +120,7 @@ def _design(panel: Panel) -> None:
 
 
 def _variable(panel: Panel, variable: Variable) -> None:
-    state, (name, _, low, high, is_angle) = panel.state, variable
+    state, (name, low, high, is_angle) = panel.state, variable
     scale, unit = (math.degrees(1.0), "°") if is_angle else (1.0, panel.unit)
     panel.slider(
         with_unit(name.replace("_", " "), unit),

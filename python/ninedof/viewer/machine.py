@@ -32,9 +32,8 @@ class Variable(NamedTuple):
     """A variable of the family, with the ends of its slider."""
 
     name: str
-    value: float
-    """In the unit of the study; angles in radians."""
     low: float
+    """In the unit of the study; angles in radians."""
     high: float
     is_angle: bool
 
@@ -131,7 +130,7 @@ class Machine:
                 low, high = (0.5 * value, 2.0 * value) if value > 0.0 else (0.0, reach)
             else:
                 low, high = value - reach, value + reach
-            sliders.append(Variable(name, value, min(low, value), max(high, value), kind == "angle"))
+            sliders.append(Variable(name, min(low, value), max(high, value), kind == "angle"))
         return sliders
 
     def variant(self, variables: Mapping[str, float], length: float | None = None) -> Variant:

@@ -231,7 +231,7 @@ def test_a_general_machine_has_its_own_sliders():
     state = State(machine_of(nd.Design(shaken, nd.Configuration.neutral(3.98, 2.44))))
     assert state.machine.family == "general"
     assert {v.name for v in state.machine.sliders} == set(state.variables)
-    assert all(v.low <= v.value <= v.high and v.low < v.high for v in state.machine.sliders)
+    assert all(v.low <= state.variables[v.name] <= v.high and v.low < v.high for v in state.machine.sliders)
 
 
 def nd_triples():
