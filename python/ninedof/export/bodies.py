@@ -69,7 +69,7 @@ class Bodies:
     """The robot in metres and kilograms; masses as in `body_masses`."""
 
     def __init__(self, model: Model, leg_mass: float | None = None, platform_mass: float | None = None) -> None:
-        masses = body_masses(model.study, leg_mass, platform_mass)[0]
+        masses = self.masses = body_masses(model.study, leg_mass, platform_mass)[0]
         self.unit = "metres" if model.unit else "the design's own, without a unit"
         """Of lengths, for people."""
         metric = model.in_metres()
@@ -86,17 +86,14 @@ class Bodies:
             Leg(name, _site(root), _site(tip), at, stroke)
             for (name, root, tip), stroke in zip(LEGS, strokes, strict=True)
         ]
-        self.cylinder_mass, self.rod_mass, self.platform_mass = masses.cylinder, masses.rod, masses.platform
         self.radius = RADIUS * float(np.mean([leg.length for leg in self.legs]))
         """Of a rod."""
-        self.point_mass = masses.internal_point
-        """Of the body O."""
-        self.point_inertia = ball_inertia(self.point_mass, 2.0 * self.radius)
+        self.point_inertia = ball_inertia(masses.internal_point, 2.0 * self.radius)
         """Moments of the body O, a ball of twice the radius of a rod."""
         self.platform_centre = in_metres(masses.centre, model.unit)
         """Centre of its mass in the frame of the plate."""
         square = max(float(np.sum(point[:2] ** 2)) for point in self.platform.values())
-        self.platform_inertia = 0.25 * self.platform_mass * square, 0.5 * self.platform_mass * square
+        self.platform_inertia = 0.25 * masses.platform * square, 0.5 * masses.platform * square
         """Moments about an axis in the plate and about its normal: a disc with the radius of the outermost joint."""
 
     def part_inertia(self, leg: Leg, mass: float) -> tuple[float, float]:

@@ -77,13 +77,13 @@ def text(model: Model, leg_mass: float | None = None, platform_mass: float | Non
     {_sites(b.base)}{legs["base"]}
     <body name="O" pos="{numbers(b.internal_point)}">
       {slides}
-      {_inertial(LEVEL, b.point_mass, b.point_inertia)}
+      {_inertial(LEVEL, b.masses.internal_point, b.point_inertia)}
       <geom name="O" type="sphere" size="{numbers(2.2 * b.radius)}" rgba="{COLOURS["joint"]}"/>
       <site name="O"/>
     </body>
     <body name="platform" pos="{numbers(b.position)}" xyaxes="{numbers(b.rotation[:, :2].T.ravel())}">
       <freejoint name="platform"/>
-      {_inertial(b.platform_centre, b.platform_mass, b.platform_inertia)}
+      {_inertial(b.platform_centre, b.masses.platform, b.platform_inertia)}
       <geom name="platform" type="mesh" mesh="platform" rgba="{PLATE}"/>
       <site name="platform" size="{numbers(0.2 * b.radius)}"/>{_tool(b)}
       {_sites(b.platform)}{legs["platform"]}
@@ -109,17 +109,17 @@ def text(model: Model, leg_mass: float | None = None, platform_mass: float | Non
 
 def _leg(b: Bodies, leg: Leg) -> str:
     start, along = b.root_of(leg)
-    _, axial = b.part_inertia(leg, 0.5 * (b.cylinder_mass + b.rod_mass))
+    _, axial = b.part_inertia(leg, 0.5 * (b.masses.cylinder + b.masses.rod))
     colour, rod, half = COLOURS[leg.name[0]], COLOURS["rod"], 0.5 * leg.part
     return f"""
     <body name="{leg.name}_cylinder" pos="{numbers(start)}" zaxis="{numbers(along)}">
       <joint name="{leg.name}_ball" type="ball" damping="{numbers(SPIN_DECAY * axial)}"/>
-      {_inertial((0.0, 0.0, half), b.cylinder_mass, b.part_inertia(leg, b.cylinder_mass))}
+      {_inertial((0.0, 0.0, half), b.masses.cylinder, b.part_inertia(leg, b.masses.cylinder))}
       <geom type="cylinder" fromto="0 0 0 0 0 {numbers(leg.part)}" size="{numbers(1.5 * b.radius)}" rgba="{colour}"/>
       <body name="{leg.name}_rod" pos="0 0 {numbers(leg.length)}">
         <joint name="{leg.name}" type="slide" axis="0 0 1" ref="{numbers(leg.length)}"
           range="{numbers([leg.shortest, leg.longest])}" limited="true"/>
-        {_inertial((0.0, 0.0, -half), b.rod_mass, b.part_inertia(leg, b.rod_mass))}
+        {_inertial((0.0, 0.0, -half), b.masses.rod, b.part_inertia(leg, b.masses.rod))}
         <geom type="cylinder" fromto="0 0 0 0 0 {numbers(-leg.part)}" size="{numbers(b.radius)}" rgba="{rod}"/>
         <site name="{leg.name}_tip"/>
       </body>
@@ -133,7 +133,7 @@ def _inertial(centre: Iterable[float], mass: float, inertia: tuple[float, float]
 
 
 def _actuators(b: Bodies) -> str:
-    kp, kv = STIFFNESS * b.rod_mass / TIMESTEP**2, DAMPING * b.rod_mass / TIMESTEP
+    kp, kv = STIFFNESS * b.masses.rod / TIMESTEP**2, DAMPING * b.masses.rod / TIMESTEP
     return "\n    ".join(
         f'<position name="{leg.name}" joint="{leg.name}" kp="{kp:.6g}" kv="{kv:.6g}" '
         f'ctrlrange="{numbers([leg.shortest, leg.longest])}" ctrllimited="true"/>'

@@ -34,12 +34,12 @@ def text(model: Model, leg_mass: float | None = None, platform_mass: float | Non
     </joint>
     <link name="platform">
       {_pose(b.position, angles(b.rotation))}
-      {_inertial(b.platform_centre, b.platform_mass, b.platform_inertia)}
+      {_inertial(b.platform_centre, b.masses.platform, b.platform_inertia)}
       {_bars(b, b.platform.values())}
     </link>
     <link name="O">
       {_pose(b.internal_point)}
-      {_inertial(LEVEL, b.point_mass, b.point_inertia)}
+      {_inertial(LEVEL, b.masses.internal_point, b.point_inertia)}
       {_visual("O", LEVEL, LEVEL, f"<sphere><radius>{numbers(2.0 * b.radius)}</radius></sphere>", COLOURS["joint"])}
     </link>{_tool(b)}{"".join(_leg(b, leg) for leg in b.legs)}
   </model>
@@ -63,12 +63,12 @@ def _leg(b: Bodies, leg: Leg) -> str:
     return f"""
     <link name="{n}_cylinder">
       {_pose(leg.start, rpy)}
-      {_inertial((0.0, 0.0, half), b.cylinder_mass, b.part_inertia(leg, b.cylinder_mass))}
+      {_inertial((0.0, 0.0, half), b.masses.cylinder, b.part_inertia(leg, b.masses.cylinder))}
       {cylinder}
     </link>
     <link name="{n}_rod">
       {_pose(leg.end, rpy)}
-      {_inertial((0.0, 0.0, -half), b.rod_mass, b.part_inertia(leg, b.rod_mass))}
+      {_inertial((0.0, 0.0, -half), b.masses.rod, b.part_inertia(leg, b.masses.rod))}
       {rod}
     </link>
     <joint name="{n}_start" type="universal">

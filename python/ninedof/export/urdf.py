@@ -32,7 +32,7 @@ def text(model: Model, leg_mass: float | None = None, platform_mass: float | Non
        All joints at zero is the neutral configuration; a slide reads the length of its leg less the neutral one. -->
   <mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>
 {_link("base", *_bars(b, b.base.values()))}{"".join(_leg(b, leg) for leg in b.legs)}{_platform(b)}
-{_point("O", b.point_mass, 2.0 * b.radius)}
+{_point("O", b.masses.internal_point, 2.0 * b.radius)}
 {_joint("q1_O", "fixed", "q1_rod", "O")}
 </robot>
 """
@@ -72,25 +72,25 @@ def _leg(b: Bodies, leg: Leg) -> str:
     <limit lower="{numbers(low)}" upper="{numbers(high)}" effort="{EFFORT:g}" velocity="{VELOCITY:g}"/>"""
     return f"""
 {_axis(f"{n}_turn1", leg.root, f"{n}_cross", "1 0 0", at, pointing(along))}
-{_point(f"{n}_cross", CROSS * b.cylinder_mass, b.radius)}
+{_point(f"{n}_cross", CROSS * b.masses.cylinder, b.radius)}
 {_axis(f"{n}_turn2", f"{n}_cross", f"{n}_cylinder", "0 1 0")}
-{_strut(b, leg, b.cylinder_mass, f"{n}_cylinder", 0.5 * leg.part, 1.5 * b.radius, COLOURS[n[0]])}
+{_strut(b, leg, b.masses.cylinder, f"{n}_cylinder", 0.5 * leg.part, 1.5 * b.radius, COLOURS[n[0]])}
 {_joint(f"{n}_slide", "prismatic", f"{n}_cylinder", f"{n}_rod", slide)}
-{_strut(b, leg, b.rod_mass, f"{n}_rod", -0.5 * leg.part, b.radius, COLOURS["rod"])}"""
+{_strut(b, leg, b.masses.rod, f"{n}_rod", -0.5 * leg.part, b.radius, COLOURS["rod"])}"""
 
 
 def _platform(b: Bodies) -> str:
     """Return three axes of the platform at the tip of leg l1, the plate, and the frame of the platform at p."""
     first = b.platform["platform_external1"]
     turn = b.legs[0].frame.T @ b.rotation  # the platform's axes, seen from the rod
-    small, joints = CROSS * b.cylinder_mass, [at - first for at in b.platform.values()]
+    small, joints = CROSS * b.masses.cylinder, [at - first for at in b.platform.values()]
     return f"""
 {_axis("platform_turn1", "l1_rod", "platform_cross1", "1 0 0", rpy=angles(turn))}
 {_point("platform_cross1", small, b.radius)}
 {_axis("platform_turn2", "platform_cross1", "platform_cross2", "0 1 0")}
 {_point("platform_cross2", small, b.radius)}
 {_axis("platform_turn3", "platform_cross2", "plate", "0 0 1")}
-{_link("plate", _inertial(b.platform_centre - first, b.platform_mass, b.platform_inertia), *_bars(b, joints))}
+{_link("plate", _inertial(b.platform_centre - first, b.masses.platform, b.platform_inertia), *_bars(b, joints))}
 {_joint("platform_frame", "fixed", "plate", "platform", f'<origin xyz="{numbers(-first)}"/>')}
   <link name="platform"/>{_tool(b)}"""
 
