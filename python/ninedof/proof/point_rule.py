@@ -14,7 +14,7 @@ from ninedof.design.region_poses import Placing
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats
+from ninedof.support.arrays import Floats, as_floats, broadcast_leading
 from ninedof.support.running import Progress, phase
 from ninedof.support.text import short_repr
 
@@ -64,32 +64,22 @@ class PointRule:
 
     def at(self, coordinates: ArrayLike) -> Floats:
         """Return s of coordinates (shift of p, tilt about x and y, yaw), shape (..., 6)."""
-        rows = np.asarray(coordinates, dtype=float)
-        if rows.shape[-1:] != (6,):
-            raise ValueError(f"coordinates: got shape {rows.shape}, expected (..., 6)")
-        x = rows / np.array(self.scale)
+        x = as_floats("coordinates", coordinates, (6,)) / np.array(self.scale)
         powers = np.stack([x**n for n in range(max(map(max, self.powers)) + 1)])
         out = np.broadcast_to(np.array(self.internal_point), (*x.shape[:-1], 3)).copy()
         for term, coefficient in zip(self.powers, self.coefficients, strict=True):
-            product = np.ones(x.shape[:-1])
-            for k, n in enumerate(term):
-                if n:
-                    product = product * powers[n][..., k]
+            product = np.prod(powers[list(term), ..., range(6)], axis=0)
             out += product[..., None] * np.array(coefficient)
         return out
 
     def __call__(self, position: ArrayLike, rotation: ArrayLike | None = None) -> Floats:
         """Return s at poses of the platform: positions, shape (..., 3), and rotation matrices, shape (..., 3, 3)."""
-        p = np.asarray(position, dtype=float)
-        q = np.asarray(self.rotation if rotation is None else rotation, dtype=float)
-        if p.shape[-1:] != (3,):
-            raise ValueError(f"position: got shape {p.shape}, expected (..., 3)")
-        if q.shape[-2:] != (3, 3):
-            raise ValueError(f"rotation: got shape {q.shape}, expected (..., 3, 3)")
+        p = as_floats("position", position, (3,))
+        q = as_floats("rotation", self.rotation if rotation is None else rotation, (3, 3))
         tilt, yaw = tilt_and_yaw(q @ np.array(self.rotation).T)
-        shape = np.broadcast_shapes(p.shape[:-1], yaw.shape)
-        parts = (p - np.array(self.position), tilt, yaw[..., None])
-        return self.at(np.concatenate([np.broadcast_to(x, (*shape, x.shape[-1])) for x in parts], axis=-1))
+        turn = np.concatenate([tilt, yaw[..., None]], axis=-1)
+        _, parts = broadcast_leading({"position": (p - np.array(self.position), 1), "rotation": (turn, 1)})
+        return self.at(np.concatenate(parts, axis=-1))
 
     def for_core(self) -> _core.PointRule:
         """Return the rule as the core takes it."""
