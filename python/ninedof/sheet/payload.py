@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
+from ninedof.design.limit_numbers import PARTS
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import LEGS
@@ -69,7 +70,8 @@ def largest_payload(
         As for `sheet`. Loads, masses and gravity of its study act besides the payload.
     force : float or array_like of shape (9,), optional
         Greatest force with which a leg may push, for all legs or in the order of `leg_lengths`; in newtons for
-        kilograms and a gravity of 9.81. The limit `force` of the study by default.
+        kilograms and a gravity of 9.81. By default the limits `force`, `external_force`, `upper_force` and
+        `lower_force` of the study; a leg without any is not limited.
     pull : float or array_like of shape (9,), optional
         Greatest force with which it may pull; `force` by default.
     centre : (3,) floats
@@ -131,15 +133,19 @@ def largest_payload(
     return Payload(mass, most < np.inf, *names, c[pose], forces, load, look, (push, most_pull))
 
 
-def _stated(study: Study) -> float:
-    """Return the greatest leg force that a study allows at its poses."""
-    limit = min((one.high for one in study.limits if one.name == "force" and one.at == "poses"), default=None)
-    if limit is None:
+def _stated(study: Study) -> Floats:
+    """Return the greatest force that a study allows each leg at its poses: by `force`, and by that of its kind."""
+    most = np.full(9, np.inf)
+    for one in study.limits:
+        if one.at == "poses" and one.name.rpartition("_")[2] == "force":
+            legs = [LEGS.index(leg) for leg in PARTS[one.name]]
+            most[legs] = np.minimum(most[legs], one.high)
+    if np.isinf(most).all():
         raise ValueError(
             "force: got none, expected a number (--force at the terminal): there is no study with a limit of force at "
             "its poses"
         )
-    return limit
+    return most
 
 
 def _limit(name: str, value: ArrayLike) -> Floats:

@@ -1,5 +1,7 @@
 """The largest payload: closed at a pose, against a bisection with leg_forces; over a region against a dense sample."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -80,6 +82,17 @@ def test_no_pose_of_a_region_is_worse(machine):
         for wrench in machine.study.loads.wrenches:
             worst = max(worst, np.abs(forces_under(machine, at, payload.mass, np.array(wrench))).max())
     assert worst <= limit * (1.0 + 1e-6)
+
+
+def test_each_kind_of_legs_keeps_its_own_limit_of_the_study(machine):
+    limits = {"force": (None, 500.0), "upper_force": (None, 90.0), "lower_force": (None, 400.0)}
+    limited = replace(machine, study=replace(machine.study, constraints=limits))
+    payload = nd.largest_payload(limited)
+    assert_allclose(payload.limits, [np.repeat([500.0, 90.0, 400.0], 3)] * 2)
+    assert payload.mass == nd.largest_payload(machine, np.repeat([500.0, 90.0, 400.0], 3)).mass
+    assert payload.leg[0] == "q"
+    alone = replace(machine, study=replace(machine.study, constraints={"external_force": (None, 200.0)}))
+    assert_allclose(nd.largest_payload(alone).limits[0], np.repeat([200.0, np.inf, np.inf], 3))
 
 
 def test_a_machine_that_holds_nothing_and_one_that_holds_all(machine):
