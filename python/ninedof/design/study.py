@@ -268,8 +268,6 @@ class Study:
             raise ValueError("actuators: got no rows, expected at least one actuator")
         arguments: dict[str, Any] = {"unit": data.get("unit", ""), "actuators": rows}
         for name, names in TABLES.items():
-            if name in DUTIES and name not in data:
-                continue
             known_keys(name, tables[name], names or tables[name])
             arguments |= tables[name] if names else {name: tables[name]}
         return cls(**arguments)
@@ -383,17 +381,14 @@ class Study:
 
     def limit_for_core(self, limit: Limit) -> _core.Limit:
         """Return a limit of the study as the core takes it: in the tool's frame, and with loads and speeds."""
-        return instance("limit", limit, Limit).for_core(self.tool, self._duty if limit.row.needs else None)
+        needs = instance("limit", limit, Limit).row.needs
+        return limit.for_core(self.tool, self.leg_duty.for_core() if needs else None)
 
-    @property
+    @cached_property
     def leg_duty(self) -> LegDuty:
         """What limits of the forces, rates and powers of legs are about."""
         masses = self.masses.seen_from(self.tool) if self.tool else self.masses
         return LegDuty(self.loads, masses, self.speeds, internal_motion(self.objective))
-
-    @cached_property
-    def _duty(self) -> _core.Duty:
-        return self.leg_duty.for_core()
 
     @cached_property
     def _problems(self) -> dict[bool, _core.Problem]:

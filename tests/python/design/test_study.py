@@ -112,8 +112,9 @@ def test_a_study_cannot_be_changed_from_outside():
 
 def test_copies_are_equal_and_immutable():
     study = nd.Study(
-        constraints={"base_cone": {"max_deg": 30, "axis": [0, 0, 1]}},
+        constraints={"base_cone": {"max_deg": 30, "axis": [0, 0, 1]}, "force": (None, 500.0)},
         objective=nd.Objective(poses=poses.ball(0.1, points=3)),
+        loads={"wrenches": [[0, 0, 0, 0, 0, -100]]},
     )
     assert study == dataclasses.replace(study) != nd.Study()
     with pytest.raises(AttributeError):
