@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
+from ninedof.statics.dynamics import GRAVITY, inertia_matrix
 from ninedof.support.arguments import Vector, finite, instance, items, shown, text, vector
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.structs import Table, entry, read
@@ -20,7 +21,6 @@ from ninedof.support.text import short_repr
 from ninedof.support.units import amount, degrees_of, unit_argument
 
 Six = tuple[float, ...]
-STANDARD: Vector = (0.0, 0.0, -9.81)
 positive_or_zero = partial(finite, least=0.0)
 
 
@@ -35,17 +35,12 @@ def _wrenches(name: str, value: Any) -> tuple[Six, ...]:
 
 def _inertia(name: str, value: Any) -> Six:
     six = _six(name, value, "[ixx, iyy, izz, ixy, ixz, iyz]")
-    small, middle, large = np.linalg.eigvalsh(_matrix(six))
+    small, middle, large = np.linalg.eigvalsh(inertia_matrix(six))
     slack = 1e-9 * max(abs(small), abs(large))
     if small < -slack or large > small + middle + slack:
         moments = ", ".join(f"{x:g}" for x in (small, middle, large))
         raise ValueError(f"{name}: got principal moments {moments}, expected none below 0 or above the other two's sum")
     return six
-
-
-def _matrix(six: Six) -> Floats:
-    xx, yy, zz, xy, xz, yz = six
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
 @short_repr
@@ -176,7 +171,7 @@ class Loads(Table):
 
     """
 
-    gravity: Vector = entry(vector, STANDARD)
+    gravity: Vector = entry(vector, GRAVITY)
     wrenches: tuple[Six, ...] = entry(_wrenches, ())
 
 
@@ -226,7 +221,7 @@ class Masses(Table):
     def seen_from(self, tool: Tool) -> Masses:
         """Return the same masses with centre and inertia in the tool's frame, that of geometries and poses."""
         axes = instance("tool", tool, Tool).axes
-        m = (axes.T @ _matrix(self.inertia) @ axes).tolist()
+        m = (axes.T @ inertia_matrix(self.inertia) @ axes).tolist()
         inertia = (m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2])
         return replace(self, centre=tool.seen(self.centre), inertia=inertia)
 

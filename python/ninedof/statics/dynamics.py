@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,6 +21,12 @@ GRAVITY = (0.0, 0.0, -9.81)
 OF_LEGS = ("cylinder", "rod", "cylinder_centre", "rod_centre", "cylinder_inertia", "rod_inertia")
 
 
+def inertia_matrix(six: Sequence[float]) -> Floats:
+    """Return the matrix of ixx, iyy, izz, ixy, ixz and iyz."""
+    xx, yy, zz, xy, xz, yz = six
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
 def masses_for_core(masses: Any, unit: str = "") -> _core.Masses:
     """Return `ninedof.Masses` such that the forces of the core are newtons for kilograms and lengths of a unit.
 
@@ -28,12 +35,11 @@ def masses_for_core(masses: Any, unit: str = "") -> _core.Masses:
     if not hasattr(masses, "platform") or not hasattr(masses, "rod_inertia"):
         raise ValueError(f"masses: got {shown(masses)}, expected Masses")
     scale = metres(unit)
-    xx, yy, zz, xy, xz, yz = masses.inertia
     legs = {name: np.broadcast_to(np.asarray(getattr(masses, name), dtype=float), (9,)) for name in OF_LEGS}
     return _core.Masses(
         platform=scale * masses.platform,
         centre=masses.centre,
-        inertia=scale * np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]),
+        inertia=scale * inertia_matrix(masses.inertia),
         internal_point=scale * masses.internal_point,
         **{name: (1.0 if name.endswith("_centre") else scale) * values for name, values in legs.items()},
     )
