@@ -16,28 +16,24 @@ from ninedof.optimize.result import Result
 from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.sheet import sheet
 from ninedof.support.arguments import did_you_mean, shown
-from ninedof.support.units import DEG, plain_name
+from ninedof.support.units import DEG
 
 CONDITION_LIMIT = "condition_limit"
 TOLERANCE = "tolerance"
 """The larger one of the study's two; both are scaled. It is tighter for the search where it is larger."""
+IN_DEGREES = {label(name + DEG, at): label(name, at) for name, row in ROWS.items() if row.is_angle for at in AT}
+"""The names of limits on angles whose values are in degrees, "base_cone_deg at neutral", and those in radians."""
 
 
 def without_degrees(against: Any) -> tuple[Any, bool]:
     """Return the limit behind "base_cone_deg", and whether its values are in degrees."""
-    if not isinstance(against, str):
-        return against, False
-    name, at = split_label(against)
-    plain = plain_name(name)
-    if plain == name or plain not in ROWS or not ROWS[plain].is_angle:
-        return against, False
-    return label(plain, at), True
+    degrees = isinstance(against, str) and against in IN_DEGREES
+    return IN_DEGREES[against] if degrees else against, degrees
 
 
 def with_degrees(against: str) -> str:
     """Return the name for values in degrees of a limit on an angle: "base_cone_deg"; any other name unchanged."""
-    name, at = split_label(against)
-    return label(name + DEG, at) if name in ROWS and ROWS[name].is_angle else against
+    return next((name for name, plain in IN_DEGREES.items() if plain == against), against)
 
 
 def unit_of(study: Study, against: str) -> str:
@@ -111,9 +107,7 @@ def with_limit(study: Study, against: str, value: float | None) -> Study:
 
 
 def own_value(study: Study, against: str) -> float | None:
-    """Return the value of the limit in the study; None without one."""
-    if against == CONDITION_LIMIT:
-        return study.objective.condition_limit
+    """Return the value of a constraint in the study; None without one."""
     return _limit(study, against).sides.get("max")
 
 
@@ -127,9 +121,9 @@ def value_of(study: Study, against: str, result: Result) -> float:
 
 
 def floor_of(study: Study, against: str) -> float:
-    """Return the lower bound of the limit for any design: 1 for a ratio of maximum to minimum, or its own min."""
-    least = 1.0 if split_label(against)[0] in (CONDITION_LIMIT, "leg_ratio", "stroke_ratio") else 0.0
-    return least if against == CONDITION_LIMIT else max(least, _limit(study, against).low)
+    """Return the lower bound of a constraint for any design: 1 for a ratio of maximum to minimum, or its own min."""
+    least = 1.0 if split_label(against)[0] in ("leg_ratio", "stroke_ratio") else 0.0
+    return max(least, _limit(study, against).low)
 
 
 def _limit(study: Study, against: str) -> Limit:
