@@ -19,7 +19,7 @@ from ninedof.design.actuators import LEG_KINDS, Actuator, hull, price_words, row
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.optimize.actuator_choice import EACH, ActuatorChoice, Combination, notes_of
-from ninedof.optimize.candidate import Candidate
+from ninedof.optimize.candidate import Candidate, best_of
 from ninedof.optimize.result import Result, Status
 
 FEW = 4  # starts of a study of the search, besides those from the studies before it
@@ -141,8 +141,7 @@ class ActuatorSearch:
 
     def _combination(self, rows: Rows, result: Result) -> Combination:
         by_kind = self._by_kind([row for row in rows if row is not None])
-        assert result.best is not None, "a complete combination that was solved has a design"
-        return Combination(**by_kind, objective=result.best.objective)
+        return Combination(**by_kind, objective=best_of(result).objective)
 
     def _with_choice(self, result: Result, rows: Rows, next_best: Rows | None) -> Result:
         other = None if next_best is None else self._combination(next_best, self.results[next_best])
@@ -205,8 +204,7 @@ class ActuatorSearch:
     def _least_margin(self, free: Result, kinds: Sequence[str], row: Actuator) -> float:
         """Return the least margin of the limits of a row at the poses and the design of a study without them."""
         limits = {name: limit for kind in kinds for name, limit in row_limits(kind, row, free.study.stated).items()}
-        assert free.best is not None, "its margins are asked of a study that has a design"
-        point = replace(free.solved, constraints=limits).evaluate(free.best.variables)
+        point = replace(free.solved, constraints=limits).evaluate(best_of(free).variables)
         return min(point.margins.values())
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ninedof.conditioning.conditioning import axis_singular_values
+from ninedof.optimize.candidate import best_of
 from ninedof.optimize.result import Result
 from ninedof.proof.bounds import leg_length_bounds
 from ninedof.proof.machine_record import outward
@@ -149,9 +150,7 @@ def applicable_bounds(result: Result) -> list[LowerBound]:
         If the result holds no design.
 
     """
-    best = instance("result", result, Result).best
-    if best is None:
-        raise ValueError(f"result: got one without a design ({result.status}), expected one with a design")
+    best = best_of(instance("result", result, Result))
     bounds = [
         LowerBound(
             "isotropy", 1.0, True, "no design is isotropic: the condition number stays above 1 at every finite size"

@@ -72,6 +72,15 @@ class Candidate:
 
     def to_dict(self) -> dict[str, Any]:
         """Return every field as plain values, but for the robot and its poses, which follow from the variables."""
+def best_of(result: Any) -> Candidate:
+    """Return the best design of a Result; ValueError says why there is none."""
+    best: Candidate | None = result.best
+    if best is None:
+        got = f"got one without a design ({result.status}: {result.reason})"
+        raise ValueError(f"result: {got}, expected one with a design")
+    return best
+
+
         return plain_fields(self)
 
 

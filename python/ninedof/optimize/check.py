@@ -18,6 +18,7 @@ from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.design_point import DesignPoint
 from ninedof.design.study import LENGTH
 from ninedof.optimize.bounds import applicable_bounds
+from ninedof.optimize.candidate import best_of
 from ninedof.optimize.result import Result, Status
 from ninedof.proof.machine_record import PROVED
 from ninedof.robot.configuration import arrays_of
@@ -127,10 +128,7 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0, *, certify: 
     (True, True)
 
     """
-    if instance("result", result, Result).best is None:
-        raise ValueError(
-            f"result: got one without a design (status '{result.status}'), expected a Result with a design"
-        )
+    best_of(instance("result", result, Result))
     if result.reserve is not None:  # an optimum of the study that was solved
         result = replace(result, study=result.reserve.study(result.study), reserve=None)
     steps = whole("perturbations", perturbations, 0, MOST_PERTURBATIONS)
@@ -143,7 +141,7 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0, *, certify: 
 
 def _of_design(result: Result) -> Iterator[Finding]:
     """Compare the stated robot and numbers with those of the variables, and the limits with these."""
-    best: Any = result.best
+    best = best_of(result)
     point = result.solved.evaluate(best.variables)
     yield _robot(result, point)
     every = condition_number(point.geometry, point.configurations, point.characteristic_length)
@@ -171,7 +169,7 @@ def _of_design(result: Result) -> Iterator[Finding]:
 
 def _robot(result: Result, point: DesignPoint) -> Finding:
     """Compare the variables with their bounds, and their robot with the returned one."""
-    best: Any = result.best
+    best = best_of(result)
     study = result.study
     length = {} if isinstance(study.characteristic_length, str) else {LENGTH: study.characteristic_length}
     bounds = {name: b if isinstance(b, tuple) else (b, b) for name, b in {**study.variables, **length}.items()}
@@ -192,7 +190,7 @@ def _robot(result: Result, point: DesignPoint) -> Finding:
 
 def _of_claims(result: Result, steps: int, seed: int) -> Iterator[Finding]:
     """Test that the design holds in all of its region, and that it is an optimum."""
-    best: Any = result.best
+    best = best_of(result)
     study = result.solved
     problem, x = study.problem(), study.vector(best.variables)
     if result.region is not None:
@@ -235,7 +233,7 @@ def _bounds(result: Result) -> Iterator[Finding]:
     if result.proof is not None and result.proof.certificate:
         verdict = _core.check_certificate(result.proof.certificate, None)
         yield Finding("certificate", verdict.proved, float(verdict.boxes), verdict.words)
-    best: Any = result.best
+    best = best_of(result)
     neutral = float(condition_number(best.geometry, best.configuration, best.characteristic_length))
     for bound in applicable_bounds(result):
         above = neutral / bound.value - 1.0

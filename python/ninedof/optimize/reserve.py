@@ -11,6 +11,7 @@ from ninedof.design.duty import Tolerances, tolerances_like
 from ninedof.design.limit_numbers import with_scaled_limits
 from ninedof.design.region_poses import Placing, o_is_placed
 from ninedof.design.study import Study
+from ninedof.optimize.candidate import best_of
 from ninedof.proof.machine import NEUTRAL_LIMIT, certify, open_limits
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.point_rule import PointRule, rule_of
@@ -54,9 +55,7 @@ def largest(result: Any, options: dict[str, Any]) -> Tolerances:
 
 def machine_of(result: Any) -> tuple[Geometry, Configuration, float]:
     """Return geometry, neutral and listed poses, and characteristic length of the best design."""
-    best = result.best
-    if best is None:
-        raise ValueError(f"result: got one without a design, expected one to be proved: {result.reason}")
+    best = best_of(result)
     return best.geometry, best.configurations[: 1 + len(result.study.objective.poses)], best.characteristic_length
 
 

@@ -18,7 +18,7 @@ from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.design.variables import changed_variables
 from ninedof.optimize.actuator_choice import ActuatorChoice
-from ninedof.optimize.candidate import DERIVED, Candidate, RegionReport, candidate_at, candidate_from
+from ninedof.optimize.candidate import DERIVED, Candidate, RegionReport, best_of, candidate_at, candidate_from
 from ninedof.optimize.reserve import Reserve, certified, largest, machine_of, placing_of
 from ninedof.optimize.tables import agreement_sentence, candidates_table, internal_point_words, summary_lines
 from ninedof.proof.machine import machine_digest
@@ -217,9 +217,7 @@ class Result:
             study places O anew over a region and compares leg lengths there.
 
         """
-        best, region = self.best, self.region
-        if best is None:
-            raise ValueError(f"result: got one without a design, expected one to be changed: {self.reason}")
+        best, region = best_of(self), self.region
         if region is not None and region.leg_ranges:
             raise ValueError(
                 "changes: got a study that places O in a region and compares leg lengths there, expected another one: "

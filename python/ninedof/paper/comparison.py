@@ -11,7 +11,7 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number, singular_values
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.optimize.candidate import Candidate
+from ninedof.optimize.candidate import Candidate, best_of
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result
 from ninedof.paper import published
@@ -112,7 +112,7 @@ def compare(
     Parameters as in `optimize`; all but `threads` are those of the largest of the studies.
     """
     below, above, best_zs = published_zs()
-    printed, same = (solved(name, threads).candidates[0] for name in ("as printed", "same base and height"))
+    printed, same = (best_of(solved(name, threads)) for name in ("as printed", "same base and height"))
     result = optimize(Study.paper(), starts=starts, seed=seed, threads=threads, progress=progress, **others)
     best = result.best
     return Comparison(

@@ -15,6 +15,7 @@ import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.study import Study
+from ninedof.optimize.candidate import best_of
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
@@ -63,9 +64,7 @@ def published_variables(zs: float | None = None) -> dict[str, float]:
 @cache
 def published_zs() -> tuple[float, float, float]:
     """Return the heights of O at which the published design has k = 3.9110, below and above the best, and the best."""
-    point = solved("published plates and height").best
-    assert point is not None, "one free variable, no constraint: always solvable"
-    best = point.variables["zs"]
+    best = best_of(solved("published plates and height")).variables["zs"]
     return _crossing(best, best - 0.5), _crossing(best, best + 0.5), best
 
 

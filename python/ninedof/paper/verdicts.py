@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.optimize.candidate import best_of
 from ninedof.paper.published import (
     B1,
     KAPPA,
@@ -37,10 +38,10 @@ class Verdict(NamedTuple):
 def verdicts(threads: int | None = None) -> tuple[Verdict, ...]:
     """Return every number of the paper beside ours, with a verdict each."""
     results = {name: solved(name, threads) for name in STUDIES}
-    kappa = {name: r.condition_number if r.condition_number is not None else np.inf for name, r in results.items()}
+    kappa = {name: best_of(result).condition_number for name, result in results.items()}
     below, above, best_zs = published_zs()
-    same_class = results["base at most twice the platform"]
-    best = same_class.variables or dict.fromkeys(("a1", "a2", "b1", "b2", "zp"), np.nan)
+    same_class = best_of(results["base at most twice the platform"])
+    best = same_class.variables
     least = kappa["base at most twice the platform"]
     slopes = displacement_slopes(best_zs)
     moving = {name: value for name, value in slopes.items() if abs(value) > 1e-6}
@@ -113,9 +114,9 @@ def verdicts(threads: int | None = None) -> tuple[Verdict, ...]:
         (
             "sec. 5",
             "flight simulators: fixed base twice the mobile one, 2 a2 = b1",
-            f"limits reached at {least:.6f}: {', '.join(same_class.active or ())}",
+            f"limits reached at {least:.6f}: {', '.join(same_class.active)}",
             "right as a limit, with a the platform; a larger base would be better still"
-            if "radius_ratio" in (same_class.active or ())
+            if "radius_ratio" in same_class.active
             else "the limit does not bind",
         ),
         (
