@@ -24,6 +24,8 @@ from ninedof.support.structs import Fixed, Table, entry
 from ninedof.support.text import short_repr
 
 PROOFS = 12  # about as many are needed for the largest tolerances
+FIRST, LEAST, MOST = 1e-4, 1e-6, 0.05  # of the machine's height
+STEP, HALVINGS = 4.0, 5
 
 
 def certified(result: Any, options: dict[str, Any]) -> MachineCertificate:
@@ -36,7 +38,11 @@ def certified(result: Any, options: dict[str, Any]) -> MachineCertificate:
 
 
 def largest(result: Any, options: dict[str, Any]) -> Tolerances:
-    """Return the largest tolerances of a machine, for the options of `Result.largest_tolerance`."""
+    """Return the largest tolerances of a machine, for the options of `Result.largest_tolerance`.
+
+    They are looked for from a millionth to a twentieth of the machine's height, to 5 %: none at all where not even the
+    least ones are proved. A KeyboardInterrupt has the largest ones proved so far.
+    """
     known_keys("largest_tolerance", options, {"condition_number", "slack", "time_limit", "threads", "rule", "progress"})
     study, place, design = result.study, placing_of(result), machine_of(result)
     seconds = finite("time_limit", options.pop("time_limit", 60.0), 0.0) / PROOFS
@@ -45,12 +51,29 @@ def largest(result: Any, options: dict[str, Any]) -> Tolerances:
     rule = options.pop("rule", None)
     if place is not None and not isinstance(rule, PointRule):
         rule = rule_of(place, *design, threads, progress)
+    height = study.zp(design[1][0])
 
-    def proved(tolerances: Tolerances) -> bool:
-        phase(progress, f"proving {max(tolerances.joints, tolerances.legs):.3g}")
-        return not open_limits(study, (*design, rule), tolerances, max(seconds, 0.5), **options)
+    def of(size: float) -> Tolerances:
+        return tolerances_like(study.tolerances, size * height)
 
-    return largest_tolerance(proved, study.tolerances, study.zp(design[1][0]))
+    def proved(size: float) -> bool:
+        phase(progress, f"proving {size * height:.3g}")
+        return not open_limits(study, (*design, rule), of(size), max(seconds, 0.5), **options)
+
+    low, high = 0.0, FIRST
+    try:
+        while high <= MOST and proved(high):
+            low, high = high, STEP * high
+        while low == 0.0 and high >= LEAST:
+            high /= STEP
+            if proved(high):
+                low, high = high, STEP * high
+        for _ in range(HALVINGS if low > 0.0 else 0):
+            middle = (low * high) ** 0.5
+            low, high = (middle, high) if proved(middle) else (low, middle)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(of(low)) from None
+    return of(low)
 
 
 def machine_of(result: Any) -> tuple[Geometry, Configuration, float]:
@@ -66,39 +89,6 @@ def placing_of(result: Any) -> Placing | None:
         return None
     ranges = () if result.region is None else result.region.leg_ranges
     return Placing(result.study, best.configuration, best.variables, best.objective, ranges)
-
-
-FIRST, LEAST, MOST = 1e-4, 1e-6, 0.05  # of the machine's height
-STEP, HALVINGS = 4.0, 5
-
-
-def largest_tolerance(proved: Callable[[Tolerances], bool], shape: Tolerances, height: float) -> Tolerances:
-    """Return the largest tolerances that are proved, to 5 %; none at all where not even the least ones are.
-
-    They have the ratio of `shape`, and are looked for from a millionth to a twentieth of the machine's height. A
-    KeyboardInterrupt has the largest ones proved so far.
-    """
-
-    def of(size: float) -> Tolerances:
-        return tolerances_like(shape, size * height)
-
-    low, high = 0.0, FIRST
-    try:
-        while high <= MOST and proved(of(high)):
-            low, high = high, STEP * high
-        while low == 0.0 and high >= LEAST:
-            if proved(of(high / STEP)):
-                low = high / STEP
-            else:
-                high /= STEP
-        if low == 0.0:
-            return Tolerances()
-        for _ in range(HALVINGS):
-            middle = (low * high) ** 0.5
-            low, high = (middle, high) if proved(of(middle)) else (low, middle)
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(of(low) if low > 0.0 else Tolerances()) from None
-    return of(low)
 
 
 ROUNDS = 6  # two are enough where limits change little with the design
