@@ -140,10 +140,8 @@ def _row(line: int, entries: Mapping[str, str]) -> Actuator:
         values[column] = finite_or_nan(entries[column])
         if math.isnan(values[column]):
             raise ValueError(f"line {line}, column {column}: got {shown(entries[column])}, expected a finite number")
-    try:
+    with within(f"line {line}, column", " "):
         return Actuator(**values)
-    except ValueError as error:
-        raise ValueError(f"line {line}, column {error}") from None
 
 
 def beside_study(path: str | os.PathLike[str], name: str, unit: str) -> tuple[Actuator, ...]:

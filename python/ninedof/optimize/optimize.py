@@ -27,7 +27,7 @@ from ninedof.support.arguments import choice, flag, instance, number, path_argum
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, part_of, phase, progress_argument
 from ninedof.support.store import Store
-from ninedof.support.structs import from_core
+from ninedof.support.structs import from_core, within
 from ninedof.support.text import short_repr
 
 LONGEST = 600.0  # seconds of a proof
@@ -257,9 +257,7 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
     instance("study", study, Study)
     choice("formulation", formulation, ("minimax", "plain"))
     problem = study.problem()
-    try:
+    with within("start", ": "):
         x = study.vector(start)
-    except ValueError as error:
-        raise ValueError(f"start: {error}") from None
     run = _core.trace(problem, x, formulation)
     return Trace(run.best, candidate_of(problem, run.end))

@@ -21,6 +21,7 @@ from ninedof.support.arguments import finite, shown
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, from_json_array, json_array
 from ninedof.support.store import Store
+from ninedof.support.structs import within
 from ninedof.support.units import in_radians
 
 Warm = Result | Candidate | Mapping[str, float]
@@ -64,12 +65,10 @@ def warm_variables(warm: Warm | Iterable[Warm] | None) -> list[Mapping[str, floa
 
 def _row(study: Study, names: set[str], start: Mapping[str, Any]) -> list[float]:
     fixed = {name: bound for name, bound in study.variables.items() if not isinstance(bound, tuple)}
-    try:
+    with within("warm", ": "):
         start = in_radians(start, dict.fromkeys(study.angles, finite))
         values = {n: v for n, v in start.items() if n in names or not (n == LENGTH or str(n).startswith("pose"))}
         return study.vector(values | {name: value for name, value in fixed.items() if name in values})
-    except ValueError as error:
-        raise ValueError(f"warm: {error}") from None
 
 
 WORDS, CERTIFICATE = "words", "certificate"  # names of a piece: its JSON, and the bytes of a certificate

@@ -31,7 +31,7 @@ from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arguments import choice, instance, items, path_argument
 from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
-from ninedof.support.structs import entries_of
+from ninedof.support.structs import entries_of, within
 from ninedof.tables.html import notebook
 
 T = TypeVar("T")
@@ -229,10 +229,8 @@ class Result:
             region = replace(region, poses=region.poses if placing_of(self) is None else ())  # O is placed anew
             study = posed(study, region.poses)
         problem = study.problem()
-        try:
+        with within(", ".join(changes), ": "):  # plates without a size
             point = design_point(problem, [values[name] for name in problem.names])
-        except ValueError as error:  # plates without a size
-            raise ValueError(f"{', '.join(changes)}: {error}") from None
         if region is not None:
             region = RegionReport(region.poses, 0, 0, point.objective, region.objective_at, math.nan, "")
         reason = f"changed, not optimized: {', '.join(f'{name} = {change}' for name, change in changes.items())}"
