@@ -23,7 +23,6 @@ from ninedof.statics.dynamics import GRAVITY, gravity_for_core, inverse_dynamics
 from ninedof.support.arguments import choice, finite, instance, items
 from ninedof.support.arrays import Floats, as_floats, as_number, broadcast_leading
 from ninedof.support.files import Saved
-from ninedof.support.margins import TOLERANCE
 from ninedof.support.text import short_repr
 from ninedof.support.units import metres, unit_entry
 
@@ -214,13 +213,6 @@ class Followed(Saved):
         entries["limits"] = tuple(entries["limits"])
         entries["singularity_margins"] = SingularityMargins(*entries["singularity_margins"])
         return cls(geometry=g, trajectory=path, configurations=c, **entries)
-
-
-def stretches(
-    name: str, time: Floats, values: Floats, margin: Floats, tolerance: float = TOLERANCE
-) -> list[LimitBreak]:
-    """Return the stretches of a margin that is negative beyond the tolerance."""
-    return [LimitBreak(*entry) for entry in _core.stretches(name, time, values, margin, tolerance)]
 
 
 def follow(

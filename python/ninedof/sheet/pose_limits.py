@@ -17,7 +17,7 @@ from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
 from ninedof.design.limits import ROWS, kind_of
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.motion.follow import Followed, LimitBreak, stretches
+from ninedof.motion.follow import Followed, LimitBreak
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.support.arguments import instance
@@ -111,7 +111,8 @@ class PathLimits:
         breaks: list[LimitBreak] = []
         for one in self.limits:
             tolerance = tolerance_of(kind_of(one.name), one.limit)
-            breaks += stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, tolerance)
+            passed = _core.stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, tolerance)
+            breaks += [LimitBreak(*entry) for entry in passed]
         return tuple(sorted(breaks, key=lambda stretch: (stretch.begin, stretch.limit)))
 
     @property

@@ -12,10 +12,10 @@ from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
+from ninedof import _core
 from ninedof.cli.commands.certify import certificate_table
 from ninedof.design.limits import ROWS, split_label
 from ninedof.export.latex import _limits as latex_limits
-from ninedof.motion.follow import stretches
 from ninedof.proof.machine import certify
 from ninedof.sheet.pose_limits import pose_limits
 from ninedof.sheet.rows import limit_rows
@@ -195,7 +195,7 @@ def test_a_singularity_that_is_passed_is_no_rounding():
     time = np.linspace(0.0, 1.0, 11)
     margin = np.full(11, 1e-3)
     margin[5] = -5e-7 - 1e-7
-    found = stretches("singularity_free", time, margin, margin, tolerance_of("sign", 1e-7))
+    found = _core.stretches("singularity_free", time, margin, margin, tolerance_of("sign", 1e-7))
     assert len(found) == 1
 
 
