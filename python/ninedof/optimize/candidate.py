@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ninedof import _core
 from ninedof.design.design_point import DesignPoint, robot_at
@@ -16,9 +16,6 @@ from ninedof.sheet.plain_values import plain_fields
 from ninedof.support.arguments import finite, items
 from ninedof.support.structs import Fixed, entries_of, from_core, read
 from ninedof.support.text import short_repr
-
-if TYPE_CHECKING:
-    from ninedof import _core
 
 DERIVED = {"derived": True}  # fields that follow from others
 ROBOT = ("geometry", "configuration", "configurations")  # those of a candidate
@@ -72,6 +69,9 @@ class Candidate:
 
     def to_dict(self) -> dict[str, Any]:
         """Return every field as plain values, but for the robot and its poses, which follow from the variables."""
+        return plain_fields(self)
+
+
 def best_of(result: Any) -> Candidate:
     """Return the best design of a Result; ValueError says why there is none."""
     best: Candidate | None = result.best
@@ -79,9 +79,6 @@ def best_of(result: Any) -> Candidate:
         got = f"got one without a design ({result.status}: {result.reason})"
         raise ValueError(f"result: {got}, expected one with a design")
     return best
-
-
-        return plain_fields(self)
 
 
 def candidate_of(problem: _core.Problem, end: _core.Candidate) -> Candidate:
@@ -131,10 +128,6 @@ class RegionMean:
             f"harmonic mean {self.value:.6f}, standard error {self.standard_error:.1e}, over poses that were not used "
             f"({self.quadrature:.6f} over the {self.nodes} that were minimized over)"
         )
-
-    def stated(self, objective: float, share: float) -> float:
-        """Return an objective with `value` in place of the quadrature; `share` is the mean's, in logarithms."""
-        return objective * float((self.value / self.quadrature) ** share)
 
 
 @short_repr
@@ -199,10 +192,6 @@ class RegionReport:
             "the sheet has those that the region needs"
         )
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain values."""
-        return plain_fields(self)
-
     @classmethod
     def from_core(cls, report: _core.RegionReport) -> RegionReport:
         """Return the report of the core."""
@@ -218,7 +207,7 @@ class RegionReport:
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> RegionReport:
-        """Return the report of a mapping as `to_dict` makes it."""
+        """Return the report of a mapping as `Result.to_dict` makes it."""
         entries = entries_of(cls, data, "region", skipped=["poses", "objective_at"])
         rows = items("region.poses", data.get("poses"), "a list of poses")
         poses = tuple(read(Pose, pose, f"region.poses[{k}]") for k, pose in enumerate(rows))

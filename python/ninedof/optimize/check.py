@@ -154,8 +154,8 @@ def _of_design(result: Result) -> Iterator[Finding]:
     yield Finding("condition numbers", figure <= allowed, figure, sentence)
     objective = result.study.objective
     mean = None if result.region is None else result.region.mean
-    # The optimizer minimized over the poses of its quadrature.
-    minimized = best.objective / (1.0 if mean is None else mean.stated(1.0, objective.mean_share))
+    # The optimizer minimized over the poses of its quadrature; of the logarithm the mean has its share.
+    minimized = best.objective / (1.0 if mean is None else (mean.value / mean.quadrature) ** objective.mean_share)
     figure = _difference(np.array([point.objective]), np.array([minimized]))
     index = f"{objective.aggregate} {objective.index}".replace("_", " ")
     poses = "1 pose" if len(best.conditions) == 1 else f"{len(best.conditions)} poses"
