@@ -218,37 +218,33 @@ def _poses(text: str, origin: Floats, unit: str) -> tuple[Floats, Floats, Floats
     if len(body) < FEWEST:
         raise ValueError(f"got {len(body)} poses, expected at least {FEWEST}")
     require_entries(body, names)
-    used = {names.index(name) for name in ("t", *place, *turns)}
-    table = np.array([[finite_or_nan(text) if k in used else 0.0 for k, text in enumerate(row)] for _, row in body])
-    for k, column in np.argwhere(np.isnan(table))[:1]:
-        got = shown(body[k][1][column])
-        raise ValueError(f"line {body[k][0]}, column {names[column]}: got {got}, expected a finite number")
-
-    def columns(some: Sequence[str]) -> Floats:
-        return np.ascontiguousarray(table[:, [names.index(name) for name in some]])
-
-    time = columns(["t"])[:, 0]
+    used = ("t", *place, *turns)
+    columns = [names.index(name) for name in used]
+    table = np.array([[finite_or_nan(row[column]) for column in columns] for _, row in body])
+    for k, j in np.argwhere(np.isnan(table))[:1]:
+        got = shown(body[k][1][columns[j]])
+        raise ValueError(f"line {body[k][0]}, column {used[j]}: got {got}, expected a finite number")
+    time, position, turn = table[:, 0], table[:, 1:4], np.ascontiguousarray(table[:, 4:])
     for k in np.flatnonzero(np.diff(time) <= 0.0)[:1]:
         got = f"got {time[k + 1]:g} after {time[k]:g}"
         raise ValueError(f"line {body[k + 1][0]}, column t: {got}, expected more")
     if turns == QUATERNION:
-        size = np.linalg.norm(columns(turns), axis=1)
+        size = np.linalg.norm(turn, axis=1)
         for k in np.flatnonzero(np.abs(size - 1.0) > UNIT)[:1]:
             raise ValueError(f"line {body[k][0]}, column qw: got a quaternion of length {size[k]:g}, expected 1")
     if turns and RADIANS.issuperset(turns):
-        for k, j in np.argwhere(np.abs(columns(turns)) > 2.0 * math.pi * (1.0 + UNIT))[:1]:
+        for k, j in np.argwhere(np.abs(turn) > 2.0 * math.pi * (1.0 + UNIT))[:1]:
             degrees = " ".join(name + DEG for name in turns)
             expected = f"expected radians, at most a full turn; degrees are in columns {degrees}"
-            raise ValueError(f"line {body[k][0]}, column {turns[j]}: got {columns(turns)[k, j]:g}, {expected}")
-    position = columns(place) + (origin if place == RELATIVE else 0.0)
-    rotation = ROTATIONS[turns](columns(turns)) if turns else None
+            raise ValueError(f"line {body[k][0]}, column {turns[j]}: got {turn[k, j]:g}, {expected}")
+    rotation = ROTATIONS[turns](turn) if turns else None
     if turns == MATRIX and rotation is not None:
         off = np.abs(np.swapaxes(rotation, 1, 2) @ rotation - np.eye(3)).max(axis=(1, 2))
         for k in np.flatnonzero((off > UNIT) | (np.linalg.det(rotation) < 0.0))[:1]:
             raise ValueError(f"line {body[k][0]}, column Q11: got no rotation in Q11 to Q33, expected one, to {UNIT:g}")
         if off.max() > EXACT:  # few digits
             rotation = from_quaternions(to_quaternions(rotation))
-    return time, position, rotation
+    return time, position + (origin if place == RELATIVE else 0.0), rotation
 
 
 def _pose_columns(where: str, names: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
