@@ -22,7 +22,7 @@ from ninedof.support.files import Arrays
 from ninedof.support.running import Progress
 from ninedof.sweep.axis import Axis, Grid
 from ninedof.sweep.grid import GridWork
-from ninedof.sweep.points import COORDINATES
+from ninedof.sweep.points import Poses
 from ninedof.sweep.result import SweepResult
 
 if TYPE_CHECKING:
@@ -111,11 +111,8 @@ class _Displaced:
     home: Configuration
 
     def values(self, at: dict[str, Floats], indices: tuple[Index, ...], threads: int | None) -> Arrays:
-        columns = np.array([COORDINATES.index(name) for name in SHOWN])
-        tangent = np.zeros((len(at["displacement"]), 9))
-        tangent[np.arange(len(tangent)), columns[at["coordinate"].round().astype(np.intp)]] = at["displacement"]
-        c = self.home.moved(tangent)
-        return {i.name: i.values(self.geometry, c, 1.0, threads) for i in indices}
+        moved = {name: np.where(at["coordinate"].round() == k, at["displacement"], 0.0) for k, name in enumerate(SHOWN)}
+        return Poses(self.geometry, self.home, True, "held", 1.0).values(moved, indices, threads)
 
     def question(self) -> dict[str, Any]:
         return {
