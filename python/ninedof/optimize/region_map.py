@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ from ninedof.design.study import Study
 from ninedof.motion.rotations import from_vectors
 from ninedof.optimize.reserve import placing_of
 from ninedof.optimize.result import Result
+from ninedof.proof.point_rule import tilt_and_yaw
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.pose_limits import pose_limits
@@ -121,7 +123,7 @@ def region_map(result: Result) -> RegionMap | None:
     shares = [one.margin for one in limits if kind_of(one.name) != "sign"]
     size = region.size_at(neutral)
     unit, home = (1.0, np.zeros(2)) if plane == TILTS else (size, neutral.position[list(plane)])
-    ruled = [_in_plane(pose, plane, size) for pose in (() if result.region is None else result.region.poses)]
+    ruled = () if result.region is None else result.region.poses
     return RegionMap(
         axes=(NAMES[plane[0]], NAMES[plane[1]]),
         over=words,
@@ -132,7 +134,7 @@ def region_map(result: Result) -> RegionMap | None:
         compared=_compared(study, g, neutral, length),
         outline=_outline(region, plane, neutral),
         home=home,
-        ruled=home + np.array(ruled).reshape(-1, 2),
+        ruled=home + _in_plane(ruled, plane, size),
         worst=max(float(kappa.max()), *best.conditions),
         unit=study.unit,
         poses=len(rows),
@@ -200,14 +202,11 @@ def _poses_at(region: Region, plane: tuple[int, int], places: Floats) -> tuple[F
     return at, " and ".join([", ".join(names[:-1])] * (len(names) > 1) + names[-1:])
 
 
-def _in_plane(pose: Pose, plane: tuple[int, int], unit: float) -> list[float]:
-    """Return the shift of a pose in the plane of a map, or its tilt: the rest of its rotation is about z."""
-    if plane != TILTS:
-        return [unit * pose.position[k] for k in plane]
-    x, y, z = from_vectors(np.array([pose.rotation]))[0, :, 2].tolist()
-    away = math.hypot(x, y)
-    angle = math.atan2(away, z)
-    return [-y * angle / max(away, 1e-300), x * angle / max(away, 1e-300)]
+def _in_plane(poses: Sequence[Pose], plane: tuple[int, int], unit: float) -> Floats:
+    """Return the shifts of poses in the plane of a map, or their tilts, shape (n, 2)."""
+    if plane == TILTS:
+        return tilt_and_yaw(from_vectors(np.reshape([pose.rotation for pose in poses], (-1, 3))))[0]
+    return unit * np.reshape([pose.position for pose in poses], (-1, 3))[:, plane]
 
 
 def _outline(region: Region, plane: tuple[int, int], neutral: Configuration) -> Floats:
