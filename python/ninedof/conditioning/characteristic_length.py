@@ -45,7 +45,6 @@ def characteristic_length(geometry: Geometry, configuration: Configuration, kind
 
 def resolve_length(geometry: Geometry, configuration: Configuration, length: ArrayLike | str) -> Floats:
     """Return a characteristic length as a flat array of one value, or one value per configuration."""
-    operands(geometry, configuration)
     if isinstance(length, str):
         kind = choice("characteristic_length", length, KINDS)
         lengths = np.reshape(characteristic_length(geometry, configuration, kind), -1)

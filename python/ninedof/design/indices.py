@@ -35,8 +35,9 @@ class Index:
 
     name: str
     function: Callable[..., Any] | None
-    """Called as function(geometry, configuration, characteristic_length, threads=...): shape (...), or
-    (..., len(components)). None: the core alone has it, as an objective at the neutral pose of symmetric designs."""
+    """Called as function(geometry, configuration, characteristic_length, threads=...), without the length where it
+    needs none: shape (...), or (..., len(components)). None: the core alone has it, as an objective at the neutral pose
+    of symmetric designs."""
     title: str = ""
     """In words, for reports and figures; the name with spaces by default."""
     better: str = ""
@@ -69,7 +70,8 @@ class Index:
         """Return the index at every configuration."""
         assert self.function is not None, f"{self.name} is an objective only"
         if not self.own:
-            return self.function(geometry, configuration, length, threads=threads)
+            operands = (geometry, configuration, length) if self.needs_length else (geometry, configuration)
+            return self.function(*operands, threads=threads)
         values = as_floats(f"index {self.name}", self.function(geometry, configuration, length), ())
         if values.shape != configuration.shape:
             got, expected = values.shape, configuration.shape
@@ -82,17 +84,13 @@ def _speed(g: Geometry, c: Configuration, length: Any, threads: int | None) -> A
         return 1.0 / singular_values(g, c, length, threads)[..., -1]
 
 
-def _leg_lengths(g: Geometry, c: Configuration, length: Any, threads: int | None) -> Any:
-    return leg_lengths(g, c, threads)
-
-
-def _leg_ratio(g: Geometry, c: Configuration, length: Any, threads: int | None) -> Any:
+def _leg_ratio(g: Geometry, c: Configuration, threads: int | None) -> Any:
     legs = leg_lengths(g, c, threads)
     with np.errstate(divide="ignore", invalid="ignore"):  # a leg of length 0: infinite, or NaN where all are
         return legs.max(axis=-1) / legs.min(axis=-1)
 
 
-def _margins(g: Geometry, c: Configuration, length: Any, threads: int | None) -> Any:
+def _margins(g: Geometry, c: Configuration, threads: int | None) -> Any:
     return np.stack(singularity_margins(g, c, threads), axis=-1)
 
 
@@ -119,7 +117,7 @@ INDICES: dict[str, Index] = {
             objective="six_legged",
         ),
         Index("singular_values", singular_values, dimension="singular_value", components=tuple("123456")),
-        Index("leg_lengths", _leg_lengths, dimension="leg", components=LEGS, unit="length", needs_length=False),
+        Index("leg_lengths", leg_lengths, dimension="leg", components=LEGS, unit="length", needs_length=False),
         Index("leg_ratio", _leg_ratio, title="longest / shortest leg", better="smaller", needs_length=False),
         Index(
             "singularity_margins",
