@@ -76,13 +76,8 @@ def least_share(completed: int) -> float:
 def agreement_sentence(completed: int, arrived: int, abandoned: int, optimal: bool) -> str:
     """Return how many starts were followed to their end, how many arrived, and what may have been missed.
 
-    Parameters
-    ----------
-    completed, arrived, abandoned : int
-        Starts followed to their end, those of them that ended at the best objective, and starts given up.
-    optimal : bool
-        Whether the best design is an optimum.
-
+    Of those `completed` the ones that `arrived` ended at the best objective; `abandoned` ones were given up. Whether
+    the best design is an optimum is `optimal`.
     """
     if completed < 1:
         return "no start was followed to its end"
