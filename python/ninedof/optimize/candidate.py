@@ -13,8 +13,7 @@ from ninedof.design.poses import Pose
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.plain_values import plain_fields
-from ninedof.support.arguments import finite, items
-from ninedof.support.structs import Fixed, entries_of, from_core, read
+from ninedof.support.structs import Fixed, entries_of, from_core
 from ninedof.support.text import short_repr
 
 DERIVED = {"derived": True}  # fields that follow from others
@@ -94,15 +93,10 @@ def candidate_at(point: DesignPoint, residual: float) -> Candidate:
     return from_core(Candidate, point, **search, constraint_violation=violation)
 
 
-def candidate_from(problem: _core.Problem, data: Mapping[str, Any], where: str) -> Candidate:
+def candidate_from(problem: _core.Problem, data: Mapping[str, Any]) -> Candidate:
     """Return the candidate of a mapping as `Candidate.to_dict` makes it, with its robot and poses."""
-    entries = entries_of(Candidate, data, where, skipped=ROBOT)
-    values = entries["variables"]
-    missing = [name for name in problem.names if name not in values]
-    if missing:
-        raise ValueError(f"{where}.variables: got none of the name {missing[0]}, expected all of the study")
-    x = [finite(f"{where}.variables.{name}", values[name]) for name in problem.names]
-    return Candidate(**entries, **robot_at(problem, x))
+    entries = entries_of(Candidate, data, skipped=ROBOT)
+    return Candidate(**entries, **robot_at(problem, [entries["variables"][name] for name in problem.names]))
 
 
 @short_repr
@@ -208,10 +202,9 @@ class RegionReport:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> RegionReport:
         """Return the report of a mapping as `Result.to_dict` makes it."""
-        entries = entries_of(cls, data, "region", skipped=["poses", "objective_at"])
-        rows = items("region.poses", data.get("poses"), "a list of poses")
-        poses = tuple(read(Pose, pose, f"region.poses[{k}]") for k, pose in enumerate(rows))
-        return cls(**entries, poses=poses, objective_at=read(Pose, data.get("objective_at"), "region.objective_at"))
+        entries = entries_of(cls, data, skipped=["poses", "objective_at"])
+        poses = tuple(map(Pose.from_dict, data["poses"]))
+        return cls(**entries, poses=poses, objective_at=Pose.from_dict(data["objective_at"]))
 
 
 def _posed(pose: Any) -> Pose:

@@ -28,7 +28,7 @@ from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.robot.configuration import Configuration
 from ninedof.sheet.plain_values import plain_fields
 from ninedof.sheet.sheet import Sheet, sheet
-from ninedof.support.arguments import choice, instance, items, path_argument
+from ninedof.support.arguments import instance, path_argument
 from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
 from ninedof.support.structs import entries_of, within
@@ -355,11 +355,10 @@ def result_from(study: Study, data: Mapping[str, Any]) -> Result:
     entries = entries_of(Result, data, skipped=["status", "candidates", "study", *kinds])
     parts: dict[str, Any] = {n: kind.from_dict(data[n]) for n, kind in kinds.items() if data.get(n) is not None}
     problem = (posed(study, parts["region"].poses) if "region" in parts else study).problem()
-    rows = items("candidates", data.get("candidates"), "a list of candidates")
     return Result(
         **entries,
         **parts,
-        status=Status(choice("status", data.get("status"), list(Status))),
-        candidates=tuple(candidate_from(problem, entry, f"candidates[{k}]") for k, entry in enumerate(rows)),
+        status=Status(data["status"]),
+        candidates=tuple(candidate_from(problem, entry) for entry in data["candidates"]),
         study=study,
     )
