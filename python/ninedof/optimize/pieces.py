@@ -46,20 +46,15 @@ def warm_variables(warm: Warm | Iterable[Warm] | None) -> list[Mapping[str, floa
     """Return the values of each start by name: a result stands for its best candidates."""
     if warm is None:
         return []
-    expected = "a Result, a Candidate, a mapping of names to values, or a sequence of them"
-    entries = [warm] if isinstance(warm, Result | Candidate | Mapping) else warm
-    if isinstance(entries, str) or not isinstance(entries, Iterable):
-        raise ValueError(f"warm: got {shown(warm)}, expected {expected}")
-    starts: list[Mapping[str, float]] = []
-    for item in entries:
-        if isinstance(item, Result):
-            starts.extend(c.variables for c in item.candidates[:MOST_OF_A_RESULT])
-        elif isinstance(item, Candidate):
-            starts.append(item.variables)
-        elif isinstance(item, Mapping):
-            starts.append(item)
-        else:
-            raise ValueError(f"warm: got {shown(item)}, expected {expected}")
+    several = isinstance(warm, Iterable) and not isinstance(warm, Mapping | str)
+    starts: list[Any] = []
+    for item in warm if several else [warm]:  # type: ignore[union-attr]  # the condition says so
+        starts += item.candidates[:MOST_OF_A_RESULT] if isinstance(item, Result) else [item]
+    starts = [start.variables if isinstance(start, Candidate) else start for start in starts]
+    for start in starts:
+        if not isinstance(start, Mapping):
+            expected = "a Result, a Candidate, a mapping of names to values, or a sequence of them"
+            raise ValueError(f"warm: got {shown(start)}, expected {expected}")
     return starts
 
 
