@@ -5,17 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.structs import Fixed
 from ninedof.support.text import short_repr
-
-if TYPE_CHECKING:
-    from ninedof import _core
 
 LARGEST = 1e200  # of an objective; beyond, the core has replaced a vanishing singular value by 1e-300
 

@@ -4,25 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from ninedof import plot
 from ninedof.paper.plates import figure_1, figure_5
 from ninedof.paper.published import FIGURES, ZP, published_geometry, published_zs
 from ninedof.paper.sweeps import sweep_figure
 from ninedof.plot import style
+from ninedof.plot.space.ellipsoid import Axes
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.statics.statics import velocity_ellipsoid
 from ninedof.support.arrays import Floats
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from ninedof.plot.space.ellipsoid import Axes
-    from ninedof.sweep import SweepResult
+from ninedof.sweep import SweepResult
 
 __all__ = ["draw", "figure_1", "figure_2", "figure_3", "figure_4", "figure_5", "figure_6", "figure_7"]
 

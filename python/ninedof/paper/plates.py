@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 
 from ninedof.plot import style
 from ninedof.plot.space import scene
 from ninedof.plot.space.mechanism import Robot, draw
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
 from ninedof.robot.plates import outlines
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from ninedof.robot.configuration import Configuration
-    from ninedof.robot.geometry import Geometry
 
 LETTERS = ("A", r"\hat{A}", "B", r"\tilde{B}")
 SMALL = 0.3  # inches, for the words below
