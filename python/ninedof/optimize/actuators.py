@@ -42,8 +42,7 @@ class ActuatorSearch:
         self.groups = [LEG_KINDS] if study.actuators_for == "all" else [(kind,) for kind in LEG_KINDS]
         own, region = study.actuators, study.objective.region
         best = [row for k, row in enumerate(own) if not any(_replaces(other, j, row, k) for j, other in enumerate(own))]
-        travel = {kind: 0.0 if region is None else least_travel(region, kind) for kind in LEG_KINDS}
-        needed = [max(travel[kind] for kind in kinds) for kinds in self.groups]
+        needed = [max(least_travel(region, kind) for kind in kinds) if region else 0.0 for kinds in self.groups]
         self.rows = [[row for row in best if row.longest - row.shortest >= least] for least in needed]
         self.left_out = tuple(row.name for row in own if not any(row in rows for rows in self.rows))
         self.results: dict[Rows, Result] = {}

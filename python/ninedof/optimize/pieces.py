@@ -46,9 +46,10 @@ def warm_variables(warm: Warm | Iterable[Warm] | None) -> list[Mapping[str, floa
     """Return the values of each start by name: a result stands for its best candidates."""
     if warm is None:
         return []
-    several = isinstance(warm, Iterable) and not isinstance(warm, Mapping | str)
+    argument: Any = warm
+    several = isinstance(argument, Iterable) and not isinstance(argument, Mapping | str)
     starts: list[Any] = []
-    for item in warm if several else [warm]:  # type: ignore[union-attr]  # the condition says so
+    for item in argument if several else [argument]:
         starts += item.candidates[:MOST_OF_A_RESULT] if isinstance(item, Result) else [item]
     starts = [start.variables if isinstance(start, Candidate) else start for start in starts]
     for start in starts:

@@ -44,7 +44,7 @@ def _part(study: Study, variables: Mapping[str, float], name: str, share: float 
     if not study.unit:
         return ""
     if name in variables:
-        value, unit = variables[name], "deg" if name in study.angles else study.unit
+        value, unit = variables[name], study.unit_of(name)
     else:
         limit = next((limit for limit in study.limits if limit.label == name), None)
         if limit is None or len(limit.sides) != 1:
@@ -128,9 +128,8 @@ def candidates_table(result: Any) -> Table:
     heads = ["best", *(f"no. {k}" for k in range(2, len(candidates) + 1))]
     rows: list[Any] = [*_index_lines(result), ()]
     for name in listed_variables(study.variables):
-        if name != LENGTH:
-            values = [study.shown(name, c.variables[name]) for c in candidates]
-            rows.append(Line(name, values, SHORT, study.unit_of(name)))
+        values = [study.shown(name, c.variables[name]) for c in candidates]
+        rows.append(Line(name, values, SHORT, study.unit_of(name)))
     if study.characteristic_length != 1.0:
         rows.append(Line("characteristic length", [c.characteristic_length for c in candidates], SHORT, study.unit))
     rows += [
