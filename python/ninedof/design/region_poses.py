@@ -35,7 +35,7 @@ class Placing:
         """Return the configurations and poses at given coordinates, shape (n, 6)."""
         region: Region = self.study.objective.region  # type: ignore[assignment]
         near, shift = _core.place_in_region(self.for_core(), region.for_core(), at, 0)
-        there = configurations_at(region, self.neutral, near)[1]
+        there = configurations_at(region, self.neutral, near)
         zp = self.study.zp(self.neutral)
         size = 1.0 if region.unit == "zp" else zp
         rows = _core.region_poses(region.for_core(), near)
@@ -67,16 +67,16 @@ def posed(study: Study, poses: tuple[Pose, ...]) -> Study:
     return replace(study, objective=replace(objective, poses=(*objective.poses, *poses), region=None))
 
 
-def configurations_at(region: Region, neutral: Configuration, at: Floats) -> tuple[Floats, Configuration]:
-    """Return the coordinates nearest to given ones in a region that says where O is, shape (n, 6), and the poses there.
+def configurations_at(region: Region, neutral: Configuration, at: Floats) -> Configuration:
+    """Return the poses nearest to given coordinates, shape (n, 6), in a region that says where O is.
 
     Coordinates are the shift of p (on a path the first from -1 to 1), the tilt about x and y, and the yaw.
     """
     rows = _core.region_poses(region.for_core(), np.ascontiguousarray(at))
-    near, shift, turn, internal = np.split(rows, [6, 9, 12], axis=1)
+    _, shift, turn, internal = np.split(rows, [6, 9, 12], axis=1)
     unit = region.size_at(neutral)
     q = from_vectors(turn) @ neutral.rotation
-    return near, Configuration(neutral.position + unit * shift, q, neutral.internal_point + unit * internal)
+    return Configuration(neutral.position + unit * shift, q, neutral.internal_point + unit * internal)
 
 
 def poses_at(region: Region, at: Floats) -> tuple[Pose, ...]:

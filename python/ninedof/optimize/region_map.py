@@ -117,7 +117,7 @@ def region_map(result: Result) -> RegionMap | None:
     places = _places(region, plane, placing is not None)
     at, words = _poses_at(region, plane, places)
     shape, rows = at.shape[:-1], at.reshape(-1, 6)
-    c = configurations_at(region, neutral, rows)[1] if placing is None else placing(rows)[0]
+    c = configurations_at(region, neutral, rows) if placing is None else placing(rows)[0]
     kappa = np.asarray(condition_number(g, c, length)).reshape(shape).max(axis=-1)
     limits = [one for one in pose_limits(study, g, c, neutral, length) if one.name not in SPREADS]
     shares = [one.margin for one in limits if kind_of(one.name) != "sign"]
@@ -150,7 +150,7 @@ def _compared(study: Study, g: Geometry, neutral: Configuration, length: float) 
     if not compared(study):
         return {}
     ends = np.array(_core.leg_lengths_over(g, neutral, region.for_core(), SAMPLES))
-    _, middle = configurations_at(region, neutral, np.zeros((1, 6)))
+    middle = configurations_at(region, neutral, np.zeros((1, 6)))
     for one in pose_limits(study, g, middle, neutral, length, ends):
         if one.name in SPREADS:
             out[one.name] = min(float(one.margin[0]), out.get(one.name, math.inf))

@@ -117,7 +117,7 @@ class DesignRange:
         every, region = Configuration(*self.study.problem().configurations(row)), self.study.objective.region
         if region is None:
             return every[1:] if len(every) > 1 else every
-        return configurations_at(region, every[0], _core.even_poses(region.for_core(), POSES))[1]
+        return configurations_at(region, every[0], _core.even_poses(region.for_core(), POSES))
 
     @property
     def digest(self) -> str:

@@ -65,7 +65,7 @@ def look_over(design: Any, c: Configuration, question: _core.SheetQuestion, coun
     samples = 2 * (count if place is None else min(count, PLACED))
     end = _core.sheet_over_region(question, region.for_core(), samples, None if place is None else place.for_core())
     search, at = from_core(RegionSearch, end, region=region.worded(study.unit)), end.worst
-    worst, poses = (configurations_at(region, c[0], at)[1], poses_at(region, at)) if place is None else place(at)
+    worst, poses = (configurations_at(region, c[0], at), poses_at(region, at)) if place is None else place(at)
     return Looked(_joined(c, worst), search, poses, place)
 
 
@@ -73,7 +73,7 @@ def even_poses(design: Any, looked: Looked, count: int) -> Configuration:
     """Return even poses of the region of a design's study, fewer where O is placed."""
     region, place = design.study.objective.region, looked.placing
     at = _core.even_poses(region.for_core(), count if place is None else min(count, PLACED))
-    return configurations_at(region, looked.configurations[0], at)[1] if place is None else place(at)[0]
+    return configurations_at(region, looked.configurations[0], at) if place is None else place(at)[0]
 
 
 def robot_of(

@@ -122,11 +122,11 @@ def test_the_sheet_agrees_with_the_search_of_the_optimizer(boxed):
 def test_configurations_are_those_of_the_core(region):
     design = result(region)
     given = np.random.default_rng(3).uniform(-1.0, 1.0, (40, 6)) * nd.Region(**region).reach
-    at, c = configurations_at(nd.Region(**region), design.configuration, given)
-    core = posed(design.study, poses_at(nd.Region(**region), at)).evaluate(design.variables).configurations[1:]
+    c = configurations_at(nd.Region(**region), design.configuration, given)
+    core = posed(design.study, poses_at(nd.Region(**region), given)).evaluate(design.variables).configurations[1:]
     for name in ("position", "rotation", "internal_point"):
         assert np.allclose(getattr(c, name), getattr(core, name), atol=1e-12)
-    outside = configurations_at(nd.Region(**region), design.configuration, 10.0 * at)[0]
+    outside = _core.region_poses(nd.Region(**region).for_core(), 10.0 * given)[:, :6]
     reach = np.array(nd.Region(**region).reach)
     assert (np.abs(outside) <= reach + 1e-12).all()
 
