@@ -9,11 +9,13 @@ the number.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.study import Study
 from ninedof.optimize.candidate import best_of
 from ninedof.optimize.optimize import optimize
@@ -42,12 +44,8 @@ STUDIES: dict[str, Callable[[], Study]] = {
     "same base and height": lambda: Study(variables={"a1": 0.0, "a2": BASE_SIDE, "zp": ZP}),
     "base no larger": lambda: Study(variables={"a1": (0.0, BASE_SIDE), "a2": (0.0, BASE_SIDE)}),
     "base at most twice the platform": Study.paper,
-    "the same, theta_z free": lambda: Study(
-        variables={"theta_z": (-np.pi, np.pi)}, constraints={"radius_ratio": (None, 2.0)}
-    ),
-    "eqs. (8)-(9) alone": lambda: Study(
-        variables={name: (0.0, float("inf")) for name in ("a1", "a2", "b1", "b2", "zp", "zs")}
-    ),
+    "the same, theta_z free": lambda: replace(Study.paper(), variables={"theta_z": (-np.pi, np.pi)}),
+    "eqs. (8)-(9) alone": lambda: Study(variables=dict.fromkeys(HEXAGONAL, (0.0, np.inf))),
 }
 
 
