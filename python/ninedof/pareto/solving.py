@@ -38,7 +38,6 @@ class FrontSolver:
         """Begin without results, or with those of a store."""
         self.study, self.against = study, against
         self.results: dict[float, Result] = {}
-        self.open_ended: Result | None = None
         self._thorough: set[float | None] = set()
         self._threads, self._progress, self._pieces = threads, progress, Pieces(store)
         self._solved, self.planned = 0, 0
@@ -62,7 +61,6 @@ class FrontSolver:
             value = objective_of(result)
             self._progress(self._solved, max(self.planned, self._solved), None if math.isnan(value) else value)
         if limit is None:
-            self.open_ended = result
             return result
         old = self.results.get(limit)
         if old is None or _rank(result) < _rank(old, better_by=BETTER):
@@ -126,19 +124,23 @@ def _rank(result: Result, better_by: float = 0.0) -> tuple[int, float]:
     return int(result.status != Status.OPTIMAL), result.best.objective * (1.0 - better_by)
 
 
-def of_a_limit(solver: FrontSolver) -> tuple[float, float] | None:
-    """Return the tightest and the loosest limit to solve, or None if no design exists.
+Ends = tuple[float, float] | Result
+"""The tightest and the loosest limit to solve, or the result that says why there are none."""
+
+
+def of_a_limit(solver: FrontSolver) -> Ends:
+    """Return the limits between which designs are to be looked for.
 
     The loosest limit is the value of the best design without the limit. The tightest is, to a few per cent, the least
     limit that allows a design with an objective of at most three times the best.
     """
     without = solver.solve(None)
     if without.status == Status.INFEASIBLE:
-        return None
+        return without
     high = _loosest(solver, without)
     best = objective_of(solver.solve(high, [without]))
     floor = min(floor_of(solver.study, solver.against), high)
-    return None if math.isnan(best) else (_tightest(solver, high, best, lambda good: max(0.5 * good, floor)), high)
+    return without if math.isnan(best) else (_tightest(solver, high, best, lambda good: max(0.5 * good, floor)), high)
 
 
 def range_words(front: Front) -> str:
@@ -164,7 +166,7 @@ def _scale(front: Front) -> float:
     return math.degrees(1.0) if front.unit == "deg" else 1.0
 
 
-def of_tolerances(solver: FrontSolver) -> tuple[float, float]:
+def of_tolerances(solver: FrontSolver) -> Ends:
     """Return the largest tolerance, to a tenth, that leaves a useful design, and 0: the machine as it is drawn."""
     drawn = solver.solve(0.0)
     if drawn.best is None or math.isnan(best := objective_of(drawn)):
@@ -178,20 +180,20 @@ def of_tolerances(solver: FrontSolver) -> tuple[float, float]:
     return _tightest(solver, 0.0, best, larger), 0.0
 
 
-def between_indices(solver: FrontSolver) -> tuple[float, float] | None:
+def between_indices(solver: FrontSolver) -> Ends:
     """Return the range of the condition limit: just above its least value, up to the optimum of the other index.
 
     The other index alone may be unbounded or have an optimum of extreme size, so it gets a wide condition limit.
     """
     study = solver.study
     plain = replace(study.objective, index="condition_number", aggregate="worst", condition_limit=None)
-    solver.open_ended = least = solver.optimum(replace(study, objective=plain))
+    least = solver.optimum(replace(study, objective=plain))
     if least.status != Status.OPTIMAL or least.best is None:
-        return None
+        return least
     low = NEAR_LEAST * least.best.objective
-    solver.open_ended = widest = solver.solve(max(MOST_OBJECTIVE * low, low + 1.0), [least])
+    widest = solver.solve(max(MOST_OBJECTIVE * low, low + 1.0), [least])
     if math.isnan(objective_of(widest)) or widest.best is None:
-        return None
+        return widest
     high = max(*widest.best.conditions, low)
     solver.solve(high, [widest])
     return low, high

@@ -13,7 +13,7 @@ from time import perf_counter
 import numpy as np
 
 from ninedof.design.study import Study
-from ninedof.optimize.result import Status
+from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import Front, objective_of
 from ninedof.pareto.limits import CONDITION_LIMIT, TOLERANCE, resolve, tightest_first, with_degrees, without_degrees
 from ninedof.pareto.solving import BISECTIONS, FrontSolver, between_indices, of_a_limit, of_tolerances
@@ -136,9 +136,8 @@ def _trace(solver: FrontSolver, count: int) -> list[float]:
     """Find the range, solve evenly spaced limits, then halve the widest gaps."""
     solver.planned = 4 + BISECTIONS
     ends = SPANS.get(solver.against, of_a_limit)(solver)
-    if ends is None:  # one row with the reason: the study without the limit
-        assert solver.open_ended is not None
-        solver.results[math.inf] = solver.open_ended
+    if isinstance(ends, Result):  # one row with the reason: the study without the limit
+        solver.results[math.inf] = ends
         return [math.inf]
     low, high = ends
     even, first = (np.linspace, count) if high < low else (np.geomspace, max(2, round(FIRST * count)))  # down to 0
