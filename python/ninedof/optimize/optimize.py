@@ -16,7 +16,7 @@ from ninedof import _core
 from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.optimize.actuators import ActuatorSearch, SearchEnded
-from ninedof.optimize.candidate import Candidate, RegionReport, candidate_of
+from ninedof.optimize.candidate import Candidate, RegionReport, best_of, candidate_of
 from ninedof.optimize.pieces import Pieces, Warm, warm_starts, warm_variables
 from ninedof.optimize.reserve import with_reserve
 from ninedof.optimize.result import Result, Status
@@ -207,8 +207,7 @@ def _proved(result: Result, run: _Run) -> Result:
     Where the proof leaves limits out, the optimum of the study without them is what it can come up to. After Ctrl-C the
     result is `interrupted`.
     """
-    study, best = result.study, result.condition_number
-    assert best is not None, "a proof is asked for where there is a design"
+    study, best = result.study, best_of(result).condition_number
     left_out = {label.removesuffix(" at neutral").removesuffix(".min") for label in left_out_of(study)}
     if left_out:
         others = {name: limit for name, limit in study.constraints.items() if name not in left_out}

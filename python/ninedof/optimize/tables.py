@@ -189,8 +189,6 @@ def best_prices(result: Any) -> list[str]:
 def proof_words(result: Any) -> tuple[str, str]:
     """Return what is proved of all designs of the study, and how near the best one is to it."""
     proof, best = result.proof, result.condition_number
-    assert proof is not None
-    assert best is not None
     gap = proof.gap(best)
     near = f"{100.0 * gap:.2g} % of that" if gap >= 1e-4 else f"{gap:.1e} of that, relatively"
     rest = ""
