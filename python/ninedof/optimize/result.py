@@ -224,15 +224,13 @@ class Result:
                 "optimize it with fixed variables"
             )
         values = changed_variables(self.study, best.variables, changes)
-        study = self.study
-        if region is not None:
-            region = replace(region, poses=region.poses if placing_of(self) is None else ())  # O is placed anew
-            study = posed(study, region.poses)
-        problem = study.problem()
+        # Where O is placed anew, the poses that ruled have it where the old design wants it.
+        imposed = () if region is None or placing_of(self) is not None else region.poses
+        problem = posed(self.study, imposed).problem()
         with within(", ".join(changes), ": "):  # plates without a size
             point = design_point(problem, [values[name] for name in problem.names])
         if region is not None:
-            region = RegionReport(region.poses, 0, 0, point.objective, region.objective_at, math.nan, "")
+            region = RegionReport(imposed, 0, 0, point.objective, region.objective_at, math.nan, "")
         reason = f"changed, not optimized: {', '.join(f'{name} = {change}' for name, change in changes.items())}"
         candidates = (candidate_at(point, math.inf),)
         return Result(Status.STOPPED, reason, (), candidates, 1, 0, 0.0, self.study, region=region)
