@@ -82,8 +82,12 @@ class FrontSolver:
         """
         self.planned = self._solved + 2 * len(limits)
         for k in (*reversed(range(len(limits))), *range(len(limits))):
-            beside = [self.results.get(limits[j]) for j in (k - 1, k + 1, k) if 0 <= j < len(limits)]
-            self.solve(limits[k], beside, few=limits[k] in self._thorough)
+            beside = [self.results.get(limits[j]) for j in (k - 1, k + 1) if 0 <= j < len(limits)]
+            known = limits[k] in self._thorough
+            if known and not any(beside):  # nothing new to start from
+                self.planned -= 1
+                continue
+            self.solve(limits[k], [*beside, self.results.get(limits[k])], few=known)
 
     def between(self, low: float, high: float) -> float:
         """Solve for the geometric mean of two limits, starting from both designs; return it."""
