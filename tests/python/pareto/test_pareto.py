@@ -395,6 +395,7 @@ CUBE = nd.Study(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("against", "options"),
     [

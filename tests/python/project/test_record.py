@@ -66,6 +66,7 @@ def test_region_studies_are_those_of_the_record(name):
     compare(record.arrays(record.region(name)))
 
 
+@pytest.mark.slow
 def test_the_record_is_of_limits_that_there_are():
     """Limits that were made after it are held by the oracles alone."""
     from ninedof.design import limits

@@ -106,6 +106,7 @@ def test_a_machine_that_holds_nothing_and_one_that_holds_all(machine):
             nd.largest_payload(machine, bad)
 
 
+@pytest.mark.slow
 def test_the_sheet_has_the_drives(machine):
     """Forces include the weights of the legs; power is force times speed at one pose."""
     one = machine.sheet()
