@@ -20,8 +20,8 @@ from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, metres, unit_entry
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table
 from ninedof.tables.html import notebook
-from ninedof.tables.numbers import ROUNDING
-from ninedof.tables.table import WORDS, plain
+from ninedof.tables.numbers import ROUNDING, WORDS
+from ninedof.tables.table import plain
 
 MOST = 3  # designs: more do not fit on 80 columns
 NAMES = ("A", "B", "C")

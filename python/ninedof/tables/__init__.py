@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
-from ninedof.tables.table import DEGREES, RIGHT, SHORT, Column, Line, Table, columns, grouped
+from ninedof.tables.numbers import DEGREES, RIGHT, SHORT
+from ninedof.tables.table import Column, Line, Table, columns, grouped
 
 __all__ = ["DEGREES", "RIGHT", "SHORT", "Column", "Line", "Table", "columns", "grouped"]

@@ -7,7 +7,8 @@ from collections.abc import Iterable
 
 from ninedof.support.text import escaped
 from ninedof.support.units import with_unit
-from ninedof.tables.table import WORDS, Part, Table
+from ninedof.tables.numbers import WORDS
+from ninedof.tables.table import Part, Table
 
 NAMES = re.compile("(?<=[a-z]{2})_(?=[a-z]{2})")  # between words, as in leg_ratio; x_p is a symbol
 

@@ -8,22 +8,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias, TypeGuard
 
 from ninedof.support.units import with_unit
-from ninedof.tables.numbers import DEGREES, PAGE, RIGHT, SHORT, WORDS, cell
-
-__all__ = [
-    "DEGREES",
-    "RIGHT",
-    "SHORT",
-    "WORDS",
-    "Cell",
-    "Column",
-    "Line",
-    "Part",
-    "Table",
-    "columns",
-    "grouped",
-    "plain",
-]
+from ninedof.tables.numbers import PAGE, RIGHT, SHORT, WORDS, cell
 
 Cell: TypeAlias = str | float | int | None
 

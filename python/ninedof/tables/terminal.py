@@ -11,8 +11,8 @@ from rich.text import Text
 
 from ninedof.support.text import escaped
 from ninedof.support.units import heading
-from ninedof.tables.numbers import SCREEN
-from ninedof.tables.table import WORDS, Part, Table
+from ninedof.tables.numbers import SCREEN, WORDS
+from ninedof.tables.table import Part, Table
 
 # Styles, from roomy to tight: frame, spaces around a cell, and characters of a column beside its text.
 STYLES: tuple[tuple[box.Box, tuple[int, int, int, int], bool, int], ...] = (
