@@ -21,6 +21,7 @@ from ninedof.support.files import (
     write_npz,
     write_whole,
 )
+from ninedof.support.store import folder_of
 from ninedof.support.structs import Fixed
 
 ASKED = ("vary", "ranges", "condition_number", "moved")
@@ -30,8 +31,7 @@ NUMBERS = ("designs", "boxes", "seconds", "interrupted")
 def certificate_file(run: str | os.PathLike[str]) -> Path:
     """Return where the certificate of a run, or of one of its points, lies."""
     place, point = split(os.fspath(run))
-    folder = place if place.is_dir() else place.parent
-    return folder / (f"certify-{point}.json" if point else "certify.json")
+    return folder_of(place) / (f"certify-{point}.json" if point else "certify.json")
 
 
 def save_certificate(certificate: MachineCertificate, file: str | os.PathLike[str]) -> Path:
@@ -66,12 +66,6 @@ def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
     return MachineCertificate.from_dict(read_json(file, FORMAT))
 
 
-def run_of(design: str) -> Path:
-    """Return the folder of a run that `load` reads: RUN, RUN/record.json or RUN#7."""
-    place = Path(design.partition("#")[0])
-    return place.parent if place.is_file() else place
-
-
 def admissible_file(folder: Path, of: DesignRange) -> Path:
     """Return where the designs of a question lie."""
     return folder / f"admissible-{'-'.join(of.vary)}.npz"
@@ -92,8 +86,9 @@ def load_admissible(file: Path, of: DesignRange) -> AdmissibleSet | None:
     return _read(read_npz(file), of)
 
 
-def latest_admissible(folder: Path, study: Study) -> AdmissibleSet | None:
-    """Read the set of a study, of two variables or more, that was written last into a folder; None without one."""
+def latest_admissible(run: str | os.PathLike[str], study: Study) -> AdmissibleSet | None:
+    """Read the set of a study, of two variables or more, that was written last into a run; None without one."""
+    folder = folder_of(split(os.fspath(run))[0])
     for file in sorted(folder.glob("admissible-*.npz"), key=lambda one: one.stat().st_mtime, reverse=True):
         arrays = read_npz(file)
         asked = from_json_array(arrays["others"]).get("asked")

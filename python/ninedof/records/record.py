@@ -29,7 +29,7 @@ from ninedof.sheet.pose_limits import PathLimits
 from ninedof.support.extras import versions
 from ninedof.support.files import json_bytes, read_json, write_whole
 from ninedof.support.running import command_line, goes_on
-from ninedof.support.store import require_run_or_nothing
+from ninedof.support.store import folder_of, require_run_or_nothing
 from ninedof.support.structs import entries_of
 from ninedof.sweep import SweepResult
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
@@ -211,12 +211,6 @@ def load_run(path: str | os.PathLike[str]) -> Result | Front | WorkspaceMap | Sw
         return replace(run, certified=certified)
     study = record.study  # a run of another kind has none
     return _front(study, record) if record.kind == "front" else result_from(study, record.results["optimization"])
-
-
-def folder_of(path: str | os.PathLike[str]) -> Path:
-    """Return the folder of a run that is named by its folder or its record."""
-    place = Path(path)
-    return place if place.is_dir() else place.parent
 
 
 def _front(study: Study, record: Record) -> Front:

@@ -10,6 +10,7 @@ from ninedof.pareto import Front
 from ninedof.records.load import split
 from ninedof.support.arguments import path_argument
 from ninedof.support.files import write_whole
+from ninedof.support.store import folder_of
 
 FILE = "report.html"
 
@@ -59,6 +60,6 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     place, point = split(os.fspath(run))
     if place.suffix == ".toml":
         raise ValueError(f"{place}: got a file of a design or study, expected a run folder")
-    folder = place if place.is_dir() else place.parent
+    folder = folder_of(place)
     file = folder / (f"report-{point}.html" if point else FILE) if path is None else Path(path)
     return write_whole(file, page_of_path(place, point, run).encode())

@@ -21,6 +21,7 @@ from ninedof.report import origin
 from ninedof.report.optimization import of_front, of_result
 from ninedof.report.page import OWN, Page, figure, figures, image, page, stems
 from ninedof.report.recorded import FROM_RECORD, of_recorded, of_workspace
+from ninedof.support.store import folder_of
 from ninedof.tables.html import Html, html_of, joined
 from ninedof.workspace import WorkspaceMap
 
@@ -36,7 +37,7 @@ def page_of_result(run: Result | Front, name: str) -> str:
 
 def page_of_path(place: Path, point: str, run: str | os.PathLike[str]) -> str:
     """Return the page of a run folder, or of one point of it; `run` names both."""
-    folder = place if place.is_dir() else place.parent
+    folder = folder_of(place)
     name = folder.resolve().name + (f"#{point}" if point else "")
     record = load_record(place)
     contents = None if record.kind in FROM_RECORD and not point else load(run)

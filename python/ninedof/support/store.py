@@ -113,14 +113,10 @@ class Store:
         except ValueError:
             return None
 
-    def write(self, k: int, arrays: Arrays) -> None:
-        """Write a finished piece."""
-        write_npz(self.path(k), arrays, salt=f"{self._salt} {k} ")
-
     def keep(self, k: int, arrays: Arrays) -> None:
         """Write a finished piece if there is room; without, a warning tells of the first: the run is worth more."""
         try:
-            self.write(k, arrays)
+            write_npz(self.path(k), arrays, salt=f"{self._salt} {k} ")
         except OSError as error:
             if not self._unwritten:
                 import logging  # when it is needed, as it takes time to load
@@ -143,6 +139,12 @@ def _locked(folder: Path) -> int | None:
         os.close(opened)
         raise ValueError(f"out: got {folder}, which another run is using, expected another folder") from None
     return opened
+
+
+def folder_of(run: str | os.PathLike[str]) -> Path:
+    """Return the folder of a run that is named by its folder or by a file there."""
+    place = Path(run)
+    return place if place.is_dir() else place.parent
 
 
 def require_run_or_nothing(folder: Path) -> None:

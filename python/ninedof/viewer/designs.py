@@ -16,7 +16,7 @@ from ninedof.motion.rotations import to_quaternions
 from ninedof.plot import style
 from ninedof.plot.admissible import admissible as figure_of
 from ninedof.proof.admissible_set import INSIDE, OUTSIDE, AdmissibleSet
-from ninedof.records.proofs import latest_admissible, run_of
+from ninedof.records.proofs import latest_admissible
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
 from ninedof.viewer.machine import Machine
@@ -102,7 +102,7 @@ def designs_of(machine: Machine, design: Any, found: AdmissibleSet | None) -> Ad
         if machine.result is None or not isinstance(design, str | os.PathLike):
             return None
         try:
-            return latest_admissible(run_of(os.fspath(design)), machine.result.study)
+            return latest_admissible(design, machine.result.study)
         except ValueError as error:  # a damaged file: the machine is shown without it
             logging.getLogger("ninedof").warning("%s", error)
             return None

@@ -42,15 +42,15 @@ def run(line):
 
 def interrupted(monkeypatch, line, piece=0):
     """Run a command that a signal ends as it keeps a piece; the piece is lost."""
-    write = Store.write
+    keep = Store.keep
 
     def ending(store, k, arrays):
         if k == piece:
             signal.raise_signal(signal.SIGTERM)
-        write(store, k, arrays)
+        keep(store, k, arrays)
 
     with monkeypatch.context() as patch:
-        patch.setattr(Store, "write", ending)
+        patch.setattr(Store, "keep", ending)
         return run(line)
 
 

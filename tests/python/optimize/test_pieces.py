@@ -68,17 +68,17 @@ def test_a_run_that_was_killed_goes_on_to_the_same_bits(whole, tmp_path, monkeyp
     """Killed as a piece is written: the piece is lost, those before it are not computed again."""
     asked, without, _, folder = whole
     count = len(list(folder.glob("pieces/*.npz")))
-    write = Store.write
+    keep = Store.keep
 
     def killed(store, k, arrays):
         if k == count // 2:
             raise Killed
-        write(store, k, arrays)
+        keep(store, k, arrays)
 
-    monkeypatch.setattr(Store, "write", killed)
+    monkeypatch.setattr(Store, "keep", killed)
     with pytest.raises(Killed):
         optimize(asked, out=tmp_path)
-    monkeypatch.setattr(Store, "write", write)
+    monkeypatch.setattr(Store, "keep", keep)
     computed = count_calls(monkeypatch)
     for _ in range(2):
         assert plain(optimize(asked, out=tmp_path)) == plain(without)

@@ -54,7 +54,7 @@ def sweep(folder, best):
 
 def piece(folder, best):
     store = Store(folder / "run", {"kind": "test"})
-    store.write(3, {"a": np.linspace(0.0, 1.0, 57)})
+    store.keep(3, {"a": np.linspace(0.0, 1.0, 57)})
     store.close()
 
     def read(_):

@@ -17,7 +17,7 @@ ARRAYS = {"a": np.arange(3.0)}
 def test_the_same_question_goes_on(tmp_path):
     with Store(tmp_path / "a" / "run", QUESTION, 20) as store:
         assert store.read(0) is None
-        store.write(1, ARRAYS)
+        store.keep(1, ARRAYS)
     with Store(tmp_path / "a" / "run", QUESTION, 7) as store:
         assert store.chunk == 20  # that of the folder
         assert store.read(1)["a"].tolist() == [0.0, 1.0, 2.0]
@@ -79,7 +79,7 @@ def test_bad_input_leaves_no_folder_and_an_interruption_its_question(tmp_path, e
 
 def test_what_is_kept_is_named_where_an_error_ends_the_run(tmp_path):
     error, store = RuntimeError("lost"), Store(tmp_path, QUESTION)
-    store.write(0, ARRAYS)
+    store.keep(0, ARRAYS)
     store.__exit__(type(error), error)
     assert error.__notes__ == [f"Finished pieces are kept in {tmp_path}: the same call goes on from there."]
 

@@ -12,8 +12,10 @@ from ninedof.cli.options import SCHEDULER, THREADS, Options, argument, changes_o
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.proof.design_range import design_range
-from ninedof.records.proofs import admissible_file, load_admissible, run_of, save_admissible
+from ninedof.records.load import split
+from ninedof.records.proofs import admissible_file, load_admissible, save_admissible
 from ninedof.support.running import goes_on
+from ninedof.support.store import folder_of
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
 
@@ -117,7 +119,7 @@ def _of(options: _Options) -> tuple[nd.Study | nd.Result, Path | None]:
     result = nd.load(options.of)
     if not isinstance(result, nd.Result):
         raise ValueError(f"{options.of}: got no design of a study, expected a study file, a run or RUN#7 of a front")
-    return result, options.out or run_of(options.of)
+    return result, options.out or folder_of(split(options.of)[0])
 
 
 def _vary(text: str) -> tuple[str, tuple[float, float] | None]:
