@@ -77,7 +77,7 @@ def finish(work: Callable[[], object], arguments: Sequence[str]) -> int:
     except Exception as error:  # whatever it is: the table of statuses has a row for it
         if sys.flags.dev_mode:
             raise
-        status = _fail(_words(error, arguments), _status(error))
+        status = _fail(*_told(error, arguments))
     if words := how_to_go_on(interrupted=status == INTERRUPTED):
         print(escaped(f"ninedof: {words}"), file=sys.stderr)
     return _flush(status)
@@ -100,29 +100,23 @@ def _fail(words: str, status: int) -> int:
     return status
 
 
-def _status(error: Exception) -> int:
-    if isinstance(error, ClickException | MissingExtra) or (isinstance(error, ValueError) and _is_ours(error)):
-        return BAD_INPUT
-    return REFUSED if isinstance(error, OSError) else FAILED
-
-
-def _words(error: Exception, arguments: Sequence[str]) -> str:
-    """Return what to say: of an error that is not the user's, what kind it is."""
+def _told(error: Exception, arguments: Sequence[str]) -> tuple[str, int]:
+    """Return what to say, of an error that is not the user's what kind it is, and the exit status."""
     if isinstance(error, ClickException):
         context = getattr(error, "ctx", None)
         more = "" if context is None else f"; see `{context.command_path} --help`"
-        return f"{error.format_message().rstrip('.')}{more}"  # type: ignore[attr-defined]
+        return f"{error.format_message().rstrip('.')}{more}", BAD_INPUT  # type: ignore[attr-defined]
+    if isinstance(error, MissingExtra) or (isinstance(error, ValueError) and _is_ours(error)):
+        return as_typed(str(error), arguments), BAD_INPUT
     notes = "".join(f". {note}" for note in getattr(error, "__notes__", ()))
     if isinstance(error, OSError):
         files = [os.fsdecode(file) for file in (error.filename, error.filename2) if isinstance(file, str | bytes)]
         reason = error.strerror or str(error) or repr(error)
-        return (f"{' and '.join(files)}: {reason}" if files and error.strerror else reason) + notes
-    if _status(error) == BAD_INPUT:
-        return as_typed(str(error), arguments)
+        return (f"{' and '.join(files)}: {reason}" if files and error.strerror else reason) + notes, REFUSED
     if isinstance(error, MemoryError):
-        return f"out of memory{f' ({error})' if str(error) else ''}{notes}"
+        return f"out of memory{f' ({error})' if str(error) else ''}{notes}", FAILED
     words = str(error) if type(error) is RuntimeError else f"{type(error).__name__}: {error}"
-    return (words or type(error).__name__) + notes
+    return (words or type(error).__name__) + notes, FAILED
 
 
 def _is_ours(error: Exception) -> bool:
