@@ -6,7 +6,7 @@ import asyncio
 import logging
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import contextmanager, suppress
 
 from ninedof.support.arguments import LONGEST, cleaned, shown
 from ninedof.support.extras import optional
@@ -18,25 +18,14 @@ OF_CLUSTER = ("distributed", "dask", "tornado", "asyncio", "concurrent")  # modu
 
 @contextmanager
 def executor_at(scheduler: str | None) -> Iterator[Executor | None]:
-    """Connect to the scheduler of an address and yield its executor; None without an address."""
-    try:
-        with nullcontext() if scheduler is None else dask_executor(scheduler) as executor:
-            yield executor
-    except (Exception, asyncio.CancelledError) as error:
-        lost = type(error).__module__.partition(".")[0] in OF_CLUSTER
-        if scheduler is None or not (lost or isinstance(error, TimeoutError | ConnectionError)):
-            raise
-        reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-        notes = "".join(f". {note}" for note in getattr(error, "__notes__", ()))
-        raise RuntimeError(f"--scheduler: lost {scheduler} ({reason[:LONGEST]}){notes}") from None
-
-
-@contextmanager
-def dask_executor(scheduler: str) -> Iterator[Executor]:
     """Connect to a Dask scheduler; inside the `with` block its workers compute the tasks of the executor.
 
-    ImportError says how to install dask where it is missing, ValueError that no scheduler answers at the address.
+    None without an address. ImportError says how to install dask where it is missing, ValueError that no scheduler
+    answers at the address, RuntimeError that it was lost.
     """
+    if scheduler is None:
+        yield None
+        return
     distributed = optional("distributed", "cluster", "a Dask cluster")
 
     async def handshake() -> None:
@@ -54,6 +43,13 @@ def dask_executor(scheduler: str) -> Iterator[Executor]:
             ) from None
         try:
             yield client.get_executor()
+        except (Exception, asyncio.CancelledError) as error:
+            of_cluster = type(error).__module__.partition(".")[0] in OF_CLUSTER
+            if not (of_cluster or isinstance(error, TimeoutError | ConnectionError)):
+                raise
+            reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+            notes = "".join(f". {note}" for note in getattr(error, "__notes__", ()))
+            raise RuntimeError(f"--scheduler: lost {scheduler} ({reason[:LONGEST]}){notes}") from None
         finally:
             with suppress(Exception):  # a scheduler that is lost cannot take leave
                 client.close(timeout=CLOSING)

@@ -9,6 +9,7 @@ import pickle
 import socket
 import threading
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from types import SimpleNamespace
 
 import pytest
 import sweep_work as work
@@ -364,7 +365,12 @@ def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(run, tmp_pat
                 future.set_result(perform(*task))
             return future
 
-    monkeypatch.setattr(schedulers, "dask_executor", lambda address: Lost())
+    async def connect(address, timeout):
+        return SimpleNamespace(abort=lambda: None)
+
+    client = SimpleNamespace(get_executor=Lost, close=lambda timeout: None)
+    dask = SimpleNamespace(comm=SimpleNamespace(connect=connect), Client=lambda address, **_: client)
+    monkeypatch.setattr(schedulers, "optional", lambda *_: dask)
     monkeypatch.chdir(tmp_path)
     line = "sweep --over x_p=-1:1:23 --chunk 5 --no-figures --out 'my run'"
     status, _, err = run(f"{line} --scheduler tcp://127.0.0.1:8786")
