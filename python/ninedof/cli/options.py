@@ -107,9 +107,9 @@ def triple(words: str) -> Any:
     return option(words, metavar="X Y Z")
 
 
-def ends(words: str | None = None) -> Any:
+def ends(words: str | None = None, *names: str) -> Any:
     """Return an option that takes the two ends of a range."""
-    return option(words, metavar="LOW HIGH")
+    return option(words, None, *names, metavar="LOW HIGH")
 
 
 def argument(words: str, default: Any = ..., metavar: str | None = None) -> Any:

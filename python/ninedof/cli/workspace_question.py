@@ -26,23 +26,13 @@ from ninedof.cli.options import (
 from ninedof.cli.posed import Chosen, length_at_home
 from ninedof.design.indices import computed
 from ninedof.support.arguments import choice, finite
-from ninedof.support.units import unit_entry
+from ninedof.support.units import DEG, plain_name, unit_entry
 from ninedof.workspace.certified import GAPS, require_certifiable
 from ninedof.workspace.study_question import ACTUATORS, Asked, asked_criteria, place_of, rule_of_region
 
-CRITERIA = {  # by the names of the options
-    "legs": "leg_length",
-    "external": "external_length",
-    "upper": "upper_length",
-    "lower": "lower_length",
-    "condition": "condition_number",
-    "base_cone_deg": "base_cone",
-    "platform_cone_deg": "platform_cone",
-    "base_cone_axis": "base_cone_axis",
-    "platform_cone_axis": "platform_cone_axis",
-    "clearance": "leg_clearance",
-    "singularity_free": "singularity_free",
-}
+LENGTHS = ("leg_length", "external_length", "upper_length", "lower_length")
+CONES = ("base_cone_deg", "platform_cone_deg", "base_cone_axis", "platform_cone_axis")
+CRITERIA = (*LENGTHS, "condition_number", *CONES, "leg_clearance", "singularity_free")
 
 
 @struct
@@ -56,16 +46,16 @@ class WorkspaceOptions(JobOptions):
     x: Two | None = ends()
     y: Two | None = ends()
     z: Two | None = ends()
-    legs: Two | None = ends("Limits of all nine legs; HIGH may be inf.")
-    external: Two | None = ends("Of the external legs, besides.")
-    upper: Two | None = ends("Of the upper internal legs, besides.")
-    lower: Two | None = ends("Of the lower internal legs, besides.")
-    condition: float | None = option("Greatest condition number.")
+    leg_length: Two | None = ends("Limits of all nine legs; HIGH may be inf.", "--legs")
+    external_length: Two | None = ends("Of the external legs, besides.", "--external")
+    upper_length: Two | None = ends("Of the upper internal legs, besides.", "--upper")
+    lower_length: Two | None = ends("Of the lower internal legs, besides.", "--lower")
+    condition_number: float | None = option("Greatest condition number.", None, "--condition")
     base_cone_deg: float | None = option("Greatest angle at a base joint from home.")
     platform_cone_deg: float | None = option("The same at a platform joint.")
     base_cone_axis: Three | None = triple("Axis of the cones of the base, in place of the legs at home.")
     platform_cone_axis: Three | None = triple("The same at the platform.")
-    clearance: float | None = option("Least distance of legs that share no joint.")
+    leg_clearance: float | None = option("Least distance of legs that share no joint.", None, "--clearance")
     singularity_free: bool | None = option(
         "Connected with home, on its side of every singularity.", None, "--singularity-free/--any-singularity"
     )
@@ -115,8 +105,8 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     """Return the question that options ask of a design."""
     study, home = chosen.study, chosen.configuration
     region = None if study is None else study.objective.region
-    numbers = options.given(*CRITERIA)
-    values = {CRITERIA[name]: _radians(name, x) if name.endswith("_deg") else x for name, x in numbers.items()}
+    numbers = options.given(*CRITERIA).items()
+    values = {plain_name(name): _radians(name, x) if name.endswith(DEG) else x for name, x in numbers}
     choice("--actuators", options.actuators, ACTUATORS)
     asked = asked_criteria(chosen.result if options.study_limits else None, values, options.actuators)
     if not asked.criteria:
@@ -138,7 +128,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
         **unit_entry(chosen.unit),
     }
     if bounds:
-        keywords["region"] = {name.removesuffix("_deg"): _radians(name, value) for name, value in bounds.items()}
+        keywords["region"] = {plain_name(name): _radians(name, value) for name, value in bounds.items()}
     proof = _proof(options, keywords["internal_point"])
     place = place_of(home, region, chosen.duty.tool, options.archetype)
     return Question(keywords | place | _changed_place(options, place), asked, region, proof)
