@@ -32,6 +32,7 @@ from ninedof.records.design_file import hexagonal_design
 from ninedof.records.load import design_and_result
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
+from ninedof.sheet.plain_values import poses_of
 from ninedof.sheet.pose_words import pose_words
 from ninedof.support.arguments import vector
 from ninedof.support.arrays import Floats
@@ -195,7 +196,7 @@ class DesignAtPoses(Chosen):
             first, last = f"at {self.words(c[0])}", []
         beyond = beyond_words(self.geometry, self.configuration, c)
         return Answer(
-            [first, *beyond, *parts, *last], unit_entry(self.unit) | {"poses": poses_data(c)} | dict(data), status
+            [first, *beyond, *parts, *last], unit_entry(self.unit) | {"poses": poses_of(c)} | dict(data), status
         )
 
 
@@ -225,12 +226,6 @@ def length_at_home(chosen: Chosen) -> float:
 def xyz(name: str) -> tuple[str, str, str]:
     """Return the heads of three columns of numbers, the coordinates of a point."""
     return f">{name}\nx", ">\ny", ">\nz"
-
-
-def poses_data(c: nd.Configuration) -> list[dict[str, Floats]]:
-    """Return a stack as plain values, one pose after the other."""
-    arrays = arrays_of(c)
-    return [{name: array[k] for name, array in arrays.items()} for k in range(len(c))]
 
 
 def _internal_point(chosen: Chosen, p: Floats, q: Floats, rule: str) -> Floats:

@@ -9,9 +9,10 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import option, several, struct
-from ninedof.cli.posed import PoseOptions, length_at_home, poses_data, xyz
+from ninedof.cli.posed import PoseOptions, length_at_home, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.proof.machine_record import outward
+from ninedof.sheet.plain_values import poses_of
 from ninedof.sheet.pose_words import decimals_of, fixed, turn_deg
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry, with_unit
@@ -53,16 +54,13 @@ def modes(options: _Options) -> Answer:
     parts += ["* the given pose"] if this >= 0 else []
     data = {
         "lengths": lengths,
-        "status": result.status,
-        "reason": result.reason,
-        "count": result.count,
-        "certain": result.certain,
+        **{name: getattr(result, name) for name in ("status", "reason", "count", "certain")},
         "given_pose": this + 1 if this >= 0 else None,
-        "modes": poses_data(result),
+        "modes": poses_of(result),
         "condition_number": kappa,
     }
     if options.certify:
-        data["certificate"] = result.certificate._asdict() | {"places": poses_data(result.certificate.places)}
+        data["certificate"] = result.certificate._asdict() | {"places": poses_of(result.certificate.places)}
     if options.lengths is None:
         parts = list(at.answer(parts, {}).parts)
     return Answer(parts, unit_entry(unit) | data, DONE if result.count else NO_RESULT)
