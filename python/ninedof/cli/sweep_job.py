@@ -73,10 +73,9 @@ def describe(result: SweepResult, name: str) -> dict[str, Any]:
     out: dict[str, Any] = {"points": int(values.size), "infinite": 0, "missing": 0}
     least, greatest = [], []  # where those of each piece are
     for first, piece in blocks(values):
-        missing, infinite = np.isnan(piece), np.isinf(piece)
-        out["infinite"] += int(infinite.sum())
-        out["missing"] += int(missing.sum())
-        finite = np.flatnonzero(~(missing | infinite))
+        out["infinite"] += int(np.isinf(piece).sum())
+        out["missing"] += int(np.isnan(piece).sum())
+        finite = np.flatnonzero(np.isfinite(piece))
         if finite.size:
             sizes = size_of(name, piece[finite])
             least.append(first + finite[sizes.argmin()])

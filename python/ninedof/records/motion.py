@@ -32,8 +32,20 @@ def write_tables(motion: Followed, folder: Path, limits: PathLimits | None) -> l
 
 
 def legs_csv(motion: Followed) -> bytes:
-    """Return legs.csv: time, lengths, rates and accelerations of the legs, forces and powers of each load."""
-    return _csv(_legs(motion))
+    """Return legs.csv: t, nine lengths, rates and accelerations of the legs, nine forces and powers of each load."""
+    unit, shape = motion.unit, (-1, len(motion.time), 9)
+    parts = [("", unit, motion.leg_lengths), (RATE, per(unit, "s"), motion.leg_rates)]
+    parts.append((ACCELERATION, per(unit, "s^2"), motion.leg_accelerations))
+    if motion.leg_forces is not None and motion.leg_powers is not None:
+        loads = zip(motion.leg_forces.reshape(shape), motion.leg_powers.reshape(shape), strict=True)
+        for k, (forces, powers) in enumerate(loads, start=1):
+            number = f"_{k}" if motion.load_count > 1 else ""
+            parts.append((FORCE + number, motion.force_unit, forces))
+            parts.append((POWER + number, "W" if motion.force_unit else "", powers))
+    columns = {"t": motion.time}
+    for what, of, values in parts:
+        columns |= {with_unit(leg + what, of): values[:, k] for k, leg in enumerate(LEGS)}
+    return _csv(columns)
 
 
 def plain(motion: Followed, limits: PathLimits | None) -> dict[str, Any]:
@@ -49,23 +61,6 @@ def plain(motion: Followed, limits: PathLimits | None) -> dict[str, Any]:
         out["breaks"].append(row)
     out["breaks"].sort(key=lambda row: (row["begin"], row["limit"]))
     return out
-
-
-def _legs(motion: Followed) -> dict[str, Floats]:
-    """Return t, nine lengths, nine rates, nine accelerations, and nine forces and powers for each load, by name."""
-    unit, shape = motion.unit, (-1, len(motion.time), 9)
-    parts = [("", unit, motion.leg_lengths), (RATE, per(unit, "s"), motion.leg_rates)]
-    parts.append((ACCELERATION, per(unit, "s^2"), motion.leg_accelerations))
-    if motion.leg_forces is not None and motion.leg_powers is not None:
-        loads = zip(motion.leg_forces.reshape(shape), motion.leg_powers.reshape(shape), strict=True)
-        for k, (forces, powers) in enumerate(loads, start=1):
-            number = f"_{k}" if motion.load_count > 1 else ""
-            parts.append((FORCE + number, motion.force_unit, forces))
-            parts.append((POWER + number, "W" if motion.force_unit else "", powers))
-    columns = {"t": motion.time}
-    for what, of, values in parts:
-        columns |= {with_unit(leg + what, of): values[:, k] for k, leg in enumerate(LEGS)}
-    return columns
 
 
 def _poses(motion: Followed, margins: Mapping[str, Floats]) -> dict[str, Floats]:

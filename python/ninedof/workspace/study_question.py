@@ -54,8 +54,7 @@ def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[F
 
     Eased by `EASE` of themselves.
     """
-    shortest, longest = _core.leg_lengths_over(g, home, region.for_core(), 2 * COUNT)
-    return shortest * (1.0 - EASE), longest * (1.0 + EASE)
+    return _eased(*_core.leg_lengths_over(g, home, region.for_core(), 2 * COUNT))
 
 
 def box_about(region: Region, home: Configuration) -> tuple[Floats, Floats]:

@@ -41,11 +41,5 @@ def check(options: _Options) -> Answer:
     parts.append(bold(verdict, f": {result.words}"))
     if result.study:
         parts.append(f"{result.boxes} boxes of designs read, {result.recut} cut further by the checker")
-    data = {
-        "proved": result.proved,
-        "incomplete": result.incomplete,
-        "words": result.words,
-        "boxes": result.boxes,
-        "study": result.study,
-    }
+    data = {name: getattr(result, name) for name in ("proved", "incomplete", "words", "boxes", "study")}
     return Answer(parts, data, DONE if result.proved else NO_RESULT if result.incomplete else REFUSED)

@@ -13,7 +13,6 @@ from ninedof.export.export import formats
 from ninedof.export.model import Format
 from ninedof.support.arguments import choice
 from ninedof.support.files import own_or_new
-from ninedof.support.units import unit_argument
 
 PLACE = 4
 BODIES = {"platform": "platform", "cylinder": "each cylinder", "rod": "each rod", "internal_point": "O"}
@@ -55,8 +54,7 @@ def export(options: _Options) -> Answer:
     own_or_new("--out", file, row.mark)
     if row.beside is not None:
         own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
-    unit = chosen.unit if options.unit is None else unit_argument(options.unit)
-    path = nd.export(chosen.machine, row.name, file, unit=unit, **more)
+    path = nd.export(chosen.machine, row.name, file, unit=options.unit, **more)
     lines = [f"{row.words}: {path}"]
     if "leg_mass" in row.options:
         masses, assumed = body_masses(chosen.study, options.leg_mass, options.platform_mass)
