@@ -13,14 +13,14 @@ import typer
 
 from ninedof.cli.screen import Screen
 from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.redundancy.rules import RULES
 
 Two = tuple[float, float]
 Three = tuple[float, float, float]
 T = TypeVar("T")
 
-SIDES = ("a1", "a2", "b1", "b2", "zp", "zs")
-HEXAGON = (*SIDES, "theta_z_deg")
+HEXAGON = (*HEXAGONAL, "theta_z_deg")
 
 THREADS = "Threads; one per processor by default. The result does not depend on it."
 DESIGN = "a design file (TOML), a run folder (its best design), or RUN#7 (point 7 of a front, counted from 1)"

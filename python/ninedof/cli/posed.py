@@ -14,7 +14,6 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import (
     HEXAGON,
     ONE_DESIGN,
-    SIDES,
     HexagonalOptions,
     Options,
     Three,
@@ -24,9 +23,9 @@ from ninedof.cli.options import (
     option,
     struct,
     triple,
-    typed,
 )
 from ninedof.cli.screen import DONE, bold
+from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.paper.published import published_variables
 from ninedof.records.design_file import hexagonal_design
 from ninedof.records.load import design_and_result
@@ -38,6 +37,7 @@ from ninedof.support.arguments import vector
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry
 
+POSE = ("position", "rotation_deg", "internal_point")  # options that say where to look
 NO_SIDE = 1e-12  # a determinant that is zero but for rounding
 SAME = 1e-9  # relative: poses that differ by less coincide
 
@@ -104,7 +104,7 @@ def chosen_design(name: str | None, options: HexagonalOptions) -> Chosen:
     """Return the design that an argument DESIGN names, or that of the sides and heights of the hexagonal family."""
     values = options.given(*HEXAGON)
     if name is None:
-        if missing := [f"--{side}" for side in SIDES if side not in values]:
+        if missing := [f"--{side}" for side in HEXAGONAL if side not in values]:
             expected = "expected a design file or all of a1 a2 b1 b2 zp zs"
             raise ValueError(f"design: got no {', '.join(missing)}, {expected}")
         chosen = Chosen(*hexagonal_design(values | {"theta_z": math.radians(values.get("theta_z_deg", 0.0))}))
@@ -131,10 +131,6 @@ class PoseOptions(Options):
         'O at that pose: carried (default), shifted, held, best, a fraction between the plates, or "X Y Z".'
     )
 
-    def named(self) -> list[str]:
-        """Return the options that say where to look."""
-        return list(map(typed, self.given("position", "rotation_deg", "internal_point")))
-
     def at(self) -> DesignAtPoses:
         """Return the design at the poses of the options."""
         chosen = named_design(self.design)
@@ -147,7 +143,7 @@ class PoseOptions(Options):
         turn = np.radians((0.0, 0.0, 0.0) if self.rotation_deg is None else vector("--rotation-deg", self.rotation_deg))
         q = home.moved(np.concatenate([turn, np.zeros(6)])).rotation if turn.any() else home.rotation
         s = home.internal_point
-        if self.named():
+        if self.given(*POSE):
             s = _internal_point(chosen, p, q, self.internal_point or "carried")
         return nd.Configuration(p[None], q[None], s[None])
 
@@ -162,8 +158,7 @@ class PosesOptions(PoseOptions):
         """Return a stack of configurations: of the study, or one, by default the neutral one."""
         if not self.all_poses:
             return super().poses(chosen)
-        if named := self.named():
-            raise ValueError(f"--all-poses: got {named[0]} beside it, expected one of the two")
+        self.refuse("beside --all-poses", *POSE)
         if chosen.result is None or chosen.result.best is None:
             raise ValueError("--all-poses: got a design without a study, expected a run")
         return chosen.result.best.configurations

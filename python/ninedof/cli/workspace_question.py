@@ -155,8 +155,7 @@ def _changed_place(options: WorkspaceOptions, place: Mapping[str, Any]) -> dict[
         if any(end is not None for end in ends):
             raise ValueError("workspace: got a box, expected none for orientations at one position")
         return options.given("position")
-    if options.position is not None:
-        raise ValueError(f"--position: got {options.position}, expected none but for --archetype orientation")
+    options.refuse("but for --archetype orientation", "position")
     around = [own if end is None else end for own, end in zip(zip(*place["box"], strict=True), ends, strict=True)]
     return {"box": tuple(zip(*around, strict=True))}
 
@@ -165,8 +164,7 @@ def _proof(options: WorkspaceOptions, rule: Any) -> dict[str, Any] | None:
     """Return gap and time of the proof; None where none is wanted."""
     settings = options.given("gap", "time")
     if not options.certify:
-        for name, value in settings.items():
-            raise ValueError(f"--{name}: got {value:g} without --certify, expected both")
+        options.refuse("without --certify", *settings)
         return None
     require_certifiable(options.archetype, rule)
     finite("--gap", settings.get("gap", 0.5), *GAPS)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ninedof.conditioning.characteristic_length import KINDS, characteristic_length
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.duty import Tool
 from ninedof.design.indices import computed
 from ninedof.robot.configuration import Configuration, arrays_of
@@ -57,7 +58,7 @@ class Design(NamedTuple):
         return float(condition_number(*self[:3]))
 
 
-HEXAGON = ("a1", "a2", "b1", "b2")
+HEXAGON = HEXAGONAL[:4]
 
 
 def hexagonal_design(values: Mapping[str, float], length: float | str = 1.0) -> Design:

@@ -24,8 +24,6 @@ from ninedof.support.units import plain_name
 ROTATION, POSITION, INTERNAL = ("theta_x", "theta_y", "theta_z"), ("x_p", "y_p", "z_p"), ("x_s", "y_s", "z_s")
 COORDINATES = (*ROTATION, *POSITION, *INTERNAL)
 """In the order of `Configuration.moved`."""
-RULES = ("held", "carried", "shifted", "best")
-"""Position of O while the platform moves."""
 FOLLOWING = ("carried", "shifted")
 """With these O is swept by displacements only."""
 

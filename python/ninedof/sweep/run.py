@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.indices import What, indices_of
 from ninedof.design.study import FAMILIES, in_radians_by_kind, variable_kinds
+from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.designs import P, R_co, TakesDesigns, takes_designs
 from ninedof.robot.geometry import Geometry
@@ -28,7 +29,6 @@ from ninedof.sweep.points import (
     FOLLOWING,
     INTERNAL,
     ROTATION,
-    RULES,
     Poses,
     Variants,
     best_block,

@@ -10,7 +10,7 @@ import numpy as np
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import JOINT_ERROR, LEG_ERROR, Two, option, struct
-from ninedof.cli.posed import DesignAtPoses, PosesOptions
+from ninedof.cli.posed import POSE, DesignAtPoses, PosesOptions
 from ninedof.sheet.allotment import tolerances_for
 from ninedof.statics.accuracy import DISTRIBUTIONS, MOST_SAMPLES, ErrorBounds, error_bounds, error_samples
 from ninedof.support.arguments import finite, whole
@@ -84,9 +84,8 @@ def accuracy(options: _Options) -> Answer:
 
 def _allotted(options: _Options, at: DesignAtPoses) -> Answer:
     """Return the tolerances that keep the machine within an error, over the poses of its study."""
-    more = ("samples", "all_poses", "position", "rotation_deg", "internal_point")
     options.refuse("with --within: it asks for the tolerances", "leg_error", "joint_error")
-    options.refuse("with --within: it is about all poses of the study", *more)
+    options.refuse("with --within: it is about all poses of the study", "samples", "all_poses", *POSE)
     turn = None if options.within_deg is None else math.radians(options.within_deg)
     design, unit = at.machine, at.unit
     kept = tolerances_for(design, options.within, turn, options.weights)

@@ -87,9 +87,8 @@ def admissible(options: _Options) -> Answer:
 
 def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: Mapping[str, Any]) -> Answer:
     """Return for which rows of its actuators a study has designs; nothing is kept."""
-    for name in ("condition", "around", "certificate", "out", "scheduler"):
-        if getattr(options, name):
-            raise ValueError(f"--{name}: got it for a study with actuators, expected none: its answer is printed alone")
+    alone = "for a study with actuators: its answer is printed alone"
+    options.refuse(alone, "condition", "around", "certificate", "out", "scheduler")
     with screen.bar("boxes", "actuators") as bar:
         found = nd.admissible_actuators(study, vary, at=at, **_how(options), progress=bar)
     heads = columns("legs", "actuator", "a design exists", "for example")

@@ -11,17 +11,7 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.commands.compare import compared, plot_argument
-from ninedof.cli.options import (
-    HEXAGON,
-    ONE_DESIGN,
-    PLOT,
-    HexagonalOptions,
-    argument,
-    changes_option,
-    option,
-    struct,
-    typed,
-)
+from ninedof.cli.options import HEXAGON, ONE_DESIGN, PLOT, HexagonalOptions, argument, changes_option, option, struct
 from ninedof.cli.posed import beyond_words, chosen_design, named_design
 from ninedof.design.indices import computed
 from ninedof.records.design_file import indices
@@ -79,8 +69,7 @@ def evaluate(options: _Options) -> Answer:
 def _changed(options: _Options) -> Answer:
     """Return the run beside its design with other values of some variables."""
     plot_argument(options.plot)
-    if given := options.given(*HEXAGON, "lc"):
-        raise ValueError(f"--set: got {typed(next(iter(given)))} beside it, expected a run alone")
+    options.refuse("with --set, which changes a run", *HEXAGON, "lc")
     result = named_design(options.design).result if options.design else None
     if result is None:
         raise ValueError(f"--set: got {options.design or 'no design'}, expected a run, whose study has variables")

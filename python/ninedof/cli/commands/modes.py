@@ -9,7 +9,7 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import option, several, struct
-from ninedof.cli.posed import PoseOptions, length_at_home, xyz
+from ninedof.cli.posed import POSE, PoseOptions, length_at_home, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.proof.machine_record import outward
 from ninedof.sheet.plain_values import poses_of
@@ -36,8 +36,8 @@ class _Options(PoseOptions):
 
 def modes(options: _Options) -> Answer:
     """Print every configuration with the leg lengths of a pose: the assembly modes."""
-    if options.lengths is not None and options.named():
-        raise ValueError("--lengths: got a pose beside it, expected one of the two")
+    if options.lengths is not None:
+        options.refuse("beside --lengths", *POSE)
     at = options.at()
     g, unit = at.geometry, at.unit
     lengths = nd.leg_lengths(g, at.c)[0]
