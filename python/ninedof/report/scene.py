@@ -20,7 +20,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.sheet.sheet import Sheet
 from ninedof.support.arrays import Floats
 from ninedof.workspace import WorkspaceMap, workspace
-from ninedof.workspace.study_question import box_around, study_question
+from ninedof.workspace.study_question import box_around, design_question
 from ninedof.workspace.tables import criterion_words
 
 DIGITS = 6  # significant, of coordinates in the page
@@ -142,7 +142,7 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
     best, unit = result.best, result.study.unit
     assert best is not None
     try:
-        keywords, left = study_question(result)
+        keywords, left = design_question(result)
         keywords["box"] = box_around(best.configuration, result.study.tool)
         if keywords["internal_point"] == "best":
             return None, f"The workspace with O placed anew at every position takes minutes: {how}."

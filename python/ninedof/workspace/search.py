@@ -185,7 +185,7 @@ def workspace(
     }
     own: dict[str, Any] = {"internal_point": 0.5, "characteristic_length": 1.0}
     if not isinstance(geometry, Geometry):
-        own |= design_question(geometry, archetype)
+        own |= design_question(geometry, archetype)[0]
         geometry = robot_of(geometry)
     arguments |= {name: value for name, value in own.items() if arguments[name] is None}
     unit = unit_argument(arguments.pop("unit"))

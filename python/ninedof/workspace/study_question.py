@@ -11,7 +11,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.duty import Tool
-from ninedof.design.limit_numbers import CLEARANCE, CONES, LEGS, PARTS, SPREADS
+from ninedof.design.limit_numbers import CLEARANCE, CONES, LEGS, PARTS, SPREADS, exempt_pairs
 from ninedof.design.region import Region, extent
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
@@ -21,7 +21,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.designs import HasRobot, robot_of
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
-from ninedof.support.structs import Fixed, from_core
+from ninedof.support.structs import Fixed
 from ninedof.workspace.question import ROWS, criteria_of
 
 EASE = 1e-9
@@ -30,23 +30,15 @@ COUNT = 10_000  # even poses, and as many toward the boundary
 ROOM = 2.0  # about the region in the box of a map, in its largest half edge
 
 
-class RegionShare(NamedTuple):
-    """The share of a region that keeps the criteria of a workspace."""
-
-    share: float
-    """Of the even poses of the region that keep all criteria, 0 to 1."""
-    looked_at: int
-    """Even poses, and as many drawn toward the boundary."""
-    passed: tuple[str, ...]
-    """Criteria that some pose passes, on the boundary or inside."""
-
-
 def region_share(
     region: Region, g: Geometry, home: Configuration, criteria: Mapping[str, Any], characteristic_length: float
-) -> RegionShare:
-    """Return how much of a region keeps the criteria of a workspace, with its tilts, O as the region has it."""
+) -> _core.RegionShare:
+    """Return how much of a region keeps the criteria of a workspace, with its tilts, O as the region has it.
+
+    The share is of even poses; as many are drawn toward the boundary. `passed` are the criteria that any pose passes.
+    """
     question = _core.WorkspaceQuestion(g, home=home, criteria=criteria_of(criteria, characteristic_length))
-    return from_core(RegionShare, _core.region_share(question, region.for_core(), COUNT))
+    return _core.region_share(question, region.for_core(), COUNT)
 
 
 def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[Floats, Floats]:
@@ -71,43 +63,26 @@ ACTUATOR_WORDS = {
 ACTUATORS = tuple(ACTUATOR_WORDS)
 
 
-def study_question(result: Result, archetype: str = "constant_orientation") -> tuple[dict[str, Any], list[str]]:
-    """Return arguments of `workspace` for a result: its positions in the neutral orientation within its study's limits.
+def design_question(design: HasRobot, archetype: str = "constant_orientation") -> tuple[dict[str, Any], list[str]]:
+    """Return the arguments of `workspace` that a design brings, a result the limits of its study and its rule for O.
 
-    The same limits and the same rule for O as `ninedof workspace RUN` has; the box holds all that a home height
-    reaches. Beside them the limits of the study that no single pose can meet.
+    As `ninedof workspace RUN` has them; positions have a box about its region, or one that holds all that a home height
+    reaches, "orientation" has the home position. Beside them the limits of the study that no single pose can meet.
     """
-    best, study = result.best, result.study
-    assert best is not None
-    criteria, _, left, _ = asked_criteria(result)
-    robot = best.geometry, best.configuration, study.objective.region, study.tool
-    return _own_arguments(*robot, best.characteristic_length, study.unit, archetype) | {"criteria": criteria}, left
-
-
-def design_question(design: HasRobot, archetype: str) -> dict[str, Any]:
-    """Return the arguments of `workspace` that a design brings; of a result with the limits of its study.
-
-    Positions have a box about its region or its home, "orientation" has its home position.
-    """
-    g = robot_of(design)
-    if isinstance(design, Result):
-        return study_question(design, archetype)[0]
-    home, length = design.configuration, design.characteristic_length
-    length = float(characteristic_length(g, home, length)) if isinstance(length, str) else length
-    tool, unit = getattr(design, "tool", Tool()), getattr(design, "unit", "")
-    return _own_arguments(g, home, None, tool, length, unit, archetype)
-
-
-def _own_arguments(
-    g: Geometry, home: Configuration, region: Region | None, tool: Tool, length: float, unit: str, archetype: str
-) -> dict[str, Any]:
-    return {
-        **place_of(home, region, tool, archetype),
+    g, home, length = robot_of(design), design.configuration, design.characteristic_length
+    study = design.study if isinstance(design, Result) else None
+    region, of = None if study is None else study.objective.region, study or design
+    arguments = {
+        **place_of(home, region, getattr(of, "tool", Tool()), archetype),
         "internal_point": rule_of_region(g, home, region),
         "home": home,
-        "characteristic_length": length,
-        "unit": unit or None,
+        "characteristic_length": float(characteristic_length(g, home, length)) if isinstance(length, str) else length,
+        "unit": getattr(of, "unit", "") or None,
     }
+    if not isinstance(design, Result):
+        return arguments, []
+    criteria, _, left, _ = asked_criteria(design)
+    return arguments | {"criteria": criteria}, left
 
 
 def place_of(home: Configuration, region: Region | None, tool: Tool, archetype: str) -> dict[str, Any]:
@@ -192,8 +167,11 @@ def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[s
             criteria[name] = criterion
             if ROWS[name].needs:
                 criteria[name] = {"max": high, "duty": study.leg_duty.to_dict()}
-            if name == CLEARANCE and (collide := _collisions(study, g)):
-                criteria[name] = {"min": low, "exempt": [pair for pair in PARTS[name] if pair not in collide]}
+            if name == CLEARANCE:
+                pairs = zip(PARTS[name], exempt_pairs(g), exempt_pairs(g, study), strict=True)
+                exempt = [pair for pair, meet, always in pairs if always or not meet]
+                if len(exempt) < len(PARTS[name]):  # joints coincide that do not in every design of the study
+                    criteria[name] = {"min": low, "exempt": exempt}
     if study.objective.condition_limit is not None:
         criteria["condition_number"] = study.objective.condition_limit * (1.0 + EASE)
     return criteria, left
@@ -207,12 +185,6 @@ def _criterion(name: str, low: float, high: float, axis: Sequence[float]) -> Any
     if entries and axis:
         entries["axis"] = axis
     return entries if len(entries) > 1 else next(iter(entries.values()), None)
-
-
-def _collisions(study: Study, g: Geometry) -> list[str]:
-    """Return the pairs of legs whose joints coincide in this robot, and not in every design of a study."""
-    here, always = _core.pairs_sharing_a_joint(g), study.problem().exempt_pairs()
-    return [pair for pair, meet, exempt in zip(PARTS[CLEARANCE], here, always, strict=True) if meet and not exempt]
 
 
 def with_leg_limits(limits: Mapping[str, Any]) -> dict[str, Any]:

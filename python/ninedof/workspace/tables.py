@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.design.indices import INDICES
 from ninedof.design.region import Region
 from ninedof.redundancy.rules import point_words, where_o
@@ -16,7 +17,6 @@ from ninedof.robot.geometry import LEGS as LEG_NAMES
 from ninedof.support.units import amount, kind_unit
 from ninedof.tables import RIGHT, Column, Line, Table
 from ninedof.workspace.question import ROWS
-from ninedof.workspace.study_question import RegionShare
 
 SHOWN = 8  # limits in the table
 STATUSES = {
@@ -92,7 +92,7 @@ def workspace_words(workspace: Any) -> Iterator[tuple[str, str]]:
         yield "", f"the workspace reaches the {where}: it is larger in a larger {what}"
 
 
-def share_words(region: Region, workspace: RegionShare, unit: str) -> str:
+def share_words(region: Region, workspace: _core.RegionShare, unit: str) -> str:
     """Return a sentence on how much of a region keeps the limits."""
     words = f"region of the study, {region.worded(unit)}: {100.0 * workspace.share:.4g} % of it within these limits"
     broken = f"; passed: {', '.join(name.replace('_', ' ') for name in workspace.passed)}" if workspace.passed else ""

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 import ninedof as nd
 from ninedof.design.leg_duty import internal_motion
 from ninedof.sheet.pose_limits import pose_limits
-from ninedof.workspace.study_question import study_question
+from ninedof.workspace.study_question import design_question
 
 BOUNDS = {"a1": 0.0, "a2": 850.0, "b1": (200.0, 350.0), "b2": 0.0, "zp": (400.0, 560.0), "zs": (200.0, 400.0)}
 REGION = {"box": (40.0, 40.0, 20.0), "tilt": 0.09}
@@ -106,7 +106,7 @@ def test_power_is_force_times_rate_and_all_are_those_of_the_sheet(result):
 @pytest.mark.slow
 def test_workspaces_have_them_as_criteria(result):
     found = nd.workspace(result, tolerance=5e-3)
-    question, left = study_question(result)
+    question, left = design_question(result)
     assert not left
     proved = nd.certified_workspace(result.geometry, question.pop("box"), gap=0.1, time_limit=60.0, **question)
     assert proved.volume[0] <= found.volume + 3.0 * found.error

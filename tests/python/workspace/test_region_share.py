@@ -56,7 +56,7 @@ def test_the_share_is_that_of_the_volume():
     assert found.share == pytest.approx(kept.mean(), abs=0.015)
     assert found.passed == ("leg_limits", "condition_number")
     least = region_share(region, m.g, m.home, {"leg_clearance": 9.0, "base_cone": 0.001}, 1.0)
-    assert least == (0.0, 20_000, ("base_cone", "leg_clearance"))
+    assert (least.share, least.looked_at, least.passed) == (0.0, 20_000, ("base_cone", "leg_clearance"))
     axis = {"platform_cone": {"max": np.pi, "axis": (0, 0, 1)}, "singularity_free": True}
     assert region_share(region, m.g, m.home, axis, 1.0).share == 1.0
 

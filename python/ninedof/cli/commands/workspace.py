@@ -75,7 +75,7 @@ def workspace(options: WorkspaceOptions) -> None:
         keywords = question.keywords
         share = region_share(region, chosen.geometry, home, keywords["criteria"], keywords["characteristic_length"])
         screen.print(share_words(region, share, chosen.unit))
-        data["region"] = share._asdict()
+        data["region"] = {name: getattr(share, name) for name in ("share", "looked_at", "passed")}
     stopped = result.interrupted or (result.certified is not None and result.certified.interrupted)
     with_figures = result.volume > 0.0 and result.method != "sample"
 
