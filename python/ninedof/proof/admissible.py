@@ -196,8 +196,8 @@ def by_roots(
     work = RootWork(of, roots, seconds, resolution, threads, ENOUGH / max(len(roots), 1))
     try:
         with computed(work, None, executor, progress) as (_, chunks):
-            for chunk, values in chunks:
-                found[chunk.first] = values
+            for (first, _), values in chunks:
+                found[first] = values
     except KeyboardInterrupt:
         interrupted = True
     parts = [{name: begin[name][~undecided] for name in PIECES}, *found.values()]

@@ -7,7 +7,7 @@ from collections.abc import Generator, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from itertools import islice
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ninedof.support.arguments import executor_argument, path_argument, whole
 from ninedof.support.files import Arrays
@@ -42,13 +42,7 @@ class Work(Protocol):
         """Return the values of points first ... last - 1: the same whenever and wherever this is called."""
 
 
-class Chunk(NamedTuple):
-    """Its first point, and the one after its last."""
-
-    first: int
-    last: int
-
-
+Chunk = tuple[int, int]  # its first point, and the one after its last
 Computed = Generator[tuple[Chunk, Arrays]]
 
 
@@ -89,21 +83,21 @@ def _computed(work: Work, store: Store | None, executor: Executor | None, progre
     _countable(work)
     done, missing, some = 0, [], store is not None and store.kept()
     for k, first in enumerate(range(0, work.points, work.chunk)):
-        chunk = Chunk(first, min(first + work.chunk, work.points))
+        last = min(first + work.chunk, work.points)
         if not some or store is None or (values := store.read(k)) is None:
-            missing.append(chunk)
+            missing.append((first, last))
             continue
-        yield chunk, values
-        done += chunk.last - chunk.first
+        yield (first, last), values
+        done += last - first
     if progress is not None:
         progress(done, work.points, None)
     here = ((chunk, work.values(*chunk)) for chunk in missing)
     with closing(here if executor is None else _by(executor, work, missing)) as new:
-        for chunk, values in new:
+        for (first, last), values in new:
             if store is not None:
-                store.keep(chunk.first // work.chunk, values)
-            yield chunk, values
-            done += chunk.last - chunk.first
+                store.keep(first // work.chunk, values)
+            yield (first, last), values
+            done += last - first
             if progress is not None:
                 progress(done, work.points, None)
 
@@ -121,7 +115,8 @@ def _by(executor: Executor, work: Work, chunks: list[Chunk]) -> Computed:
             if not waiting:
                 return
             finished = wait(waiting, return_when=FIRST_COMPLETED).done
-            for future in sorted(finished, key=_failed):  # what is finished is kept before an error ends the run
+            order = sorted(finished, key=lambda one: one.cancelled() or one.exception() is not None)
+            for future in order:  # what is finished is kept before an error ends the run
                 yield waiting.pop(future), future.result()
     finally:
         for future in waiting:
@@ -131,7 +126,3 @@ def _by(executor: Executor, work: Work, chunks: list[Chunk]) -> Computed:
 def _perform(part: Work, chunk: Chunk, token: str) -> Arrays:
     """Compute a chunk. The token makes the call differ from those of other runs: Dask does not repeat equal calls."""
     return part.values(*chunk)
-
-
-def _failed(future: Future[Any]) -> bool:
-    return future.cancelled() or future.exception() is not None
