@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from ninedof.design.study import Study
-from ninedof.proof.admissible_set import PIECES, STATES, AdmissibleSet
+from ninedof.proof.admissible_set import PIECES, AdmissibleSet
 from ninedof.proof.design_range import DesignRange
 from ninedof.proof.machine_record import FORMAT, MachineCertificate
 from ninedof.records.load import split
@@ -22,7 +22,7 @@ from ninedof.support.files import (
     write_whole,
 )
 from ninedof.support.store import folder_of
-from ninedof.support.structs import Fixed
+from ninedof.support.structs import Fixed, entries_of
 
 ASKED = ("vary", "ranges", "condition_number", "moved")
 NUMBERS = ("designs", "boxes", "seconds", "interrupted")
@@ -94,9 +94,8 @@ def latest_admissible(run: str | os.PathLike[str], study: Study) -> AdmissibleSe
         asked = from_json_array(arrays["others"]).get("asked")
         if asked is None or len(asked["vary"]) < 2:  # none in files of earlier versions
             continue
-        vary, ranges = tuple(asked["vary"]), tuple((low, high) for low, high in asked["ranges"])
-        moved = tuple(asked["moved"])
-        of = DesignRange(study, vary, ranges, Fixed(asked["at"]), asked["condition_number"], moved)
+        entries = entries_of(DesignRange, asked, skipped=["study"])
+        of = DesignRange(study, **entries | {"at": Fixed(entries["at"])})
         if (found := _read(arrays, of)) is not None:
             return found
     return None
@@ -106,14 +105,6 @@ def _read(arrays: Arrays, of: DesignRange) -> AdmissibleSet | None:
     others = from_json_array(arrays["others"])
     if others["question"] != of.digest:
         return None
-    return AdmissibleSet(
-        of,
-        arrays["low"],
-        arrays["high"],
-        arrays["state"],
-        arrays["demand"],
-        tuple((limit, part) for limit, part in others["demands"]),
-        arrays["poses"],
-        Fixed({name: others["shares"][name] for name in STATES}),
-        *(others[name] for name in NUMBERS),
-    )
+    entries = entries_of(AdmissibleSet, others, skipped=("of", *PIECES))
+    entries |= {name: arrays[name] for name in PIECES} | {"shares": Fixed(entries["shares"])}
+    return AdmissibleSet(of, **entries)
