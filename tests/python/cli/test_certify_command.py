@@ -194,7 +194,13 @@ def test_a_run_with_a_reserve_says_so_and_its_tolerances_are_proved(tmp_path, ca
     assert nd.load_certificate(folder).leg_tolerance == 0.0
 
 
-@pytest.mark.parametrize("bad", ["-1", "much", "inf", "nan"])
-def test_bad_tolerances_are_named(run, bad, capsys):
+@pytest.mark.parametrize(
+    ("bad", "words"),
+    [
+        ("much", "'much', expected a length from 0 on, or \"max\""),
+        *((number, f"{float(number)}, expected a finite number at least 0") for number in ("-1", "inf", "nan")),
+    ],
+)
+def test_bad_tolerances_are_named(run, bad, words, capsys):
     assert status(run, f"--tolerance={bad}") == 2
-    assert f"--tolerance: got '{bad}', expected a length from 0 on, or \"max\"" in capsys.readouterr().err
+    assert f"--tolerance: got {words}" in capsys.readouterr().err

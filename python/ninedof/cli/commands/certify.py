@@ -9,7 +9,7 @@ from typing import Any
 
 import ninedof as nd
 from ninedof.cli.answer import Answer, write_job
-from ninedof.cli.options import THREADS, Options, argument, option, struct
+from ninedof.cli.options import THREADS, Options, argument, option, struct, word_or_number
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.proof.machine import tolerances_of
 from ninedof.proof.machine_file import require_replayable
@@ -17,7 +17,6 @@ from ninedof.proof.machine_record import outward
 from ninedof.records.proofs import certificate_file, save_certificate
 from ninedof.robot.geometry import LEGS
 from ninedof.singularity.architecture import architecture_sentences
-from ninedof.support.arguments import finite
 from ninedof.support.margins import margin_words
 from ninedof.support.running import ended_by_time, goes_on
 from ninedof.support.units import amount, with_unit
@@ -55,7 +54,9 @@ def certify(options: _Options) -> Answer:
         "time_limit": options.time,
         "threads": options.threads or 0,
     }
-    tolerance = None if options.tolerance is None or options.tolerance == LARGEST else _length(options.tolerance)
+    tolerance: Any = options.tolerance
+    if tolerance is not None:
+        tolerance = word_or_number("--tolerance", tolerance, [LARGEST], f'a length from 0 on, or "{LARGEST}"')
     result = nd.load(run)
     if not isinstance(result, nd.Result):
         raise ValueError(
@@ -67,7 +68,7 @@ def certify(options: _Options) -> Answer:
     except ValueError as error:
         raise ValueError(f"{error}; once it is removed, the proof begins anew") from None
     goes_on()
-    largest = options.tolerance == LARGEST
+    largest = tolerance == LARGEST
     built = _largest_of(result, how, screen) if largest else tolerances_of(tolerance, result.study)
     if options.certificate is not None:
         require_replayable(result.study, built)
@@ -110,14 +111,6 @@ def certify(options: _Options) -> Answer:
     if certificate.left_count and not certificate.interrupted:
         ended_by_time()
     return Answer([], data, INTERRUPTED if certificate.interrupted else status)
-
-
-def _length(given: str) -> float:
-    """Return a tolerance that is no word."""
-    try:
-        return finite("--tolerance", float(given), 0.0)
-    except ValueError:
-        raise ValueError(f'--tolerance: got {given!r}, expected a length from 0 on, or "{LARGEST}"') from None
 
 
 def _largest_of(result: nd.Result, how: dict[str, Any], screen: Screen) -> nd.Tolerances:
