@@ -116,24 +116,20 @@ def of_front(front: Front, record: Any) -> Page:
         "proof": proof.of_front(front),
         "again": origin.of_front(front, record),
     }
-    of_first: tuple[Any, ...] = ()
-    first, shown, hint = preferred(front), None, ""
-    if first is not None:
-        best = front.results[first.number - 1]
-        shown, sheet = best.best, best.sheet()
-        body, words = quick_body(best, f"RUN#{first.number}")
-        of_first, hint = (sheet, body), f"Point {first.number}. {words}"
-        sentence = f"Of point {first.number}, {first.words}. Each point has its own: ninedof sheet RUN#1 for the first."
-        sections["sheet"] = joined(paragraphs([sentence]), sheet_html(sheet))
+    first, shown, hint, start = preferred(front), None, "", 0
     machines: list[dict[str, Any]] = []
-    start = 0
     for k, (x, result, value) in enumerate(zip(front.limits, front.results, front.objectives, strict=True), start=1):
         if result.best is None or math.isnan(value):
             continue
+        sheet, body = None, None
+        if first is not None and k == first.number:
+            start, shown, sheet = len(machines), result.best, result.sheet()
+            body, words = quick_body(result, f"RUN#{k}")
+            hint = f"Point {k}. {words}"
+            sentence = f"Of point {k}, {first.words}. Each point has its own: ninedof sheet RUN#1 for the first."
+            sections["sheet"] = joined(paragraphs([sentence]), sheet_html(sheet))
         title = f"point {k}: {limit} {limit_text(front, x)}"
-        is_first = result.best is shown
-        start = len(machines) if is_first else start
-        machines.append(design_machine(title, result.best, result.study, *(of_first if is_first else ())))
+        machines.append(design_machine(title, result.best, result.study, sheet, body))
     if machines:
         sections["machine"] = paragraphs([hint])
     values = [x for x in front.objectives if not math.isnan(x)]

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
 from ninedof.design.limits import kind_of
 from ninedof.design.region import box_lines
 from ninedof.motion.tables import motion_tables
@@ -35,7 +33,7 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     if "criteria" in question:
         sections["question"] = _question(workspace, question)
     if {"geometry", "home"} <= set(question):
-        machine = _machine(question)
+        machine = Geometry(**question["geometry"]), Configuration(**question["home"])
         box = [] if workspace.of_angles else box_lines(workspace.low, workspace.high)
         length, poses = float(question.get("characteristic_length", 1.0)), [("home", machine[1])]
         shown = scene.machine("robot", machine[0], length, poses, box, scene.body_of(workspace))
@@ -51,11 +49,6 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     headline = f"Workspace: {workspace.archetype.replace('_', ' ')}"
     good = workspace.status in ("converged", "limited")
     return Page("workspace", headline, figures, sections, view, good, machine)
-
-
-def _machine(question: Any) -> tuple[Geometry, Configuration]:
-    g = Geometry(**{key: np.array(value) for key, value in question["geometry"].items()})
-    return g, Configuration(**{key: np.array(value) for key, value in question["home"].items()})
 
 
 def _question(workspace: WorkspaceMap, question: Any) -> Html:
