@@ -98,11 +98,7 @@ def _tuple(name: str, value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
     return tuple(value_of(f"{name}[{k}]", entry, one) for k, (entry, one) in enumerate(entries))
 
 
-def _whole(name: str, value: Any) -> int:
-    return whole(name, value, -LARGEST)
-
-
-_SIMPLE: dict[Any, Any] = {float: number, int: _whole, bool: flag, str: text}
+_SIMPLE: dict[Any, Any] = {float: number, int: functools.partial(whole, least=-LARGEST), bool: flag, str: text}
 
 
 Check = Callable[[str, Any], Any]

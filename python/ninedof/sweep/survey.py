@@ -63,8 +63,7 @@ class Sample:
 
 def closed_form(designs: Floats) -> Floats:
     """Return the condition number at the neutral pose of designs (n, 6), lengths in characteristic lengths."""
-    values: Floats = _core.hexagonal_condition_numbers(designs, 1, None)
-    return values.reshape(-1)
+    return _core.hexagonal_condition_numbers(designs, 1, None).reshape(-1)
 
 
 def squared_radius_ratio(designs: Floats) -> Floats:
