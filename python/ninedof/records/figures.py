@@ -97,9 +97,10 @@ def _figures(
         files += plot.save(plot.region_map(of_region), directory, "region")
     elif result.best is not None and len(result.best.conditions) > 1:
         say("drawing the condition number at each pose")
-        names = _pose_names(result, len(result.best.conditions))
-        of_unit = f", in {unit}" if unit and any(p.unit != "zp" for p in result.solved.objective.poses) else ""
+        poses = result.solved.objective.poses  # numbered from 1: pose 0 of the sheet is the neutral one
+        of_unit = f", in {unit}" if unit and any(pose.unit != "zp" for pose in poses) else ""
         words = f"Poses, numbered as in the sheet: shifts from the neutral pose{of_unit}, and the rotation vector"
+        names = [_pose_name(pose) for pose in poses]
         files += plot.save(plot.poses({"optimum": result.best.conditions}, names, note=words), directory, "poses")
     if not convergence:
         return files
@@ -111,16 +112,8 @@ def _figures(
     return files
 
 
-def _pose_names(result: Result, count: int) -> list[str]:
-    """Return names of the poses at which a study was solved by their shifts from the neutral pose.
-
-    Their numbers, from 1, are those of the sheet, whose pose 0 is the neutral one.
-    """
-    poses = result.solved.objective.poses
-    return [_pose_name(pose) for pose in poses] if len(poses) == count else []
-
-
 def _pose_name(pose: Pose) -> str:
+    """Return the shifts from the neutral pose as a name."""
     scale = " zp" if pose.unit == "zp" else ""
     shifts = [f"{axis} {x:+.3g}{scale}" for axis, x in zip("xyz", pose.position, strict=True) if x]
     turns = [f"θ{axis} {np.degrees(x):+.3g}°" for axis, x in zip("xyz", pose.rotation, strict=True) if x]

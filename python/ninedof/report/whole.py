@@ -72,13 +72,10 @@ def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCer
     return certificate
 
 
-def _stated(question: Mapping[str, Any]) -> Study:
-    """Return a study with what the question of a record without one has of it: title block, tool and unit."""
-    return Study(**{name: question[name] for name in ("about", "tool", "unit") if name in question})
-
-
 def _text(page_: Page, record: Record, folder: Path | None, name: str, run: Any) -> str:
-    study = record.question if isinstance(record.question, Study) else _stated(record.question)
+    study = record.question
+    if not isinstance(study, Study):  # what the question of a record without one has of it
+        study = Study(**{name: study[name] for name in ("about", "tool", "unit") if name in study})
     with TemporaryDirectory() as spare:
         have = {} if folder is None else dict.fromkeys(stems(folder), folder)
         have = _drawn(page_, run, study, have, Path(spare)) | have

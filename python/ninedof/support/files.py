@@ -259,10 +259,6 @@ class Saved(ABC):
     def load(cls, path: str | os.PathLike[str]) -> Self:
         """Read what `save` wrote.
 
-        Parameters
-        ----------
-        path : path
-
         Raises
         ------
         ValueError

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.records.figures import _curves, _over_poses, _pose_name, _pose_names, figures_of
+from ninedof.records.figures import _curves, _over_poses, _pose_name, figures_of
 from ninedof.records.record import write_run
 
 STUDY = nd.Study.load(Path(__file__).parents[3] / "examples" / "02_twist_and_legs.toml")
@@ -49,7 +49,7 @@ def test_poses_are_named_by_their_shifts():
 def test_poses_have_the_numbers_of_the_sheet():
     study = replace(nd.Study.paper(), objective={"poses": nd.poses.box((0.1, 0.0, 0.2))})
     result = nd.optimize(study, starts=2)
-    names, sheet = _pose_names(result, len(result.best.conditions)), nd.sheet(result)
+    names, sheet = [_pose_name(pose) for pose in result.solved.objective.poses], nd.sheet(result)
     assert len(names) == len(sheet.configurations) - 1 == 9
     for k, name in enumerate(names, start=1):  # 0 is the neutral pose
         shift = sheet.configurations[k].position - sheet.configurations[0].position
