@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -128,15 +128,13 @@ def asked_criteria(result: Result | None, values: Mapping[str, Any] = Fixed(), a
     own = {name for name in unchanged - ranges if name in criteria}
     own |= {"leg_limits"} if ranges and ranges <= unchanged else set()
     criteria = with_leg_limits(criteria)
-    if result is None or not compare_poses(left, values) or (built := built_ranges(result, actuators)) is None:
+    compares = any(name in SPREADS for name in left) and LEGS.keys().isdisjoint(values)
+    if result is None or not compares or (built := built_ranges(result, actuators)) is None:
         return Asked(criteria, own, left, "")
+    least, most = criteria.get("leg_limits", (0.0, math.inf))
+    criteria["leg_limits"] = (np.maximum(least, built[0]), np.minimum(most, built[1]))
     left = [name for name in left if name not in SPREADS]
-    return Asked(narrowed(criteria, *built), own - {"leg_limits"}, left, ACTUATOR_WORDS[actuators])
-
-
-def compare_poses(left: Iterable[str], values: Iterable[str]) -> bool:
-    """Return whether limits on the spread of lengths are left over and no lengths are given."""
-    return any(name in SPREADS for name in left) and LEGS.keys().isdisjoint(values)
+    return Asked(criteria, own - {"leg_limits"}, left, ACTUATOR_WORDS[actuators])
 
 
 def _option(criterion: Any, name: str, otherwise: Any = None) -> Any:
@@ -235,12 +233,6 @@ def built_ranges(result: Result, actuators: str) -> tuple[Floats, Floats] | None
 
 def _eased(low: Floats, high: Floats) -> tuple[Floats, Floats]:
     return low * (1.0 - EASE), high * (1.0 + EASE)
-
-
-def narrowed(criteria: Mapping[str, Any], low: Floats, high: Floats) -> dict[str, Any]:
-    """Return criteria with leg limits that are within a range too, before the others."""
-    least, most = criteria.get("leg_limits", (0.0, math.inf))
-    return {**criteria, "leg_limits": (np.maximum(least, low), np.minimum(most, high))}
 
 
 def rule_of_region(

@@ -12,7 +12,7 @@ import ninedof as nd
 from ninedof.cli.workspace_figures import _planes, _section
 from ninedof.paper.published import published_variables
 from ninedof.records.record import write_run
-from ninedof.workspace.study_question import EASE, compare_poses, leg_ranges, narrowed, own_fraction, study_limits
+from ninedof.workspace.study_question import EASE, asked_criteria, leg_ranges, own_fraction, study_limits
 from ninedof.workspace.tables import criterion_words
 
 BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])
@@ -247,12 +247,19 @@ def test_joints_that_coincide_in_one_design_alone_collide():
         nd.workspace(g, box, criteria={"leg_clearance": {"min": 0.1, "exempt": ["l1"]}})
 
 
-def test_limits_of_legs_and_what_a_region_needs_hold_together():
+def test_limits_of_legs_and_what_the_poses_need_hold_together():
     """A least length in the study does not make room for legs that its limit on strokes excludes."""
-    criteria = {"condition_number": 5.0, "leg_limits": (np.full(9, 1.2), np.full(9, np.inf))}
-    both = narrowed(criteria, np.linspace(1.0, 1.4, 9), np.full(9, 2.0))
-    assert both["leg_limits"][0].tolist() == np.maximum(1.2, np.linspace(1.0, 1.4, 9)).tolist()
-    assert both["leg_limits"][1].tolist() == [2.0] * 9
-    assert compare_poses(["stroke_ratio"], {})
-    assert not compare_poses(["height"], {})
-    assert not compare_poses(["stroke_ratio"], {"upper_length": (1.0, 2.0)})
+    limits = {"stroke_ratio": (None, 1.5), "external_length": (4.0, None)}
+    result = nd.optimize(nd.Study(constraints=limits, objective={"poses": nd.poses.box((0.3, 0.3, 0.2))}), starts=2)
+    lengths = nd.leg_lengths(result.geometry, result.configurations)
+    short, long = lengths.min(axis=0), lengths.max(axis=0)
+    permitted = np.sqrt(short * long / 1.5), np.sqrt(short * long * 1.5)
+    for actuators, (low, high) in {"needed": (short, long), "permitted": permitted}.items():
+        asked = asked_criteria(result, actuators=actuators)
+        least, most = asked.criteria["leg_limits"]
+        assert_allclose(least, np.maximum(low, np.repeat([4.0, 0.0, 0.0], 3)), rtol=2 * EASE)
+        assert_allclose(most, high, rtol=2 * EASE)
+        assert (asked.own, asked.left) == (set(), [])
+    typed = asked_criteria(result, {"upper_length": (1.0, 9.0)})
+    assert (typed.left, typed.actuators) == (["stroke_ratio"], "")
+    assert typed.criteria["leg_limits"][0].tolist() == pytest.approx(np.repeat([4.0, 1.0, 0.0], 3).tolist())
