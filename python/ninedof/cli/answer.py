@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import fields
 from inspect import Parameter, Signature, get_annotations
 from pathlib import Path
@@ -13,11 +13,11 @@ import typer
 from ninedof.cli.options import JobOptions
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.records.record import FILE as RECORD
+from ninedof.records.record import Draw
 from ninedof.report.report import FILE, report
 from ninedof.support.store import QUESTION
 from ninedof.support.text import one_line
 
-Draw = Callable[[Path], Sequence[Path]]
 FIGURES = (".png", ".svg", ".pdf")
 
 

@@ -103,10 +103,6 @@ SECONDS = 1.5  # that it may take
 SMALL, ROOM = 0.6, 0.1  # of the box: a workspace that is looked at again; of its size: what is added on each side then
 
 
-class _TooLong(Exception):
-    pass
-
-
 def body_of(workspace_map: WorkspaceMap) -> dict[str, Any] | None:
     """Return vertices and faces of the surface; None for orientations, samples and empty workspaces."""
     if workspace_map.of_angles or workspace_map.method == "sample" or not workspace_map.volume > 0.0:
@@ -137,7 +133,7 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
 
     def stop(*_: object) -> None:
         if perf_counter() - begin > SECONDS:
-            raise _TooLong
+            raise TimeoutError
 
     best, unit = result.best, result.study.unit
     assert best is not None
@@ -157,9 +153,9 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
         )
         found = whole = search(**keywords)
         if found.volume > 0.0 and (tight := _box_of(found)) is not None:
-            with suppress(_TooLong):  # the first one serves
+            with suppress(TimeoutError):  # the first one serves
                 found = search(**keywords | {"box": tight})
-    except _TooLong:
+    except TimeoutError:
         return None, f"The workspace takes longer than a report may: {how}."
     except ValueError as error:  # such as limits that leave a leg no length
         return None, f"The workspace is not shown: {error}."
