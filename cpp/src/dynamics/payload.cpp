@@ -30,9 +30,11 @@ Vec18 payload_shares(const Geometry& g, const Configuration& c, const PayloadLim
   const LegForces per_mass = leg_forces(g, c, {arm.cross(limits.gravity), limits.gravity, Vec3::Zero()});
   if (!own.balanced() || !per_mass.balanced()) return Vec18::Constant(infinity);
   Vec18 out;
+  const double rounding = 1e-12 * per_mass.forces.cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < 9; ++k) {
-    out[k] = share(per_mass.forces[k], limits.push[k] - own.forces[k]);
-    out[k + 9] = share(-per_mass.forces[k], limits.pull[k] + own.forces[k]);
+    const double by_mass = std::abs(per_mass.forces[k]) > rounding ? per_mass.forces[k] : 0.0;
+    out[k] = share(by_mass, limits.push[k] - own.forces[k]);
+    out[k + 9] = share(-by_mass, limits.pull[k] + own.forces[k]);
   }
   return out;
 }

@@ -23,8 +23,8 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 struct FollowingPose {
   Region region;
   Vec6 at;                    ///< at that design
-  Eigen::VectorXd variables;  ///< the first ones of that design
-  Eigen::Matrix<double, 6, Eigen::Dynamic> by_variables;
+  Eigen::VectorXd variables;  ///< of that design, those of the problem without poses
+  Eigen::Matrix<double, 6, Eigen::Dynamic> by_variables;  ///< derivatives of `moved`
 
   /// The coordinates that lead to the pose of a design, before they are moved into the region.
   Vec6 moved(const Eigen::VectorXd& x) const { return at + by_variables * (x.head(variables.size()) - variables); }
@@ -51,10 +51,10 @@ struct PoseState : PosedPoints {
   Vec3 p_by_zp, s_by_zp;
   double fraction;
   std::array<int, 3> coordinate;
-  bool moves = false;  ///< whether these are known: the derivatives by the coordinates in a region, at the fraction
-  PoseSlopes by_at;
-  bool follows = false;  ///< the design; then these are the derivatives of the coordinates by the free ones
-  Eigen::Matrix<double, 6, Eigen::Dynamic> at_by_y;
+  bool moves = false;  ///< whether `by_at` is known
+  PoseSlopes by_at;  ///< derivatives by the coordinates in a region, at the fraction
+  bool follows = false;  ///< the design; then `at_by_y` is known
+  Eigen::Matrix<double, 6, Eigen::Dynamic> at_by_y;  ///< derivatives of the coordinates in a region by the free ones
 };
 
 /// A leg at a pose, the longest or shortest of some.

@@ -142,7 +142,8 @@ class Options:
         """Raise for options that have no effect where they are given."""
         for name, value in self.given(*names).items():
             if value is not False:
-                got = "it" if value is True else " ".join(value) if isinstance(value, list) else value
+                several = value if isinstance(value, list | tuple) else [value]
+                got = "it" if value is True else " ".join(f"{x:g}" if isinstance(x, float) else str(x) for x in several)
                 raise ValueError(f"{typed(name)}: got {got}, expected none {where}")
 
 

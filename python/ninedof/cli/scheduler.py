@@ -35,7 +35,7 @@ def executor_at(scheduler: str | None) -> Iterator[Executor | None]:
         try:
             asyncio.run(handshake())  # a client that finds no scheduler goes on looking for it
             client = distributed.Client(scheduler, timeout=TIMEOUT, set_as_default=False)
-        except Exception as error:  # of any kind: what listens there may send anything
+        except (Exception, asyncio.CancelledError) as error:  # of any kind: what listens there may send anything
             reason = str(error) or "timed out"
             raise ValueError(
                 f"scheduler: got {shown(scheduler)}, where no scheduler answers ({cleaned(reason)}), "

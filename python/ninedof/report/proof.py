@@ -94,12 +94,12 @@ def _searched(result: Result, between: bool) -> Iterator[str]:
     is_best = best is not None and proof is not None and proof.gap(best.condition_number) < ROUNDING
     if best is not None and result.status == Status.OPTIMAL and not is_best:
         yield "That no other design is better. The starts are evidence only: see their agreement above."
-    if region is not None and between:
+    if region is not None and between and region.looked_at == 0:
+        yield "That the limits hold between the poses imposed: the design was not looked at there."
+    elif region is not None and between:
         yield (
             f"That the limits hold between the poses looked at: {region.looked_at} poses of the region, with descents "
             "from the worst of them. A worse pose between them is not excluded."
-            if region.looked_at
-            else "That the limits hold between the poses imposed: the design was not looked at there."
         )
     if region is None and best is not None and len(best.conditions) > 1:
         yield "Anything between the listed poses."

@@ -73,9 +73,9 @@ def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCer
 
 
 def _text(page_: Page, record: Record, folder: Path | None, name: str, run: Any) -> str:
-    study = record.question
-    if not isinstance(study, Study):  # what the question of a record without one has of it
-        study = Study(**{name: study[name] for name in ("about", "tool", "unit") if name in study})
+    study = asked = record.question
+    if not isinstance(asked, Study):  # title block, tool and unit, as far as it states them
+        study = Study(**{name: asked[name] for name in ("about", "tool", "unit") if name in asked})
     with TemporaryDirectory() as spare:
         have = {} if folder is None else dict.fromkeys(stems(folder), folder)
         have = _drawn(page_, run, study, have, Path(spare)) | have

@@ -81,7 +81,7 @@ def test_the_same_command_goes_on_and_another_question_begins_anew(run, study, t
     assert "condition_number" in json.loads(out)["excluded"]
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_a_run_gives_the_other_variables(run, study, tmp_path):
     folder = tmp_path / "run"
     assert run(f"optimize {study} --out {folder} --starts 4 --no-report")[0] == 0

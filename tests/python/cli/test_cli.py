@@ -20,7 +20,7 @@ def _in_a_folder_of_its_own(tmp_path, monkeypatch):
     monkeypatch.setenv("COLUMNS", "100")
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_main_job(run, tmp_path):
     status, out, _ = run("--out run")
     assert status == 0

@@ -88,7 +88,7 @@ def test_only_a_file_that_export_wrote_is_replaced(name, run, tmp_path, monkeypa
         place.write_bytes(own)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("line", ["sheet design.toml --csv kept.txt", "report run --out kept.txt"])
 def test_other_files_are_not_replaced_either(line, run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

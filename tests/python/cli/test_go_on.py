@@ -54,7 +54,7 @@ def interrupted(monkeypatch, line, piece=0):
         return run(line)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("kind", COMMANDS if LONG else ["sweep"])
 def test_killed_at_random_moments(kind, tmp_path):
     killer = Killer(tmp_path, seed=5)
@@ -64,7 +64,7 @@ def test_killed_at_random_moments(kind, tmp_path):
     assert kills == killer.kills
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize(
     ("line", "piece"),
     [

@@ -32,7 +32,7 @@ def mass(folder):
     return nd.largest_payload(nd.load(folder), 60.0).mass
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_payload(folder, mass, run):
     status, out, _ = run(f"payload {folder} --force 60 --json")
     assert status == 0

@@ -10,7 +10,7 @@ import pytest
 import ninedof as nd
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_a_backend_of_matplotlib_that_is_not_there_does_not_matter(tmp_path):
     """It was found out after the work."""
     path = os.pathsep.join([str(Path(nd.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])

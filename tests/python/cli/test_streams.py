@@ -30,7 +30,7 @@ def shell(line, tmp_path, **more):
     )
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
 @pytest.mark.parametrize(("redirected", "status"), HOW.items())
 def test_what_nobody_reads_is_recorded(tmp_path, redirected, status):
@@ -48,7 +48,7 @@ def test_an_encoding_without_the_letters_of_a_table(tmp_path):
     assert r"\u2500" in done.stdout or "condition number" in done.stdout
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("columns", ["00", ""])
 def test_no_columns_are_as_many_as_the_terminal_has(tmp_path, columns):
     done = shell(f"{shlex.quote(sys.executable)} -m ninedof evaluate --help", tmp_path, COLUMNS=columns)

@@ -105,7 +105,7 @@ def here(folder, tmp_path, monkeypatch):
     return folder[1]
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("line", SCREENS)
 def test_every_screen_has_the_unit_where_it_is_given(capsys, here, line):
     drawing = ("optimize", "path", "workspace", "pareto", "sweep")
@@ -207,7 +207,7 @@ ANGLES = {  # line: the angles in degrees that it shows, and others that stand i
 DEGREES = (7.0, 9.0, 10.0, 11.0, 12.0, 17.0, 20.0, 25.0, 38.05, 50.0, 55.0, math.degrees(0.35))
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("line", ANGLES)
 def test_no_screen_shows_radians(capsys, here, line):
     figures = "" if line.split()[0] in ("evaluate", "sheet") else " --no-figures"

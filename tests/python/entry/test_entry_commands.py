@@ -79,7 +79,7 @@ def fault_of(status, out, err):
     return f"writes {len(err)} characters" if len(err) > 12_000 else ""
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("command", LINES)
 def test_bad_values_end_in_a_message(command, capsys, monkeypatch):
     failures, tried = [], 0

@@ -33,7 +33,7 @@ def _elsewhere(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", ROWS)
 def test_every_argument_is_taken_or_refused_by_name(name):
     tally = attack(name, ROWS[name], LONG)

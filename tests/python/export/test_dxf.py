@@ -54,7 +54,7 @@ def shift(document):
     return np.array([float(title.partition("x = ")[2].split()[0]), 0.0])
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", CASES)
 def test_joints_where_they_are_and_no_complaint(name):
     design, code = CASES[name]
@@ -171,7 +171,7 @@ SMALL = nd.Geometry.symmetric((1440.0, 0.0, 0.0), (344.7, 0.19, 0.0), (90.0, 1.1
 CROWDED = {"small platform": nd.Design(SMALL, nd.Configuration.neutral(557.0, 310.0), 1.0, "mm")}
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", [*CASES, *CROWDED])
 def test_no_words_cross_and_no_line_of_a_dimension_crosses_a_name(name):
     document = drawing(CROWDED[name]) if name in CROWDED else drawn(name)
@@ -240,7 +240,7 @@ def test_angles_are_dimensioned_and_listed():
     assert f"{np.degrees(-0.75):.4f}" in words
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_neutral_pose_and_the_tool_are_written():
     turned, tool = nd.Configuration.neutral(320.0, 180.0, 0.3), nd.Tool((0.0, 0.0, -40.0))
     g, c = tool.robot(HEXAGON.geometry, turned)

@@ -26,7 +26,7 @@ NAMES = (
 )
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("format", formats())
 def test_the_name_of_a_file_stays_a_name(tmp_path, format):
     pytest.importorskip("ezdxf") if format == "dxf" else None

@@ -30,7 +30,7 @@ def test_a_proof_of_an_optimum():
     assert found.certificate == nd.prove_optimum(nd.Study.paper(), 3.7627, gap=0.3).certificate
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("method", ["grid", "octree"])
 def test_a_workspace(published, method):
     asked = {"criteria": LEGS, "method": method, "resolution": 16, "tolerance": 0.2}

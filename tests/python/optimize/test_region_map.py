@@ -56,7 +56,7 @@ def poses_of(region, shifts, tilts, yaws):
     return tuple(nd.Pose(tuple(p), tuple(t), tuple(s), region.unit) for p, t, s in rows)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", REGIONS)
 def test_every_place_has_the_worst_of_its_poses(name):
     result = solved(name)
@@ -102,7 +102,7 @@ def test_o_placed_anew_is_no_worse_than_shifted():
     assert (best.condition_number <= shifted.condition_number[::4, ::4].max()).all()
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("rule", ["shifted", "best"])
 def test_limits_that_compare_poses_are_named_with_their_margin_over_the_region(rule):
     study = nd.Study(

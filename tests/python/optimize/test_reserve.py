@@ -51,7 +51,7 @@ def test_every_machine_within_tolerances_keeps_the_limits(result):
     assert 0.0 < result.objective / drawn_one.objective - 1.0 < 5e-3
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_proof_succeeds_and_needs_the_reserve(result):
     assert result.reserve.proved
     assert set(result.reserve.shares) == {"stroke_ratio max"}
@@ -109,7 +109,7 @@ def test_tolerances_beyond_a_fixed_design_are_said():
     assert result.reason.startswith("with a reserve for the tolerances: ")
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_a_limit_of_the_condition_number_has_a_reserve_too():
     worst = nd.optimize(REQUIREMENT, starts=2).objective
     speed = replace(REQUIREMENT.objective, index="speed", condition_limit=1.1 * worst)

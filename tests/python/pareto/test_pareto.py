@@ -395,7 +395,7 @@ CUBE = nd.Study(
 )
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize(
     ("against", "options"),
     [

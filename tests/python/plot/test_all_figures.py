@@ -25,7 +25,7 @@ def _figures_are_let_go():
     made.cache_clear()
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", size(QUICK, FIGURES))
 def test_no_two_texts_intersect_and_axes_have_names(name):
     figure = made(name)
@@ -121,7 +121,7 @@ def test_a_part_of_a_figure_is_drawn_in(name):
 FILES = ["mechanisms", "condition", "front with plates", "singular pose", "singular ellipsoids", "motion", "workspace"]
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", size(FILES, FIGURES))
 def test_files_are_whole_and_reproducible(name, tmp_path):
     first = plot.save(FIGURES[name](), tmp_path / "a", "figure")
@@ -190,7 +190,7 @@ NAMED = {
 }
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.filterwarnings("ignore:Glyph:UserWarning", "ignore:The label:UserWarning")
 @pytest.mark.parametrize("kind", NAMED)
 def test_a_name_is_drawn_as_it_stands_and_the_files_are_whole(tmp_path, kind):

@@ -163,7 +163,7 @@ def test_bad_input_is_named():
 # --- The drawing ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("geometry", ["coupled", "hexagonal", "inner joints"])
 def test_the_drawing_has_every_dimension_of_the_plates_and_the_heights(geometry):
     g = GEOMETRIES[geometry]
@@ -198,7 +198,7 @@ def test_the_drawing_has_every_dimension_of_the_plates_and_the_heights(geometry)
             )
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_drawing_has_the_heights_of_joints_off_the_plane_of_their_plate():
     heights = np.array([-0.4, 0.0, 0.25])
     raised = G.base_internal + np.array([0.0, 0.0, -0.4]), G.platform_internal + np.outer(heights, [0.0, 0.0, 1.0])
@@ -213,7 +213,7 @@ def test_the_drawing_has_the_heights_of_joints_off_the_plane_of_their_plate():
     assert not any(" at z" in text.get_text() for axes in plot.drawing(G, STANDING, "mm").axes for text in axes.texts)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_angles_of_a_small_circle_are_beside_their_arcs():
     """The plate of a designer: joints at 50.05 deg on a circle of 220, at 87.42 deg on one of 64.931."""
     outer, inner = (
@@ -230,7 +230,7 @@ def test_the_angles_of_a_small_circle_are_beside_their_arcs():
         assert min(np.linalg.norm(places[words] - places[axis]) for axis in "xy") > 0.3 * 220.0
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("heights", [(483.35, 319.32), (580.0, 362.0)])
 def test_the_name_of_a_leg_stands_beside_it_whatever_it_covers(heights):
     """Where legs cross, free places are beyond others: a name there is read as that of the other leg."""
@@ -247,7 +247,7 @@ def test_the_name_of_a_leg_stands_beside_it_whatever_it_covers(heights):
         assert min(np.linalg.norm(line - places[name], axis=1).min() for line in along) < reach
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_drawing_has_the_twist_and_the_tool_on_the_plates_as_they_are_made():
     turned, tool = nd.Configuration.neutral(3.9828, 2.3745, 0.3), nd.Tool((0.2, 0.0, -1.0), (0.0, 0.0, 0.5))
     without = plot.drawing(G, turned, "mm").axes

@@ -91,7 +91,7 @@ def test_every_enclosure_holds_the_mode_in_fifty_digits(hexagonal):
 # --- The number -------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("hexagonal", [True, False])
 def test_the_number_agrees_with_the_quick_one(hexagonal):
     """Never another number where both are sure; in this many robots the proof always succeeds."""

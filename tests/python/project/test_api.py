@@ -129,7 +129,7 @@ def examples():
     return list(seen.values())
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("test", examples(), ids=lambda test: test.name)
 def test_examples_in_docstrings(test):
     runner = doctest.DocTestRunner(verbose=False)

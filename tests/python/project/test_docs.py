@@ -75,7 +75,7 @@ def test_the_python_of_the_tour_runs_as_written(capsys):
     assert round(known["result"].condition_number, 6) == 3.749827
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_page_of_figures_runs_as_written_and_leaves_out_none(tmp_path, monkeypatch):
     """What a new figure needs besides its file and its name is its example there."""
     from words import outside, overlaps

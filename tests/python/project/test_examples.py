@@ -76,7 +76,7 @@ def test_design(run):
     assert json.loads(out)["condition_number"] == pytest.approx(3.9070663, abs=5e-7)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_script(name, capsys, tmp_path, monkeypatch):
     figure = tmp_path / "figure.png"

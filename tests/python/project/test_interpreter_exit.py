@@ -53,7 +53,7 @@ def ended(program, *options):
     return done.returncode, done.stderr
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize(("call", "threads"), [*((call, 4) for call in CALLS), ("short", 1), ("search", 1)])
 def test_the_status_of_the_program_survives_daemon_threads(call, threads):
     for k in range(size(1, 50)):
@@ -117,7 +117,7 @@ sys.exit(os.waitstatus_to_exitcode(os.waitpid(children[0], 0)[1]))
 """
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.skipif(not hasattr(sys.modules["os"], "fork"), reason="no fork")
 @pytest.mark.parametrize(
     "child",

@@ -65,7 +65,7 @@ def plant(files: Mapping[str, str], lines: Mapping[str, str]) -> dict[str, str]:
     return {**files, **{path: f"{files.get(path, '')}\n{line}\n" for path, line in lines.items()}}
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize(
     ("path", "line", "expected"),
     [

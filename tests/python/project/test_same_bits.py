@@ -39,7 +39,7 @@ def here():
     }
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("level", LEVELS)
 def test_every_instruction_set_gives_the_same_bits(here, level):
     found = printed(3, level)

@@ -155,7 +155,7 @@ def test_pieces_are_a_partition(case):
     assert (inner.sum(axis=1) == 1).all()
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_its_certificate_is_confirmed_by_the_checker(case, tmp_path):
     found = nd.check_certificate(case.save_certificate(tmp_path / "designs.certificate"))
     assert found.proved, found.words

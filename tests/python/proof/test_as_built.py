@@ -30,7 +30,7 @@ def drawing_of(certificate):
     return {(one.name, one.side): one for one in certificate.limits}
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("shape", REGIONS)
 def test_no_machine_within_tolerances_passes_what_is_proved(shape):
     region = REGIONS[shape]
@@ -127,7 +127,7 @@ def test_what_is_violated_a_machine_within_tolerances_passes():
     assert largest(m) < tight < largest(worst_joints(m, TOLERANCES.joints, largest))
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("shape", ["box", "cylinder"])
 def test_strokes_of_one_machine_are_within_what_is_proved(shape):
     """Errors of joints count at both ends of a stroke: the bound is far below what they would be apart."""
@@ -182,7 +182,7 @@ def test_the_certificate_says_of_which_machines_it_is():
         proved(region, time_limit=0.01, tolerance=0.1, resume=drawn)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_tolerances_as_large_as_the_machine_prove_nothing_and_do_not_fail():
     *_, certificate = proved(REGIONS["box"], time_limit=0.01, tolerance=30.0)
     assert not certificate.proved

@@ -117,7 +117,7 @@ def test_a_pose_that_was_moved_is_refused_or_shows_as_much(lines, verdict):
     assert refused > 0
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("factor", [0.9, 0.97, 1.03, 1.1])
 @pytest.mark.parametrize(("name", "place"), [("leg_length", 3), ("stroke_ratio", 3)])
 def test_another_value_of_a_limit_is_refused(name, place, factor, lines, verdict):
@@ -238,7 +238,7 @@ def holds(lines, rng, which=None):
     return True
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_what_is_proved_of_a_changed_file_is_true(lines, verdict):
     """Numbers before the boxes, moved by up to some percent."""
     rng = np.random.default_rng(7)

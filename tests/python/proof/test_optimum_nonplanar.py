@@ -29,7 +29,7 @@ def test_the_optimum_of_the_example_has_a_bound(proof):
     assert replace(nd.prove_optimum(STUDY, BEST, gap=GAP, threads=1), seconds=0.0) == replace(proof, seconds=0.0)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("seed", range(12))
 def test_nothing_is_proved_above_a_design_that_is_known(seed):
     """Ranges and limits about a design; in other units, with O on any side of its internal joints."""

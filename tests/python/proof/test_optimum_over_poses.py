@@ -87,7 +87,7 @@ def test_no_design_drawn_at_random_that_keeps_the_limits_is_below_the_bound(resu
     assert kept > 20
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_where_a_better_design_is_hidden_only_less_than_it_is_proved():
     best = nd.optimize(REGION).condition_number
     proof = nd.prove_optimum(REGION, 1.1 * best, time_limit=3.0)

@@ -35,7 +35,7 @@ def machine(result, tmp_path_factory):
     return result.save_certificate(result.certify(gap=0.2), path).read_bytes()
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_an_optimum_over_a_region_is_replayed_by_both_checkers(optimum, verdict):
     found = verdict(optimum.certificate)
     assert found.proved
@@ -86,7 +86,7 @@ def test_what_a_file_cannot_say_is_named(result, tmp_path):
     assert not path.exists()
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_digits_edited_at_random_are_refused_by_both_or_by_none_that_matters(verdict):
     """A digit of a number, sealed anew: where one checker proves the file, the other does."""
     study = nd.Study(variables=SIZES | {"b1": 3.0}, objective={"poses": POSES}, starts=4)

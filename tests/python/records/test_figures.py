@@ -27,7 +27,7 @@ def test_curves_pass_through_the_design_at_its_own_characteristic_length():
     assert np.interp(theta_z, curves.theta_z, curves.along_theta_z) == pytest.approx(kappa, rel=1e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_convergence_is_drawn_only_where_asked(tmp_path, monkeypatch):
     """It follows starts for longer than the optimization takes."""
     monkeypatch.setattr("ninedof.records.figures._traces", lambda result, form: [(4.0, 3.9)])
@@ -57,7 +57,7 @@ def test_poses_have_the_numbers_of_the_sheet():
         assert name == (", ".join(said).replace("-", "\N{MINUS SIGN}") or "neutral")
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_a_region_study_is_drawn_over_its_region(tmp_path, monkeypatch):
     """Curves, the map and the caption are of what the study asks for, not of the neutral pose alone."""
     made = {}

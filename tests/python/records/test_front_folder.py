@@ -53,7 +53,7 @@ def command(run, tmp_path):
     return lambda line: run(f"pareto --out {tmp_path / 'run'} {line}")
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_command_prints_and_records(command, tmp_path):
     status, out, _ = command("--value 1.5 --value 2")
     assert status == 0
@@ -79,7 +79,7 @@ def test_the_command_reports_an_infeasible_study(command):
     assert "infeasible" in out
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_command_continues_after_an_interruption(command, tmp_path, monkeypatch):
     """The first time the second limit is cut short: what is solved is printed and kept, and drawn at the end."""
     calls = []

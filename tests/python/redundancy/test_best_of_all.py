@@ -152,7 +152,7 @@ def _inside(pose, s):
     return ((lengths > pose.low) & (lengths < pose.high)).all()
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_no_point_is_better_than_the_best():
     rng = np.random.default_rng(4)
     compared = 0

@@ -112,7 +112,7 @@ def runs(tmp_path_factory):
     return {name: place / name for name in ("sweep", "path", "atlas")}
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", ["sweep", "path", "atlas"])
 def test_no_string_of_a_record_becomes_structure(runs, tmp_path, name):
     chance = random.Random(16)
@@ -190,7 +190,7 @@ USED = """(async () => {
 PICTURES = "[...document.images].filter((one) => !one.complete || !one.naturalWidth).length"
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @needs_chromium
 def test_every_control_works_under_the_policy(browser, page, tmp_path):
     """Of the page of an optimization, with a drawing that has a style of its own, as matplotlib writes it."""
@@ -208,7 +208,7 @@ def test_every_control_works_under_the_policy(browser, page, tmp_path):
     assert [one for one in browser.requests if one.startswith("file")] == [page.as_uri()]
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @needs_chromium
 def test_a_hostile_page_runs_and_asks_for_nothing(browser, folder, tmp_path):
     """Of a run whose folder, figures, command, versions and date a stranger named; the policy alone stops it too."""

@@ -59,7 +59,7 @@ def pages(page, tmp_path_factory):
     return made
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", ["optimization", "front", "workspace"])
 def test_nothing_overflows_and_the_view_is_drawn_at_phone_and_desktop_width(browser, pages, name):
     browser.errors.clear()
@@ -151,7 +151,7 @@ POSES = [
 POSED = replace(LOADED, objective={"poses": POSES[:31]})
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize(
     "study", [ORDINARY, LOADED, POSED], ids=["ordinary", "loads and limits of them", "dozens of poses too"]
 )

@@ -84,7 +84,7 @@ def test_no_report_where_none_is_asked_for(run, here):
     assert not (here / "run" / "report.html").exists()
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_paths_workspaces_and_sweeps_of_a_run_have_its_title_block_and_its_tool(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     variables = {"a1": 0.0, "a2": 581.24, "b1": 290.62, "b2": 0.0, "zp": 398.28, "zs": 244.35}

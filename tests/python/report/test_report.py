@@ -70,7 +70,7 @@ def scene_of(text):
     return json.loads(re.search(r'id="scene-data">(.*?)</script>', text, re.DOTALL)[1])
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_a_run_has_every_section_and_the_numbers_of_the_result(page, folder, result):
     assert page == folder / "report.html"
     text, found, words = read(page)
@@ -166,7 +166,7 @@ def test_the_title_block_has_project_author_and_revision(about, project, others)
     ]
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_page_has_a_drawing_and_the_map_of_the_region(page, folder):
     text = read(page)[0]
     for section, caption in (
@@ -209,7 +209,7 @@ def test_an_infeasible_run_says_why_and_shows_no_machine(tmp_path):
     assert scene_of(text) is None
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_an_interrupted_run_makes_no_claim(tmp_path, result):
     stopped = replace(result, status=nd.Status.STOPPED, interrupted=True, reason="interrupted")
     _, page, words = read(nd.report(stopped, tmp_path / "it.html"))
@@ -221,7 +221,7 @@ def test_an_interrupted_run_makes_no_claim(tmp_path, result):
     assert "stopped" in words
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_a_front_has_a_machine_for_each_point(tmp_path):
     study = nd.Study(constraints=IMPOSSIBLE, starts=4)
     front = nd.pareto(study, "footprint", values=[1.0, 40.0, 60.0])
@@ -279,7 +279,7 @@ def reach():
     return nd.workspace(g, box, criteria={"leg_limits": (2.5, 6.5)}, home=home, tolerance=0.1)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_a_job_ends_with_its_report(run, tmp_path):
     place = tmp_path / "reach"
     options = "--legs 2.5 6.5 --tolerance 0.05 --no-figures --out"
@@ -311,7 +311,7 @@ def test_a_workspace_that_was_saved_has_no_question_and_no_machine(tmp_path, rea
     assert "Proved: " not in words
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_an_orientation_workspace_is_shown_in_degrees(run, tmp_path):
     place = tmp_path / "turns"
     options = "--archetype orientation --angle-deg 60 --legs 1.5 6.5 --tolerance 0.1 --no-figures --out"
@@ -394,7 +394,7 @@ def test_the_command_names_its_option(run, folder):
     assert "--out: got" in err
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_command_says_what_it_does_before_it_is_done(run, folder, tmp_path):
     status, out, err = run(f"report {folder} --out {tmp_path / 'page.html'} --json")
     assert status == 0
@@ -424,7 +424,7 @@ def test_numbers_keep_six_digits_in_any_unit(value, among, text):
     assert short(value, among) == text
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_a_machine_in_metres_keeps_its_digits(tmp_path):
     study = nd.Study(
         variables={"a1": 0.0, "a2": 0.058124, "b1": 0.029062, "b2": 0.0, "theta_z": 0.0, "zp": 0.039828},

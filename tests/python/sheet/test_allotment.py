@@ -22,7 +22,7 @@ def result():
     return replace(nd.optimize(STUDY), study=replace(STUDY, tolerances=OTHERS))
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize(("weights", "share"), [((3, 1), 0.75), ((0, 1), 0.0)])
 def test_each_group_makes_its_part_of_the_error(result, weights, share):
     kept = nd.tolerances_for(result, position=0.01, weights=weights)
@@ -32,7 +32,7 @@ def test_each_group_makes_its_part_of_the_error(result, weights, share):
     assert legs == pytest.approx((1.0 - share) * 0.01, rel=1e-9, abs=1e-15)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_no_pose_of_the_region_errs_by_more(result):
     """At random poses of the region, by the bounds at each."""
     kept = nd.tolerances_for(result, position=0.01, rotation=np.radians(0.3))

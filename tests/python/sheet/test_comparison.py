@@ -31,7 +31,7 @@ def compared(machine, changed):
     return nd.compare(machine, changed)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_worst_of_a_change_is_never_passed_at_sampled_poses_and_is_attained(machine, changed, compared):
     worst = compared.numbers["worst condition number"][1]
     # An evaluation of its own: p in the box, tilts about horizontal axes, O shifted with p.
@@ -54,7 +54,7 @@ def test_the_worst_of_a_change_is_never_passed_at_sampled_poses_and_is_attained(
     assert sampled.max() >= worst * (1.0 - 2e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_limits_that_a_change_breaks_are_named(machine):
     both = nd.compare(machine, machine.with_changes(a2="+10%"), names=("run", "changed"))
     assert both.broken[0] == ()
@@ -62,7 +62,7 @@ def test_the_limits_that_a_change_breaks_are_named(machine):
     assert "changed breaks" in str(both)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_values_outside_of_the_bounds_of_their_study_are_named(machine):
     changed = machine.with_changes(a2=6.5, b1=2.0, theta_z_deg=10.0)
     both = nd.compare(machine, changed, names=("run", "changed"))
@@ -72,7 +72,7 @@ def test_values_outside_of_the_bounds_of_their_study_are_named(machine):
     assert both.to_dict()["outside"][1]["a2"] == (6.5, 1.0, 6.0)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_a_change_of_nothing_changes_nothing_and_what_differs_in_the_studies(machine):
     same = machine.with_changes(b1=machine.variables["b1"])
     other = replace(same, study=replace(same.study, constraints=LIMITS | {"leg_ratio": (None, 2.9)}))
@@ -113,7 +113,7 @@ def test_lengths_are_in_the_unit_of_the_first_and_all_have_one(machine):
         nd.compare(design, design._replace(unit=""))
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_both_commands_fit_on_80_columns_and_draw(machine, run, tmp_path, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     nd.save(machine, tmp_path / "run")
@@ -146,7 +146,7 @@ def test_heights_of_a_tool_are_explained(compared):
     assert "of the plate" not in str(compared)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize(
     ("given", "words"),
     [

@@ -46,7 +46,7 @@ def angles(result, body, legs, axis, count=4000):
     return np.array(out)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_external_and_internal_joints_have_limits_of_their_own():
     result = nd.optimize(
         study(
@@ -98,7 +98,7 @@ def test_the_cones_of_one_kind_of_joint_are_those_of_its_legs():
     assert workspace[1].volume == pytest.approx(workspace[0].volume, rel=2e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_a_sheet_has_angles_about_the_axis_that_the_limit_has():
     result = nd.optimize(
         study({"base_cone": {"max_deg": 40, "axis": UP}, "base_cone_internal": {"max_deg": 60, "axis": [0.1, 0, 1]}})
@@ -127,7 +127,7 @@ def test_a_reversed_axis_is_named():
     assert "base_cone points" not in result.reason
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_needed_and_permitted_lengths_are_two_columns():
     result = nd.optimize(study({"leg_length": (80.0, 900.0), "lower_length": (500.0, None)}))
     sheet = result.sheet()

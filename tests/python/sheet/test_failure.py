@@ -202,7 +202,7 @@ def test_loads_and_weights_of_the_study_are_taken():
     assert not len(nd.failure(nd.optimize(study), pairs=False).loads)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_forces_over_a_region_are_those_of_the_sheet():
     """A load along the axis of a symmetric machine: three legs of a kind carry the same, at poses of their own."""
     study = nd.Study(

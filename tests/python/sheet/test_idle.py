@@ -18,7 +18,7 @@ def lengths(g, c):
     return np.sqrt((legs**2).sum(axis=-1))
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("unit", [1e-6, 1.0, 350.0, 1e9])
 def test_every_place_names_the_same_legs(unit):
     """Strokes from 1e-13 to 1e-7 of the longest leg, of legs of very different lengths."""

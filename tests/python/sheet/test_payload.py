@@ -93,6 +93,8 @@ def test_each_kind_of_legs_keeps_its_own_limit_of_the_study(machine):
     assert payload.leg[0] == "q"
     alone = replace(machine, study=replace(machine.study, constraints={"external_force": (None, 200.0)}))
     assert_allclose(nd.largest_payload(alone).limits[0], np.repeat([200.0, np.inf, np.inf], 3))
+    level = nd.largest_payload(nd.Design(HEXAGONS, HOME), np.repeat([200.0, np.inf, np.inf], 3))
+    assert (level.mass, level.leg) == (np.inf, "")  # the external legs carry no weight there
 
 
 def test_a_machine_that_holds_nothing_and_one_that_holds_all(machine):
@@ -106,7 +108,7 @@ def test_a_machine_that_holds_nothing_and_one_that_holds_all(machine):
             nd.largest_payload(machine, bad)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_sheet_has_the_drives(machine):
     """Forces include the weights of the legs; power is force times speed at one pose."""
     one = machine.sheet()

@@ -61,7 +61,7 @@ def boxed():
     return nd.sheet(result(REGIONS[0]))
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("region", size(REGIONS[1:2], REGIONS))
 def test_no_random_pose_is_worse(region):
     design = result(region)
@@ -143,7 +143,7 @@ def test_words_and_plain_values(boxed):
     assert nd.sheet(result(REGIONS[0]), nd.Configuration.neutral(4.0, [2.0])).region is None
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_lengths_where_o_is_placed_are_those_of_the_region():
     """External legs by numpy, which does not need O; the others at random poses with O placed."""
     region = nd.Region(box=(60.0, 60.0, 40.0), tilt=0.17, internal_point="best")

@@ -95,7 +95,7 @@ def test_a_carried_o_follows_the_rotation_of_the_platform():
     np.testing.assert_allclose(found["condition_number"], expected, rtol=1e-9)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("rule", ["shifted", "held", "best"])
 def test_o_follows_the_rule_of_the_region_of_a_result(rule):
     region = {"box": (0.2, 0.2, 0.1), "internal_point": rule}

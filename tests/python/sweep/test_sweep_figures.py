@@ -393,7 +393,7 @@ def test_without_dask_the_error_says_what_to_install(here, run, monkeypatch):
     assert "pip install 'ninedof[cluster]'" in " ".join(err.split())
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_an_interrupted_command_is_resumed(here, run):
     """Ctrl-C: status 130, a message has the line to go on, which does; another question is refused."""
     line = [sys.executable, "-m", "ninedof", "sweep", "figure-7", "--points", "201", "--out", "run", "--no-figures"]

@@ -273,7 +273,7 @@ def test_the_model_needs_no_screen():
         assert "plot" not in text
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("rule", ["shifted", "best"])
 def test_spreads_are_those_of_the_region(rule):
     region = {"box": (0.3, 0.3, 0.2), "tilt_deg": 6.0, "internal_point": rule}

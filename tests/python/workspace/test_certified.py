@@ -86,7 +86,7 @@ def placed(rule, g, p, q):
     return lower + 0.45 * (upper - lower)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("question", QUESTIONS)
 @pytest.mark.parametrize("rule", RULES)
 def test_what_is_proved_of_poses_is_so(published, question, rule):

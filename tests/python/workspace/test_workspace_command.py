@@ -22,7 +22,7 @@ OWN = published_variables()["zs"] / published_variables()["zp"]  # where the pub
 HOME = nd.Configuration.neutral(zp=4.8, zs=2.4)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_command_leaves_a_run_folder(run, tmp_path, published):
     line = f"workspace --legs 2.5 6.5 --condition 5 --tolerance 5e-3 {IN_BOX} --json"
     code, out, err = run(f"{line} --out {tmp_path / 'run'}")
@@ -69,7 +69,7 @@ def test_the_command_with_orientations_and_with_an_empty_workspace(run, tmp_path
     assert not (tmp_path / "c").exists()
 
 
-@pytest.mark.slow
+@pytest.mark.slow(sanitized=True)
 def test_the_command_passes_on_position_length_and_sample(run, tmp_path, published):
     at = "--archetype orientation --angle-deg 40 --position 0.5 0 4 --lc 2 --resolution 8"
     code, out, _ = run(f"workspace {at} --legs 2 6.5 --condition 6 --json --no-figures --out {tmp_path / 'a'}")

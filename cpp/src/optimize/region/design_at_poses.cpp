@@ -53,8 +53,7 @@ bool DesignAtPoses::smooth(int, int number) const {
 double DesignAtPoses::slopes(int, int number, const Vec6& at, Vec6& by_at) {
   Eigen::RowVectorXd row;
   const double value = differentiate(number, at, row);
-  if (row.size() == 6) by_at = row.transpose();
-  else by_at.setZero();  // of the design or at home
+  by_at = row.tail<6>().transpose();
   return value;
 }
 
@@ -62,8 +61,8 @@ double DesignAtPoses::differentiate(int number, const Vec6& at, Eigen::RowVector
   const int k = number - RegionNumber::first_margin;
   const int pose = k >= 0 ? pose_of_margin(p_, design_.state, k) : 1;
   if (pose > 0) go_with_slopes(pose, at);
-  slopes.setZero(design_.state.columns());
-  if (k >= 0) return evaluate_margin(p_, design_, k, slopes);
+  slopes.setZero(p_.coordinates.size() + 6);
+  if (k >= 0) return evaluate_margin(p_, design_, k, slopes.head(design_.state.columns()));  // at home without a pose's
   if (number == RegionNumber::index) {
     const double value = -evaluate_index(p_, design_, 0, slopes);
     slopes = -slopes;

@@ -32,8 +32,7 @@ class DesignAtPoses : public PoseNumbers {
   double slopes(int group, int number, const Vec6& at, Vec6& by_at) override;
   std::vector<double> worthwhile(const std::vector<double>& sampled) const override;
 
-  /// A number and its derivatives, by the variables if asked for, then by the six coordinates of the pose; none by these
-  /// of a number that has no pose.
+  /// A number and its derivatives by the variables, where these are wanted, and by the six coordinates of the pose.
   double differentiate(int number, const Vec6& at, Eigen::RowVectorXd& slopes);
 
  private:

@@ -78,10 +78,12 @@ Candidate Exchange::solved(const Following& following, const Eigen::VectorXd& x,
   // Newton's method is content with values that are equal to 1e-6 only.
   constexpr RunSettings without_newton{.restarts = 0, .polish = false};
   Candidate out = run(x, exactly ? without_newton : RunSettings{.restarts = 1});
+  if (exactly && !(out.feasible() && out.stationary()) && !control_.stop.stop_requested()) {
+    out = run(x, {.restarts = 1});
+    if (out.feasible() && !control_.stop.stop_requested()) out = run(out.variables, without_newton);
+  }
   for (const auto& [k, pose] : moving) imposed.at[k] = pose->at_design(out.variables);
-  if (!exactly || (out.feasible() && out.stationary()) || control_.stop.stop_requested()) return out;
-  out = run(x, {.restarts = 1});
-  return out.feasible() && !control_.stop.stop_requested() ? run(out.variables, without_newton) : out;
+  return out;
 }
 
 double Exchange::slack(const Settled& of) const {
@@ -153,12 +155,12 @@ void Exchange::drop(const Eigen::VectorXd& x, std::size_t first, std::size_t las
 Exchange::Following Exchange::join(const Eigen::VectorXd& x, const std::vector<Look::Worst>& worst, bool moving,
                                    Imposed& imposed) const {
   Following out;
-  PoseFollower follower(problem_, region_, x);
+  std::optional<PoseFollower> follower;
+  if (moving && !worst.empty()) follower.emplace(problem_, region_, x);
   for (const Look::Worst& one : worst) {
     const auto near = [&](const Vec6& other) { return distance_in(region_, one.at, other) <= one_place; };
     if (std::ranges::any_of(imposed.at, near)) continue;
-    if (moving)
-      if (auto pose = follower.following(one)) out.emplace_back(imposed.at.size(), std::move(pose));
+    if (auto pose = follower ? follower->following(one) : nullptr) out.emplace_back(imposed.at.size(), std::move(pose));
     imposed.at.push_back(one.at);
   }
   return out;
@@ -199,8 +201,9 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     }
     if (holds()) {
       out.slack = slack(out);
-      out.settled = out.slack <= passed || (exact >= most_exact && gain_of(out) <= most_gain) || exact >= last_exact;
-      if (!moving.empty() && !at_imposed(imposed, x).stationary()) out.settled = false;  // while they moved with it
+      const bool stands = moving.empty() || at_imposed(imposed, x).stationary();  // where the poses stay too
+      const bool near = out.slack <= passed || (exact >= most_exact && gain_of(out) <= most_gain);
+      out.settled = (stands && near) || exact >= last_exact;
       if (out.settled) break;
     }
     exact += exact > 0 || out.look.excess <= passed;

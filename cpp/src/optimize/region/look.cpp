@@ -56,9 +56,9 @@ std::vector<Look::Worst> nearly_too_far_apart(const Problem& there, const Eigen:
   const Vec9 longest = lengths.rowwise().maxCoeff(), shortest = lengths.rowwise().minCoeff();
   const Vec9 long_here = lengths.rightCols<18>().leftCols<9>().diagonal();
   const Vec9 short_here = lengths.rightCols<9>().diagonal();
-  std::array<bool, 9> long_joins{}, short_joins{};
+  std::array<bool, 9> long_joins;
   long_joins.fill(wants_spread(there));
-  short_joins = long_joins;
+  std::array<bool, 9> short_joins = long_joins;
   for (LegRange& range : leg_ranges(there)) {
     range.set_zp(x[design_family(there.family).index("zp")]);
     const auto measured = [&](double length) { return range.measured(length); };

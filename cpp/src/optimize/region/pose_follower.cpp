@@ -1,7 +1,7 @@
 #include "optimize/region/pose_follower.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/QR>
 
 namespace ninedof {
 namespace {
@@ -10,7 +10,7 @@ using Ways = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 constexpr double step = 1e-3;             // of the differences, in parts of the region
 constexpr double least_curvature = 1e-2;  // of the largest: a pose does not follow along what is nearly flat
-constexpr double any_curvature = 1e-5;    // over the region
+constexpr double any_curvature = 1e-5;    // of a number that changes by half of it over the region: none
 
 /// The directions in which a pose can move both ways within the region, or along its round edge; each as long as the
 /// region.
@@ -25,21 +25,27 @@ Ways free_ways(const Region& region, const Vec6& at) {
     if (radius == 0.0) return;
     Eigen::MatrixXd within = Eigen::MatrixXd::Identity(count, count);
     const Eigen::VectorXd v = at.segment(first, count) / radius;
-    if (v.norm() >= 1.0 - 2.0 * step) within = v.transpose().fullPivLu().kernel().colwise().normalized();
+    if (v.norm() >= 1.0 - 2.0 * step)
+      within = Eigen::MatrixXd(v.householderQr().householderQ()).rightCols(count - 1).eval();
     for (const auto& way : within.colwise()) {
       out.emplace_back(Vec6::Zero());
       out.back().segment(first, count) = radius * way;
     }
   };
-  Eigen::Index single = 0;
-  if (region.shape == Region::Shape::ball) round(0, single = 3);
-  if (region.shape == Region::Shape::cylinder) round(0, single = 2);
-  if (region.shape == Region::Shape::path) {
-    const auto [from, to] = region.straight(at[0]);
-    if (at[0] - from > 2.0 * step && to - at[0] > 2.0 * step) out.push_back(Vec6::Unit(0));
-    single = 3;
+  switch (region.shape) {
+    case Region::Shape::box:
+      for (const Eigen::Index k : {0, 1, 2}) line(k);
+      break;
+    case Region::Shape::ball: round(0, 3); break;
+    case Region::Shape::cylinder:
+      round(0, 2);
+      line(2);
+      break;
+    case Region::Shape::path: {
+      const auto [from, to] = region.straight(at[0]);
+      if (at[0] - from > 2.0 * step && to - at[0] > 2.0 * step) out.push_back(Vec6::Unit(0));
+    }
   }
-  for (; single < 3; ++single) line(single);
   round(3, 2);
   line(5);
   Ways ways(6, static_cast<Eigen::Index>(out.size()));
@@ -65,7 +71,6 @@ std::shared_ptr<const FollowingPose> PoseFollower::following(const Look::Worst& 
       const Vec6 moved = worst.at + side * step * ways.col(j);
       Eigen::RowVectorXd slopes;
       design_.differentiate(worst.number, region_.nearest(moved), slopes);
-      if (slopes.size() != n + 6) return nullptr;  // the number is of no pose
       const double by = side / (2.0 * step);
       curvature.col(j) += by * (slopes.tail<6>() * region_.nearest_slopes(moved) * ways).transpose();
       mixed.row(j) += by * slopes.head(n);

@@ -56,7 +56,10 @@ def certify(options: _Options) -> Answer:
     }
     tolerance: Any = options.tolerance
     if tolerance is not None:
-        tolerance = word_or_number("--tolerance", tolerance, [LARGEST], f'a length from 0 on, or "{LARGEST}"')
+        expected = f'a length from 0 on, or "{LARGEST}"'
+        tolerance = word_or_number("--tolerance", tolerance, [LARGEST], expected)
+        if tolerance != LARGEST and not 0.0 <= tolerance < math.inf:
+            raise ValueError(f"--tolerance: got {options.tolerance!r}, expected {expected}")
     result = nd.load(run)
     if not isinstance(result, nd.Result):
         raise ValueError(

@@ -50,14 +50,16 @@ def payload(options: _Options) -> Answer:
     found = largest_payload(chosen.machine, options.force, options.pull, centre, loads)
     parts = [*_parts(found, chosen), _meant(found, chosen, centre, loads)]
     if options.force is None:
-        parts.append(f"from the study: force at most {_of_kinds(found.limits[0].tolist())}")
+        parts.append(f"from the study: force {_of_kinds(found.limits[0].tolist())}")
     return Answer(parts, found.to_dict(), DONE if found.fits else NO_RESULT)
 
 
 def _of_kinds(most: list[float]) -> str:
-    """Return the limits of nine legs in words: one number, or one for each kind of legs."""
-    kinds = [f"{LEGS[k]} to {LEGS[k + 2]} {most[k]:g}" for k in (0, 3, 6)]
-    return f"{most[0]:g}" if len(set(most)) == 1 else ", ".join(kinds)
+    """Return the limits of nine legs in words: one number, or one for each kind of legs that has one."""
+    if len(set(most)) == 1:
+        return f"at most {most[0]:g}"
+    kinds = [f"of {LEGS[k]} to {LEGS[k + 2]} at most {most[k]:g}" for k in (0, 3, 6) if np.isfinite(most[k])]
+    return ", ".join(kinds) + "; the others are not limited" * (len(kinds) < 3)
 
 
 def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
