@@ -16,6 +16,7 @@ namespace {
 constexpr double passed = 2e-8;       // what may be passed between the poses: below what is promised, 1e-7
 constexpr double one_place = 1e-9;    // of the region: nearer poses are one
 constexpr double follows_known = 1e-2;  // in coordinates of the solver
+constexpr double last_step = 1e-4;      // in coordinates of the solver
 constexpr double no_better = 2e-6;      // relative gain that is not worth the last rounds
 constexpr int most_exact = 3;  // solutions without Newton's method, each from the last one, whose slack is too large
 constexpr double may_be_left = 5e-8;  // to gain after them, without the slack: half of most_gain
@@ -126,8 +127,12 @@ bool Exchange::hopeless(const Settled& here, const Settled* known) const {
   if (known == nullptr || !known->settled) return false;
   if (here.best.objective > known->best.objective * (1.0 - no_better)) return true;
   if (here.rounds < first_comparison) return false;
+  return distance(here.best.variables, known->best.variables) < follows_known;
+}
+
+double Exchange::distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
   const Coordinates c(problem_, size_limits(problem_).back());
-  return (c.coordinates(here.best.variables) - c.coordinates(known->best.variables)).norm() < follows_known;
+  return (c.coordinates(a) - c.coordinates(b)).norm();
 }
 
 void Exchange::tell(const Settled& here, const Imposed& at) const {
@@ -187,6 +192,8 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     out.look = {};
     out.slack = 0.0;
     if (!out.best.feasible()) break;
+    // With poses that moved the error of the design is about the square of this step.
+    const bool still = moving.empty() || distance(out.best.variables, x) <= last_step;
     x = out.best.variables;
     if (hopeless(out, known)) break;
     const auto holds = [&] {  // little of a dear limit is much
@@ -194,19 +201,19 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     };
     try {
       out.look = look(out, quick_samples, control_);
-      if (holds()) out.look = look(out, dense_samples, control_);
+      if (still && holds()) out.look = look(out, dense_samples, control_);
     } catch (const Stopped&) {
       out.look = {};
       break;
     }
-    if (holds()) {
+    if (still && holds()) {
       out.slack = slack(out);
       const bool stands = moving.empty() || at_imposed(imposed, x).stationary();  // where the poses stay too
       const bool near = out.slack <= passed || (exact >= most_exact && gain_of(out) <= most_gain);
       out.settled = (stands && near) || exact >= last_exact;
       if (out.settled) break;
     }
-    exact += exact > 0 || out.look.excess <= passed;
+    exact += exact > 0 || (still && out.look.excess <= passed);
     if (out.rounds <= most_drops) drop(x, first.at.size(), known_before, imposed);
     known_before = imposed.at.size();
     moving = join(x, out.look.worst, exact == 0, imposed);

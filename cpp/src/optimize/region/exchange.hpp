@@ -65,6 +65,8 @@ class Exchange {
   /// Leaves out the imposed poses from `first` up to `last` that do not hold the design and have a later one near them:
   /// of the row that a worst pose leaves as it moves with the design its end stays.
   void drop(const Eigen::VectorXd& x, std::size_t first, std::size_t last, Imposed& imposed) const;
+  /// Of two designs, in coordinates of the solver.
+  double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
   bool hopeless(const Settled& here, const Settled* known) const;
   void tell(const Settled& here, const Imposed& at) const;
 
