@@ -65,8 +65,8 @@ struct PreparedProblem {
   double limited_value(int k, double margin) const;
   std::string margin_part(int k) const;
   double violation_factor(int k) const;
-  /// Lets a pose of the objective follow the design; false, and it does not, where the closed form is used. Rows that are
-  /// equal where all poses stay count once, though one that follows may make them differ.
+  /// Lets a pose of the objective follow the design; false, and it does not, where the closed form is used. Rows that
+  /// are equal where all poses stay count once, though one that follows may make them differ.
   bool follow(int pose, const std::shared_ptr<const FollowingPose>& how);
   /// The state of the design at `y`, in solver coordinates.
   void set_state(const Eigen::VectorXd& y, DesignState& state) const;

@@ -1,7 +1,7 @@
 #pragma once
 /// From one design to the optimum over a region near it: solve at the poses imposed, look over the region, impose what
-/// is worse there, and again. What was imposed last follows the design while it is solved, as the worst pose does (local
-/// reduction): its row then bends as the worst does, and few rounds are needed.
+/// is worse there, and again. What was imposed last follows the design while it is solved, as the worst pose does
+/// (local reduction): its row then bends as the worst does, and few rounds are needed.
 
 #include "ninedof/optimize/region_study.hpp"
 #include "optimize/minimax/prepared_problem.hpp"

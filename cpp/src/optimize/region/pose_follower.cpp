@@ -10,7 +10,7 @@ using Ways = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 constexpr double step = 1e-3;             // of the differences, in parts of the region
 constexpr double least_curvature = 1e-2;  // of the largest: a pose does not follow along what is nearly flat
-constexpr double any_curvature = 1e-5;    // of a number that changes by half of it over the region: none
+constexpr double any_curvature = 1e-5;    // of a number over the region: with less it is flat
 
 /// The directions in which a pose can move both ways within the region, or along its round edge; each as long as the
 /// region.
