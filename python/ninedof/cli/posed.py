@@ -231,7 +231,10 @@ def _internal_point(chosen: Chosen, p: Floats, q: Floats, rule: str) -> Floats:
     if rule in fixed:
         return fixed[rule]
     if rule == "best":
-        best = nd.best_internal_point(g, p, q, characteristic_length=length_at_home(chosen), start=carried)
+        limits = chosen.permitted_lengths
+        best = nd.best_internal_point(
+            g, p, q, characteristic_length=length_at_home(chosen), limits=limits, start=carried
+        )
         if np.isnan(best.configuration.internal_point).any():
             raise ValueError(f"--internal-point: got best, but no place of O is the best there ({best.status})")
         return best.configuration.internal_point

@@ -16,6 +16,7 @@ from ninedof.design.poses import Pose
 from ninedof.design.region import Region, circle, section_outline
 from ninedof.design.region_poses import configurations_at, o_is_placed
 from ninedof.design.study import Study
+from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.rotations import from_vectors
 from ninedof.optimize.reserve import placing_of
 from ninedof.optimize.result import Result
@@ -124,6 +125,7 @@ def region_map(result: Result) -> RegionMap | None:
     size = region.size_at(neutral)
     unit, home = (1.0, np.zeros(2)) if plane == TILTS else (size, neutral.position[list(plane)])
     ruled = () if result.region is None else result.region.poses
+    listed = leg_lengths(g, best.configurations[1 : 1 + len(study.objective.poses)])
     return RegionMap(
         axes=(NAMES[plane[0]], NAMES[plane[1]]),
         over=words,
@@ -131,7 +133,7 @@ def region_map(result: Result) -> RegionMap | None:
         vertical=home[1] + unit * places[..., 1],
         condition_number=kappa,
         margin=np.min(shares, axis=0).reshape(shape).min(axis=-1) if shares else None,
-        compared=_compared(study, g, neutral, length),
+        compared=_compared(study, g, neutral, length, listed),
         outline=_outline(region, plane, neutral),
         home=home,
         ruled=home + _in_plane(ruled, plane, size),
@@ -141,15 +143,15 @@ def region_map(result: Result) -> RegionMap | None:
     )
 
 
-def _compared(study: Study, g: Geometry, neutral: Configuration, length: float) -> dict[str, float]:
-    """Return the least margin over the region of each limit that compares poses."""
+def _compared(study: Study, g: Geometry, neutral: Configuration, length: float, listed: Floats) -> dict[str, float]:
+    """Return the least margin of each limit that compares poses, over the region and with lengths at listed ones."""
     region, out = study.objective.region, dict[str, float]()
     assert region is not None
     if o_is_placed(study):
         return dict.fromkeys(compared(study), math.nan)
     if not compared(study):
         return {}
-    ends = np.array(_core.leg_lengths_over(g, neutral, region.for_core(), SAMPLES))
+    ends = np.concatenate([_core.leg_lengths_over(g, neutral, region.for_core(), SAMPLES), listed])
     middle = configurations_at(region, neutral, np.zeros((1, 6)))
     for one in pose_limits(study, g, middle, neutral, length, ends):
         if one.name in SPREADS:

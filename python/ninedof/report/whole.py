@@ -73,8 +73,10 @@ def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCer
 
 
 def _text(page_: Page, record: Record, folder: Path | None, name: str, run: Any) -> str:
-    study = asked = record.question
-    if not isinstance(asked, Study):  # title block, tool and unit, as far as it states them
+    asked = record.question
+    if isinstance(asked, Study):
+        study = asked
+    else:  # title block, tool and unit, as far as it states them
         study = Study(**{name: asked[name] for name in ("about", "tool", "unit") if name in asked})
     with TemporaryDirectory() as spare:
         have = {} if folder is None else dict.fromkeys(stems(folder), folder)

@@ -67,11 +67,13 @@ def largest_payload(
     Parameters
     ----------
     design : Result, Candidate, DesignPoint or a design of a file
-        As for `sheet`. Loads, masses and gravity of its study act besides the payload.
+        As for `sheet`. Loads, masses and gravity of the study of a result act besides the payload; the others have no
+        study, so that nothing else acts.
     force : float or array_like of shape (9,), optional
         Greatest force with which a leg may push, for all legs or in the order of `leg_lengths`; in newtons for
         kilograms and a gravity of 9.81. By default the limits `force`, `external_force`, `upper_force` and
-        `lower_force` of the study; a leg without any is not limited.
+        `lower_force` of the study over its poses; a leg without any is not limited. Limits at the neutral pose alone,
+        and of powers, are not looked at: a sheet with the payload's mass has them.
     pull : float or array_like of shape (9,), optional
         Greatest force with which it may pull; `force` by default.
     centre : (3,) floats

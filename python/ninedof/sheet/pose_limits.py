@@ -76,8 +76,10 @@ def pose_limits(
                 values = [("", numbers[:, apart(g, study)].min(axis=1, initial=math.inf))]
         for part, value in values:
             for side, end in limit.sides.items():
-                margin = margin_of(kind, side, unit * end, value)
-                rows.append(PoseLimit(name, part, side, unit * end, value, margin))
+                grows = side == "min" and name in SPREADS and beside is None  # along the stack: its end counts
+                there = np.full_like(value, value[-1]) if grows else value
+                margin = margin_of(kind, side, unit * end, there)
+                rows.append(PoseLimit(name, part, side, unit * end, there, margin))
     if (most := study.objective.condition_limit) is not None:
         kappa = np.asarray(condition_number(g, c, characteristic_length))
         rows.append(PoseLimit("condition_limit", "", "max", most, kappa, margin_of("ratio", "max", most, kappa)))

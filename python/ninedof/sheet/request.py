@@ -149,12 +149,12 @@ class Weight(NamedTuple):
     """Force per mass, base axes: with 9.81 and kilograms forces are in newtons, in any unit of length."""
 
 
-def motion_of(options: Mapping[str, Any], c: Configuration) -> Motion:
-    """Return the motion of the options of a sheet; where they do not say how O moves, it is as in a stack of poses."""
+def motion_of(options: Mapping[str, Any], c: Configuration, rule: str) -> Motion:
+    """Return the motion of the options of a sheet; O moves as they say, else by a rule, "" as a stack of poses has it."""
     speeds = {name: slow if options[name] is None else options[name] for name, slow in SLOW.items()}
     linear, angular = (finite(name, speed, 0.0, FASTEST) for name, speed in speeds.items())
     internal, twist, rate = (options[name] for name in ("internal", "twist", "twist_rate"))
-    internal = _internal_over(c) if internal is None else choice("internal", internal, INTERNAL)
+    internal = rule or _internal_over(c) if internal is None else choice("internal", internal, INTERNAL)
     if twist is not None:
         rate = (0.0,) * 6 if rate is None else _six("twist_rate", rate)
         return Motion(linear, angular, internal, _six("twist", twist), rate)
@@ -175,9 +175,10 @@ def question_of(g: Geometry, neutral: Configuration, study: Study, motion: Motio
 
 def _internal_over(c: Configuration) -> str:
     """Return the rule that O follows over a stack of poses: "held", "carried", "shifted", or "least" where none."""
-    if len(c) < 2:
-        return "least"
     size = IDLE * np.abs(np.concatenate([c.position, c.internal_point])).max()
+    moves = np.abs(c.position - c.position[0]).max() > size or np.abs(c.rotation - c.rotation[0]).max() > IDLE
+    if not moves:
+        return "least"
     arm = c.internal_point - c.position
     own = (arm[:, None] @ c.rotation)[:, 0]  # rows: Q^T (s - p)
     for rule, places in (("held", c.internal_point), ("carried", own), ("shifted", arm)):

@@ -14,6 +14,7 @@ from ninedof import _core
 from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_limits
 from ninedof.design.region_poses import posed
+from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
 from ninedof.sheet.plain_values import plain_fields, rows_of
@@ -312,7 +313,9 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     values, stated = with_duty(options_of("sheet", SheetArguments, options, samples=SAMPLES), duty)
     g, c, length = robot_of(design, poses, values["characteristic_length"])
     weight = weight_of(duty, values["mass"], values["centre"], values["gravity"])
-    motion, bodies = motion_of(values, c), masses_besides_platform(duty)
+    study = getattr(design, "study", None) if poses is None else None
+    rule = study.leg_duty.internal if isinstance(study, Study) else ""  # as the limits of the study have it
+    motion, bodies = motion_of(values, c, rule), masses_besides_platform(duty)
     weighs = weight is not None or bodies is not None
     loads = load_rows(np.zeros(6) if values["loads"] is None and weighs else values["loads"])
     count = whole("samples", values["samples"], 1, MOST_SAMPLES)

@@ -78,7 +78,7 @@ def leg_limits(variant: Variant) -> tuple[Floats, Floats]:
     if variant.study_lengths is not None:
         least, most = variant.study_lengths.min(axis=0), variant.study_lengths.max(axis=0)
         for one in limits_at(variant, variant.home):
-            if one.name in SPREADS:
+            if one.name in SPREADS and one.side == "max":
                 legs = [LEGS.index(one.part)] if one.part else list(range(9))
                 ends = most - one.limit, least + one.limit
                 if one.name != "stroke":

@@ -143,7 +143,8 @@ class Machine:
             if variables != self.variables:
                 g, home = self.problem.geometry(x), poses[0]
             if study is not None:
-                lengths = self._over_region(g, home, np.asarray(leg_lengths(g, poses)))
+                at_poses = poses[1:] if len(poses) > 1 else poses  # home only where none is listed
+                lengths = self._over_region(g, home, np.asarray(leg_lengths(g, at_poses)))
                 evaluated = self.problem.evaluate(x)["margins"] if study.constraints else ()
                 margins = {name: float(margin) for name, margin, _ in evaluated}
         if length is None:

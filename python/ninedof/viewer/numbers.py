@@ -80,10 +80,11 @@ def limits_at(variant: Variant, c: Configuration) -> list[PoseLimit]:
     if variant.study is not None:
         limits = pose_limits(variant.study, g, c, variant.home, variant.length, variant.study_lengths)
     lengths = leg_lengths(g, c)
-    limited = {(one.part, one.side) for one in limits if one.name in OF_LENGTHS}
+    limited = {(one.part, one.side): one.limit for one in limits if one.name in OF_LENGTHS}
     for k, leg in enumerate(LEGS):
         for side, end in (("min", variant.leg_low[k]), ("max", variant.leg_high[k])):
-            if 0.0 < end < math.inf and (leg, side) not in limited:
+            own = limited.get((leg, side))  # of the study; the range that the region leaves may be narrower
+            if 0.0 < end < math.inf and (own is None or not math.isclose(own, end)):
                 margin = margin_of("length", side, end, lengths[:, k])
                 limits.append(PoseLimit(RANGE, leg, side, end, lengths[:, k], margin))
     return limits

@@ -89,7 +89,8 @@ def place_of(home: Configuration, region: Region | None, tool: Tool, archetype: 
     """Return the box, about a region or home, or the fixed position and rotation, of an archetype."""
     if archetype == "orientation":
         return {"position": home.position, "rotation": home.rotation}
-    box = {"box": box_around(home, tool) if region is None else box_about(region, home)}
+    turns_alone = region is None or not max(region.reach[:3]) > 0.0
+    box = {"box": box_around(home, tool) if region is None or turns_alone else box_about(region, home)}
     return box | ({"rotation": home.rotation} if archetype == "constant_orientation" else {})
 
 
@@ -219,10 +220,11 @@ def built_ranges(result: Result, actuators: str) -> tuple[Floats, Floats] | None
         if actuators == "needed":
             ranges = tuple((leg.shortest, leg.longest) for leg in result.sheet().legs)
         return _eased(*np.transpose(ranges)) if ranges else None
+    listed = len(result.study.objective.poses)
+    lengths = leg_lengths(best.geometry, best.configurations[1 : 1 + listed] if listed else best.configurations[:1])
     if region is not None:
-        lengths = np.array(leg_ranges_over(region, best.geometry, best.configuration))
-    else:
-        lengths = leg_lengths(best.geometry, best.configurations)
+        over = leg_ranges_over(region, best.geometry, best.configuration)
+        lengths = np.concatenate([over, lengths[:listed]])
     if actuators == "needed":
         return _eased(lengths.min(axis=0), lengths.max(axis=0))
     low, high = np.zeros(9), np.full(9, math.inf)

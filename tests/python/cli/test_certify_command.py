@@ -198,7 +198,7 @@ def test_a_run_with_a_reserve_says_so_and_its_tolerances_are_proved(tmp_path, ca
     ("bad", "words"),
     [
         ("much", "'much', expected a length from 0 on, or \"max\""),
-        *((number, f"{float(number)}, expected a finite number at least 0") for number in ("-1", "inf", "nan")),
+        *((number, f"'{number}', expected a length from 0 on") for number in ("-1", "inf", "nan")),
     ],
 )
 def test_bad_tolerances_are_named(run, bad, words, capsys):
