@@ -150,7 +150,7 @@ class Weight(NamedTuple):
 
 
 def motion_of(options: Mapping[str, Any], c: Configuration, rule: str) -> Motion:
-    """Return the motion of the options of a sheet; O moves as they say, else by a rule, "" as a stack of poses has it."""
+    """Return the motion of the options of a sheet; O moves as they say, else by a rule, "" as in a stack of poses."""
     speeds = {name: slow if options[name] is None else options[name] for name, slow in SLOW.items()}
     linear, angular = (finite(name, speed, 0.0, FASTEST) for name, speed in speeds.items())
     internal, twist, rate = (options[name] for name in ("internal", "twist", "twist_rate"))
