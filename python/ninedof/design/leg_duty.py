@@ -49,7 +49,7 @@ def require_stated(limits: Sequence[Limit], states: Mapping[str, bool]) -> None:
 
 
 def internal_motion(objective: Objective) -> str:
-    """Return how O moves over the poses of a study, as the sheet of a design finds it from them.
+    """Return how O moves over the poses of a study, for its limits and for the sheet of its design.
 
     "held", "shifted", or "carried" where nothing turns; "least", where the rates of the legs are least, for one pose
     alone and where O is placed or follows no rule.

@@ -29,6 +29,11 @@ CLEARANCE = next(name for name, parts in PARTS.items() if "-" in parts[0])
 SPREADS = _core.limits_over_lengths  # limits that compare poses
 
 
+def leg_number(name: str) -> str:
+    """Return what a limit of the duty of legs is about: "force" for "force" and for "upper_force"."""
+    return name.rpartition("_")[2]
+
+
 def compared(study: Study) -> list[str]:
     """Return the names of the limits of a study that compare its poses."""
     return list(dict.fromkeys(limit.name for limit in study.limits if limit.name in SPREADS and limit.at == "poses"))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.limit_numbers import PARTS
+from ninedof.design.limit_numbers import PARTS, leg_number
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import LEGS
@@ -139,7 +139,7 @@ def _stated(study: Study) -> Floats:
     """Return the greatest force that a study allows each leg at its poses: by `force`, and by that of its kind."""
     most = np.full(9, np.inf)
     for one in study.limits:
-        if one.at == "poses" and one.name.rpartition("_")[2] == "force":
+        if one.at == "poses" and leg_number(one.name) == "force":
             legs = [LEGS.index(leg) for leg in PARTS[one.name]]
             most[legs] = np.minimum(most[legs], one.high)
     if np.isinf(most).all():

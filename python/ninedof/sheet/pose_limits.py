@@ -12,7 +12,7 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.limit_numbers import CLEARANCE, CONES, PARTS, SPREADS, apart
+from ninedof.design.limit_numbers import CLEARANCE, CONES, PARTS, SPREADS, apart, leg_number
 from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
 from ninedof.design.limits import ROWS, kind_of
 from ninedof.design.study import Study
@@ -184,19 +184,14 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     every = pose_limits(study, g, followed.configurations, home, followed.characteristic_length)
     forces, rates = followed.leg_forces, followed.leg_rates
     moving = {"rate": rates} if forces is None else {"rate": rates, "force": forces, "power": forces * rates}
-    rows = [one for one in every if one.name not in OF_LENGTHS and _duty_of(one.name) not in moving]
+    rows = [one for one in every if one.name not in OF_LENGTHS and leg_number(one.name) not in moving]
     return PathLimits(followed.time, (*rows, *_of_motion(study, moving)))
-
-
-def _duty_of(name: str) -> str:
-    """Return what a limit of legs is about: "force" for "force" and for "upper_force"."""
-    return name.rpartition("_")[2]
 
 
 def _of_motion(study: Study, values: Mapping[str, Floats]) -> Iterator[PoseLimit]:
     """Yield the limits of forces, rates and powers of a motion, shape (n, 9) or (k, n, 9): the largest of k loads."""
     for limit in study.limits:
-        duty = _duty_of(limit.name)
+        duty = leg_number(limit.name)
         if duty not in values or limit.at != "poses":
             continue
         moduli = np.abs(values[duty])

@@ -263,8 +263,9 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     internal : {"least", "held", "shifted", "carried"}, optional
         How O moves in it: so that the squared leg rates are least (`internal_velocity`), and so are the squared leg
         accelerations; not at all; with the platform's origin, s - p constant in base axes; or as a point of the
-        platform. By default as the poses show: "held" where O has one place in all of several poses, "carried" where it
-        has one place in the platform, "shifted" where s - p is constant, "least" otherwise.
+        platform. By default as the limits of the study of a result have it; of other designs, and of `poses`, as the
+        poses show: "held" where O has one place in all of several poses, "carried" where it has one place in the
+        platform, "shifted" where s - p is constant, "least" otherwise.
     loads : array_like, shape (6,) or (k, 6), optional
         (moment about p, force) on the platform, base axes; the forces of the legs are those of `leg_forces`. Those of
         the study by default.

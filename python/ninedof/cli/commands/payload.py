@@ -11,6 +11,7 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import LOAD, ONE_DESIGN, Options, Three, argument, loads_option, option, struct, triple
 from ninedof.cli.posed import Chosen, named_design
 from ninedof.cli.screen import DONE, NO_RESULT
+from ninedof.design.limit_numbers import leg_number
 from ninedof.design.limits import Limit
 from ninedof.robot.geometry import LEGS
 from ninedof.sheet.payload import Payload, largest_payload
@@ -60,7 +61,7 @@ def payload(options: _Options) -> Answer:
 
 def _looked_at(limit: Limit) -> bool:
     """Whether the payload keeps a limit: rates do not depend on it."""
-    what = limit.name.rpartition("_")[2]
+    what = leg_number(limit.name)
     return what == "rate" or (what == "force" and limit.at == "poses")
 
 
