@@ -85,7 +85,8 @@ void DesignState::set_pose(int k, const PoseSpec& spec) {
 
 void DesignState::place(const PoseSpec& spec, PoseState& out) const {
   const std::optional<Vec6> at = spec.follows ? std::optional(spec.follows->at_design(x)) : std::nullopt;
-  const Pose pose = at ? spec.follows->region.pose(*at) : spec.pose;
+  const std::optional<Pose> moved = at ? std::optional(spec.follows->region.pose(*at)) : std::nullopt;
+  const Pose& pose = moved ? *moved : spec.pose;
   const double f = spec.fraction;
   const double size = pose.in_zp ? blueprint.zp : 1.0;
   Vec3 offset = Vec3::Zero();  // of s, in zp
