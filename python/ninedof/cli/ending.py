@@ -25,9 +25,8 @@ from ninedof.support.starting import ending
 from ninedof.support.text import escaped, one_line
 
 PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-ClickException = BadParameter.__mro__[
-    2
-]  # what typer raises for options that it cannot read; untyped, as it has no name
+# What typer raises for options that it cannot read; without a type, as it has no name there.
+ClickException = BadParameter.__mro__[2]
 SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 # Arguments whose option has another name.
 OPTIONS = {"at": "set", "condition_number": "condition", "time_limit": "time"}

@@ -9,23 +9,18 @@
 #include "ninedof/domains/region_sample.hpp"
 #include "ninedof/optimize/region_study.hpp"
 #include "support/designs.hpp"
+#include "support/regions.hpp"
 
 using namespace ninedof;
 using namespace designs;
+using namespace regions;
 
 namespace {
 
-constexpr std::array shapes{Region::Shape::box, Region::Shape::ball, Region::Shape::cylinder, Region::Shape::path};
-
-Region region_of(Region::Shape shape, int kind = 0) {
-  Region out;
+Region region_of(Region::Shape shape, int kind) {
+  Region out = regions::region_of(shape);
   out.in_zp = kind % 2 == 1;
   out.shifted = kind % 3 != 2;
-  out.shape = shape;
-  out.size = Vec3(0.3, shape == Region::Shape::box ? 0.2 : 0.0, shape == Region::Shape::ball ? 0.0 : 0.25);
-  if (shape == Region::Shape::path) out.corners = {Vec3(-0.3, 0.1, 0.0), Vec3(0.2, 0.1, 0.1), Vec3(0.2, -0.2, 0.2)};
-  out.tilt = 0.25;
-  out.yaw = 0.3;
   return out;
 }
 

@@ -14,21 +14,18 @@
 #include "optimize/minimax/design_evaluation.hpp"
 #include "support/designs.hpp"
 #include "support/hand.hpp"
+#include "support/regions.hpp"
 
 using namespace ninedof;
 using namespace designs;
+using namespace regions;
 
 namespace {
 
-constexpr std::array shapes{Region::Shape::box, Region::Shape::ball, Region::Shape::cylinder, Region::Shape::path};
-
 Region region_of(int n) {
-  Region out;
-  out.shape = shapes[at_index(n % 4)];
-  out.size = Vec3(0.3, out.shape == Region::Shape::box ? 0.2 : 0.0, out.shape == Region::Shape::ball ? 0.0 : 0.25);
-  if (out.shape == Region::Shape::path) out.corners = {Vec3(-0.3, 0.1, 0.0), Vec3(0.2, 0.1, 0.1), Vec3(0.2, -0.2, 0.2)};
-  out.tilt = n % 3 == 0 ? 0.0 : 0.25;
-  out.yaw = n % 5 == 1 ? 0.0 : 0.3;
+  Region out = regions::region_of(shapes[at_index(n % 4)]);
+  if (n % 3 == 0) out.tilt = 0.0;
+  if (n % 5 == 1) out.yaw = 0.0;
   out.shifted = n % 2 == 0;
   out.in_zp = n % 3 == 1;
   return out;
