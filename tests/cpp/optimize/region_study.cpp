@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "ninedof/conditioning/conditioning.hpp"
+#include "optimize/region/exchange.hpp"
 #include "support/hand.hpp"
 #include "support/studies.hpp"
 
@@ -136,6 +137,20 @@ TEST_SUITE("region_study") {
     for (std::size_t k = 1; k < d.at.size(); ++k) worst = std::max(worst, condition_at(p, d, k));
     CHECK(worst <= best.objective * (1.0 + passed));
     CHECK(worst >= best.objective * (1.0 - 1e-2));  // the poses reach the corners
+  }
+
+  TEST_CASE("poses that follow do not lead from one design to another and back") {
+    if (sanitized) return;  // seconds
+    Problem p = machine();
+    p.limits.push_back({.name = "leg_ratio", .high = 2.2100212124792233});
+    const Eigen::VectorXd start{{232.968, 249.139, -pi, 204.545, -0.635152, 220.0, -0.261799, 700.0, 367.968}};
+    const RegionStudySettings settings = few();
+    const Region region = machine_region();
+    const Control control;
+    const Settled end = Exchange(p, region, settings, control).follow({{}, cover(region)}, start, nullptr);
+    CHECK(end.settled);
+    CHECK(end.rounds <= 12);  // 40 and no end where all poses follow in every round
+    CHECK(std::abs(end.best.objective - 11.84342) < 1e-5);
   }
 
   TEST_CASE("no design near an optimum is better at the poses that rule") {

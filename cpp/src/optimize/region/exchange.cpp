@@ -16,6 +16,7 @@ namespace {
 constexpr double passed = 2e-8;       // what may be passed between the poses: below what is promised, 1e-7
 constexpr double one_place = 1e-9;    // of the region: nearer poses are one
 constexpr double follows_known = 1e-2;  // in coordinates of the solver
+constexpr double shrinks = 0.5;         // what is passed, from round to round where poses follow well
 constexpr double last_step = 1e-4;      // in coordinates of the solver
 constexpr double no_better = 2e-6;      // relative gain that is not worth the last rounds
 constexpr int most_exact = 3;  // solutions without Newton's method, each from the last one, whose slack is too large
@@ -178,6 +179,7 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
   Eigen::VectorXd x = start;
   int exact = 0;  // rounds without Newton's method
   Following moving;  // poses that joined in the last round
+  double excess = infinity;  // of the last look
   while (out.rounds < most_exchanges && !control_.stop.stop_requested()) {
     ++out.rounds;
     ++rounds_;
@@ -216,7 +218,10 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     exact += exact > 0 || (still && out.look.excess <= passed);
     if (out.rounds <= most_drops) drop(x, first.at.size(), known_before, imposed);
     known_before = imposed.at.size();
-    moving = join(x, out.look.worst, exact == 0, imposed);
+    // Poses that follow take with them what excludes the design they joined at: where that leads from one design to
+    // another and back, those that stay end it.
+    moving = join(x, out.look.worst, exact == 0 && out.look.excess <= shrinks * excess, imposed);
+    excess = out.look.excess;
   }
   return out;
 }

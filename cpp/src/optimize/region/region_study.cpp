@@ -83,8 +83,7 @@ class RegionStudy {
       best_ = std::move(found);
       if (!best_.settled) continue;
       from = first_;
-      std::ranges::copy(nearly_deciding(problem_, region_, best_.imposed.at, best_.best.variables, ruling),
-                        std::back_inserter(from.at));
+      std::ranges::copy(exchange_.holding(best_.imposed, best_.best.variables).at, std::back_inserter(from.at));
     }
     return from;
   }
