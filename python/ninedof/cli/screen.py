@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
+from threading import Event, Lock, Thread
 from typing import Any
 
 from rich.console import Console
@@ -110,7 +111,9 @@ class Screen:
         progress = Progress(*parts, console=self.progress_console)
         if at_once:
             progress.start()
-        bar = Bar(progress, title, words)
+        bar, ended = Bar(progress, title, words), Event()
+        if not self.progress_console.is_interactive:  # reports may be minutes apart
+            Thread(target=bar.wait, args=(ended,), daemon=True).start()
         try:
             yield bar
         except ValueError:
@@ -119,6 +122,7 @@ class Screen:
                 progress.live.stop()
             raise
         finally:
+            ended.set()
             if progress.live.is_started:
                 progress.stop()
 
@@ -135,6 +139,7 @@ class _Boxes(ProgressColumn):
         return Text(f"{task.completed:,.0f} boxes" if task.completed else "")
 
 
+SECOND = 1.0  # between two looks at the clock while nothing is reported
 FIRST_LINE, LONGEST_SILENCE = 10.0, 300.0  # seconds: in a log lines at 10, 20, 40 ... s, then every five minutes
 NARROW = partial(BarColumn, bar_width=12)
 VALUE, TO_GO = "{task.fields[value]}", (TimeRemainingColumn, "to go")
@@ -167,6 +172,7 @@ class Bar:
         self.reported = False
         self._begun = progress.get_time()
         self._next_line = FIRST_LINE
+        self._lock = Lock()
 
     def show(self, done: int, total: int, value: float | None) -> None:
         """Update the bar: the progress callback of a long call."""
@@ -183,12 +189,20 @@ class Bar:
         self._progress.update(self._task, description=one_line(f"{self._title}: {words}"), value="")
         self._line()
 
+    def wait(self, ended: Event) -> None:
+        """Print lines until the work has ended, while nothing is reported too; none before the bar is shown."""
+        while not ended.wait(SECOND):
+            if self._progress.live.is_started:
+                self._line()
+
     def _line(self) -> None:
         """Print what the bar says as a plain line where no bar can be drawn, if the time of the next line has come."""
-        progress, seconds = self._progress, self._progress.get_time() - self._begun
-        if progress.console.is_interactive or seconds < self._next_line:
-            return
-        self._next_line = seconds + min(seconds, LONGEST_SILENCE)
+        progress = self._progress
+        with self._lock:
+            seconds = progress.get_time() - self._begun
+            if progress.console.is_interactive or seconds < self._next_line:
+                return
+            self._next_line = seconds + min(seconds, LONGEST_SILENCE)
         shown = [column(progress.tasks[0]) for column in progress.columns if isinstance(column, ProgressColumn)]
         words = [part.plain.strip() for part in shown if isinstance(part, Text)]
         progress.console.print("  ".join(filter(None, words)), soft_wrap=True)

@@ -1,7 +1,10 @@
 """Progress where standard error is a pipe or a log: a plain line now and then; on a terminal none."""
 
+from threading import Event
+
 import pytest
 
+from ninedof.cli import screen as screens
 from ninedof.cli.screen import Screen
 
 
@@ -58,3 +61,24 @@ def test_a_phase_is_named(capsys):
         now = 15.0
         bar.phase("proving the limits")
         assert capsys.readouterr().err == "certify: proving the limits  0:00:15\n"
+
+
+def test_lines_come_where_nothing_is_reported(capsys, monkeypatch):
+    """A certificate of a machine is one box, which takes minutes."""
+    monkeypatch.setattr(screens, "SECOND", 0.01)
+    now, printed = 0.0, Event()
+    screen = Screen(json=False)
+    console = screen.progress_console
+    console.get_time = lambda: now
+    monkeypatch.setattr(console, "print", lambda *parts, **_: (lines.extend(parts), printed.set()))
+    lines = []
+    with screen.bar("points", "reading the certificate") as bar:
+        now = 15.0
+        assert not printed.wait(0.1)  # nothing is shown yet
+        now = 0.0
+        bar.phase("within a box no progress is known")
+        for now in (15.0, 31.0):  # noqa: B007 the clock reads it
+            assert printed.wait(30.0)
+            printed.clear()
+    assert [line.split()[-1] for line in lines[:2]] == ["0:00:15", "0:00:31"]
+    assert lines[0].startswith("reading the certificate: within a box no progress is known")
