@@ -25,6 +25,7 @@ from ninedof.cli.options import (
     triple,
 )
 from ninedof.cli.screen import DONE, bold
+from ninedof.conditioning.characteristic_length import length_at
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.paper.published import published_variables
 from ninedof.records.design_file import hexagonal_design
@@ -212,10 +213,7 @@ def beyond_words(g: nd.Geometry, home: nd.Configuration, c: nd.Configuration) ->
 
 def length_at_home(chosen: Chosen) -> float:
     """Return the characteristic length as a number: a kind is taken at the neutral pose."""
-    length = chosen.characteristic_length
-    if isinstance(length, str):
-        return float(nd.characteristic_length(chosen.geometry, chosen.configuration, length))
-    return length
+    return length_at(chosen.geometry, chosen.configuration, chosen.characteristic_length)
 
 
 def xyz(name: str) -> tuple[str, str, str]:

@@ -120,7 +120,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     keywords: dict[str, Any] = {
         "archetype": options.archetype,
         "criteria": asked.criteria,
-        "characteristic_length": float(length_at_home(chosen)),
+        "characteristic_length": length_at_home(chosen),
         "internal_point": _rule(options.internal_point, chosen, region, at, turns),
         "method": options.method,
         "tolerance": options.tolerance,

@@ -80,3 +80,9 @@ def length_argument(length: Any) -> float | str:
     if not value > 0.0:
         raise ValueError(f"characteristic_length: got {shown(length)}, expected a number above 0")
     return value
+
+
+def length_at(geometry: Geometry, configuration: Configuration, length: float | str) -> float:
+    """Return one characteristic length as a number: that of a kind at a single pose, NaN where it has none there."""
+    number = length_argument(length)
+    return float(characteristic_length(geometry, configuration, number)) if isinstance(number, str) else number

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninedof.conditioning.characteristic_length import KINDS, characteristic_length
+from ninedof.conditioning.characteristic_length import KINDS, characteristic_length, length_at
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.duty import Tool
@@ -138,7 +138,7 @@ def indices(design: Design) -> dict[str, Any]:
     the condition number and the singular values.
     """
     g, c, length = design.geometry, design.configuration, design.characteristic_length
-    lc = characteristic_length(g, c, length) if isinstance(length, str) else float(length)
+    lc = length_at(g, c, length)
     has_length = math.isfinite(lc) or not isinstance(length, str)
     out = {
         name: np.asarray(index.values(g, c, lc, None)).tolist()
