@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.support.arrays import Floats, as_floats, filled, leading_shape, thread_argument, without_infinity
+from ninedof.support.arrays import Floats, all_finite, as_floats, filled, leading_shape, thread_argument
 
 HEXAGONAL = ("a1", "a2", "b1", "b2", "zp", "zs")
 GATHERED = 2**16  # designs passed to the core at once, so that they stay in the caches
@@ -62,7 +62,7 @@ def hexagonal_condition_number(
 
     """
     arguments = dict(zip(HEXAGONAL, (a1, a2, b1, b2, zp, zs), strict=True))
-    columns = {name: without_infinity(name, _column(name, value)) for name, value in arguments.items()}
+    columns = {name: all_finite(name, _column(name, value), missing=True) for name, value in arguments.items()}
     shape, count = leading_shape({name: (values, 0) for name, values in columns.items()}), thread_argument(threads)
 
     def compute(array: Floats | None) -> Floats:

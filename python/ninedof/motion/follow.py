@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.conditioning.characteristic_length import characteristic_length as length_of
+from ninedof.conditioning.characteristic_length import length_at
 from ninedof.motion.trajectory import Trajectory
 from ninedof.redundancy.redundancy import leg_limits
 from ninedof.redundancy.rules import RULES
@@ -21,7 +21,7 @@ from ninedof.robot.idle import idle_names, unloaded_names
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.statics.dynamics import GRAVITY, gravity_for_core, inverse_dynamics
 from ninedof.support.arguments import choice, finite, instance, items
-from ninedof.support.arrays import Floats, as_floats, as_number, broadcast_leading
+from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_leading
 from ninedof.support.files import Saved
 from ninedof.support.text import short_repr
 from ninedof.support.units import metres, unit_entry
@@ -299,7 +299,7 @@ def follow(
         raise ValueError("home: got none, expected the neutral configuration of a Geometry")
     single(g, home, "home")
     rule = choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
-    lc = float(length_of(geometry, home, lc)) if isinstance(lc, str) else as_number("characteristic_length", lc)
+    lc = length_at(g, home, lc)
     path, bounds, ends, forces = trajectory, leg_limits(limits), items("load", load, "force and moment", 2), None
     gravity_for_core(gravity, path.unit)  # refuses what is no gravity, even where nothing weighs
     motion = _core.follow(g, home, path.time, path.position, path.rotation, rule, bounds, lc)
@@ -329,6 +329,8 @@ def _loads(force: Any, moment: Any) -> Floats:
     """Return moment and force, shape (6,) or (n, 6), of k loads (k, 1, 6) or (k, n, 6)."""
     parts = {"moment": moment, "force": force}
     arrays = {name: (as_floats(name, np.zeros(3) if x is None else x, (3,)), 1) for name, x in parts.items()}
+    for name, (array, _) in arrays.items():
+        all_finite(f"load ({name})", array)
     shape, rows = broadcast_leading(arrays)
     if len(shape) > 2 or 0 in shape:
         raise ValueError(f"load: got stacks of shape {shape}, expected one load, or one for each pose")

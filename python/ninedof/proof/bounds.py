@@ -13,7 +13,7 @@ from ninedof.conditioning.characteristic_length import operands_and_length
 from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats, as_floats, broadcast_leading, thread_argument, without_infinity
+from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_leading, thread_argument
 from ninedof.support.text import short, short_repr
 
 
@@ -177,7 +177,7 @@ def hexagonal_condition_number_bounds(
 
     """
     numbers = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
-    columns = {name: (without_infinity(name, as_floats(name, value, ())), 0) for name, value in numbers.items()}
+    columns = {name: (all_finite(name, as_floats(name, x, ()), missing=True), 0) for name, x in numbers.items()}
     shape, arrays = broadcast_leading(columns)
     designs = np.stack([array.reshape(-1) for array in arrays], axis=-1)
     rows = _core.hexagonal_condition_number_bounds(designs, thread_argument(threads))

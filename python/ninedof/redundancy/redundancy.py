@@ -15,7 +15,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, instance, items
-from ninedof.support.arrays import Floats, as_floats, as_number, one_or_each, thread_argument
+from ninedof.support.arrays import Floats, all_finite, as_floats, as_number, one_or_each, thread_argument
 from ninedof.support.structs import options_of
 from ninedof.support.text import short_repr
 
@@ -245,6 +245,7 @@ def starts_of(start: ArrayLike | None, shape: tuple[int, ...]) -> Floats:
     if start is None:
         return np.empty((0, 3))
     points = as_floats("start", start, (3,))
+    all_finite("start", points, missing=points.ndim > 1)
     try:
         return np.ascontiguousarray(np.broadcast_to(points, (*shape, 3))).reshape(-1, 3)
     except ValueError:

@@ -105,7 +105,7 @@ def error_bounds(
     Raises
     ------
     ValueError
-        If a tolerance is negative or infinite.
+        If a tolerance is negative, infinite or, but in a stack where it marks missing data, NaN.
 
     Examples
     --------
@@ -166,7 +166,7 @@ def error_samples(
     Raises
     ------
     ValueError
-        If a tolerance is negative or infinite, or the configuration is a stack.
+        If a tolerance is negative or not finite, or the configuration is a stack.
 
     Examples
     --------

@@ -147,7 +147,7 @@ def stiffness(
     Raises
     ------
     ValueError
-        If a stiffness is negative or infinite.
+        If a stiffness is negative, infinite or, but in a stack where it marks missing data, NaN.
 
     Examples
     --------

@@ -69,10 +69,11 @@ def frozen(array: Floats) -> Floats:
     return np.ndarray(np.shape(array), np.float64, np.asarray(array, dtype=np.float64).tobytes())
 
 
-def without_infinity(name: str, values: Floats) -> Floats:
-    """Return `values`, or raise ValueError if one is infinite. NaN is allowed: it marks missing data."""
-    if np.isinf(values).any():
-        raise ValueError(f"{name}: got an infinite number, expected finite ones")
+def all_finite(name: str, values: Floats, missing: bool = False) -> Floats:
+    """Return `values`, or raise ValueError if one is infinite or NaN; NaN is allowed where it marks missing data."""
+    for what, bad in (("an infinite number", np.isinf(values)), ("NaN", np.isnan(values) & (not missing))):
+        if bad.any():
+            raise ValueError(f"{name}: got {what}, expected finite numbers")
     return values
 
 

@@ -46,15 +46,15 @@ KINDS = {  # values that are refused, arguments that have the kind
     "count from 1": ([0, *NO_COUNTS], "starts chunk seed_every audit_every designs most_boxes resolution"),
     "count from 0": (NO_COUNTS, "seed threads samples points perturbations directions audit_seed"),
     "vector": (
-        [None, *NO_VECTORS],
+        [None, [0.0, NAN, 1.0], *NO_VECTORS],
         "omega pdot sdot alpha pddot sddot moment force force_at_o position internal_point step centre",
     ),
     "number a leg": (
-        [np.ones(8), np.ones((7, 8)), np.full(9, INF), "abc", np.ones(9) * 1j, [["1"] * 9], None],
+        [np.ones(8), np.ones((7, 8)), np.full(9, INF), np.full(9, NAN), "abc", np.ones(9) * 1j, [["1"] * 9], None],
         "leg_rates leg_accelerations leg_lengths direction weights",
     ),
     "tolerance": (
-        [-1e-9, INF, None, "fine", [1.0] * 8, [[1.0, 2.0], [1.0]], 1j],
+        [-1e-9, INF, NAN, None, "fine", [1.0] * 8, [[1.0, 2.0], [1.0]], 1j],
         "leg_errors joint_errors leg_stiffness",
     ),
     "word": (
@@ -229,6 +229,9 @@ APART = [  # a row, entries that are refused because of what they are together o
     ("sheet", {"design": it.g(), "poses": HOME}, "poses: got"),
     ("sheet", {"loads": [1.0, 2.0]}, "loads: got"),
     ("sheet", {"twist": None}, "twist_rate: got"),
+    ("sheet", {"leg_errors": NAN}, "leg_errors: got NaN"),
+    ("sheet", {"joint_errors": INF}, "joint_errors: got an infinite number"),
+    ("sheet", {"leg_stiffness": [1.0] * 8 + [NAN]}, "leg_stiffness: got NaN"),
     ("sheet", {"twist": [1.0, 2.0]}, "twist: got"),
     ("sheet", {"mass": None}, "centre: got .* without a mass"),
     ("sheet", {"gravity": [1.0]}, "gravity"),
@@ -251,6 +254,8 @@ APART = [  # a row, entries that are refused because of what they are together o
     ("Trajectory", {"position": np.full((4, 3), NAN)}, ".*NaN"),
     ("follow", {"internal_point": "stay"}, "internal_point: got 'stay'"),
     ("follow", {"limits": (5.0, 2.0)}, "limits: got 5 to 2"),
+    ("follow", {"load": ([0.0, NAN, 0.0], None)}, r"load \(force\): got NaN"),
+    ("best_internal_point", {"start": [0.0, 0.0, INF]}, "start: got an infinite number"),
     ("follow", {"internal_point": "best", "limits": (0.0, 3.0)}, r".*no position of O is allowed at t = 0 \(l1 high"),
     (
         "Configuration",
