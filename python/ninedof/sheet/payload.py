@@ -43,6 +43,9 @@ class Payload(NamedTuple):
     """The search of the region; None for listed poses. It is a search and no proof."""
     limits: tuple[Floats, Floats]
     """Greatest forces of each leg, pushing and pulling, shapes (9,): those given, or of the study."""
+    not_looked_at: tuple[str, ...]
+    """Limits of the study that a payload may pass: of powers, of forces at the neutral pose, and of forces at all poses
+    where others are given."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values."""
@@ -67,13 +70,13 @@ def largest_payload(
     Parameters
     ----------
     design : Result, Candidate, DesignPoint or a design of a file
-        As for `sheet`. Loads, masses and gravity of the study of a result act besides the payload; the others have no
-        study, so that nothing else acts.
+        As for `sheet`. Loads, masses and gravity of its study act besides the payload; a design of a file has no study,
+        so that nothing else acts.
     force : float or array_like of shape (9,), optional
         Greatest force with which a leg may push, for all legs or in the order of `leg_lengths`; in newtons for
         kilograms and a gravity of 9.81. By default the limits `force`, `external_force`, `upper_force` and
-        `lower_force` of the study over its poses; a leg without any is not limited. Limits at the neutral pose alone,
-        and of powers, are not looked at: a sheet with the payload's mass has them.
+        `lower_force` of the study over its poses; a leg without any is not limited. `Payload.not_looked_at` names the
+        other limits of the study that a payload may pass: `sheet` with the payload's mass has forces and powers.
     pull : float or array_like of shape (9,), optional
         Greatest force with which it may pull; `force` by default.
     centre : (3,) floats
@@ -107,7 +110,10 @@ def largest_payload(
     g, c, _ = robot_of(design, length=1.0)
     rows = load_rows(duty.loads.wrenches or None if loads is None else loads)
     rows = rows if len(rows) else np.zeros((1, 6))
-    force = _stated(duty) if force is None else force
+    others = [one for one in duty.limits if one.row.needs and leg_number(one.name) != "rate"]  # whatever the mass
+    if force is None:
+        force = _stated(duty)
+        others = [one for one in others if leg_number(one.name) != "force" or one.at != "poses"]
     push, most_pull = _limit("force", force), _limit("pull", force if pull is None else pull)
     count = whole("samples", samples, 1, MOST_SAMPLES)
     gravity, masses = duty.loads.gravity, masses_of(duty)
@@ -132,7 +138,9 @@ def largest_payload(
     wrench = rows[load] + np.concatenate([np.cross(c[pose].rotation @ np.asarray(at), down), down])
     forces = inverse_dynamics(g, c[pose], masses=masses, gravity=gravity, load=wrench).forces
     names = (LEGS[leg], ("push", "pull")[side]) if most > 0.0 else ("", "")
-    return Payload(mass, most < np.inf, *names, c[pose], forces, load, look, (push, most_pull))
+    return Payload(
+        mass, most < np.inf, *names, c[pose], forces, load, look, (push, most_pull), tuple(one.label for one in others)
+    )
 
 
 def _stated(study: Study) -> Floats:

@@ -64,13 +64,16 @@ def test_with_a_tool_the_payload_is_at_the_origin_of_the_plate(run, tmp_path):
 
 def test_the_force_is_that_of_the_study_where_it_has_one(folder, mass, run, tmp_path):
     machine = nd.load(folder)
-    limits = {"force": [{"max": 60.0}, {"max": 9.0, "at": "neutral"}]}
-    limited = replace(machine, study=replace(machine.study, constraints=limits))
+    limits = {"force": [{"max": 60.0}, {"max": 9.0, "at": "neutral"}], "power": (None, 9.0), "rate": (None, 9.0)}
+    limited = replace(machine, study=replace(machine.study, constraints=limits, speeds={"linear": 0.1}))
     nd.save(limited, tmp_path / "limited")
     assert nd.largest_payload(limited).mass == pytest.approx(mass, rel=1e-12)
     status, out, _ = run(f"payload {tmp_path / 'limited'}")
     assert status == 0
     assert "from the study: force at most 60" in out
+    assert "limits of the study that are not looked at: force at neutral, power" in out
+    assert nd.largest_payload(limited).not_looked_at == ("force at neutral", "power")
+    assert nd.largest_payload(limited, 50.0).not_looked_at == ("force", "force at neutral", "power")
     assert "from the study" not in run(f"payload {tmp_path / 'limited'} --force 50")[1]
     assert run(f"payload {folder}")[0] == 2
 

@@ -11,8 +11,6 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import LOAD, ONE_DESIGN, Options, Three, argument, loads_option, option, struct, triple
 from ninedof.cli.posed import Chosen, named_design
 from ninedof.cli.screen import DONE, NO_RESULT
-from ninedof.design.limit_numbers import leg_number
-from ninedof.design.limits import Limit
 from ninedof.robot.geometry import LEGS
 from ninedof.sheet.payload import Payload, largest_payload
 from ninedof.sheet.pose_words import vector_words
@@ -53,16 +51,9 @@ def payload(options: _Options) -> Answer:
     parts = [*_parts(found, chosen), _meant(found, chosen, centre, loads)]
     if options.force is None:
         parts.append(f"from the study: force {_of_kinds(found.limits[0].tolist())}")
-    others = [limit.label for limit in chosen.duty.limits if limit.row.needs and not _looked_at(limit)]
-    if others:
-        parts.append(f"limits of the study that are not looked at: {', '.join(others)}")
+    if found.not_looked_at:
+        parts.append(f"limits of the study that are not looked at: {', '.join(found.not_looked_at)}")
     return Answer(parts, found.to_dict(), DONE if found.fits else NO_RESULT)
-
-
-def _looked_at(limit: Limit) -> bool:
-    """Whether the payload keeps a limit: rates do not depend on it."""
-    what = leg_number(limit.name)
-    return what == "rate" or (what == "force" and limit.at == "poses")
 
 
 def _of_kinds(most: list[float]) -> str:
