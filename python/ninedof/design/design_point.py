@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -12,10 +12,12 @@ import numpy as np
 from ninedof import _core
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats
 from ninedof.support.structs import Fixed
 from ninedof.support.text import short_repr
 
 LARGEST = 1e200  # of an objective; beyond, the core has replaced a vanishing singular value by 1e-300
+DERIVED = {"derived": True}  # fields that follow from others
 
 
 @short_repr
@@ -49,6 +51,8 @@ class DesignPoint:
     """The neutral one."""
     configurations: Configuration
     """The neutral one, then the poses of the objective: a stack."""
+    study: Any = field(default=None, repr=False, compare=False, metadata=DERIVED)
+    """The Study that it is a design of."""
 
     def __post_init__(self) -> None:
         """Make what is there by name unchangeable, as all else is."""
@@ -56,6 +60,11 @@ class DesignPoint:
             object.__setattr__(self, name, Fixed(getattr(self, name)))
         slopes = {name: Fixed(slope) for name, slope in self.margin_gradients.items()}
         object.__setattr__(self, "margin_gradients", Fixed(slopes))
+
+    @property
+    def permitted_lengths(self) -> tuple[Floats, Floats] | None:
+        """Least and greatest length of each leg by the limits of its study, shapes (9,); None without a study."""
+        return None if self.study is None else self.study.leg_limits(self.configuration)
 
     @property
     def condition_number(self) -> float:

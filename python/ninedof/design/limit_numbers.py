@@ -1,4 +1,4 @@
-"""The items of limits at a pose, legs and pairs of legs; the limits of a study on leg lengths; all of them scaled."""
+"""The items of limits at a pose, legs and pairs of legs; the limits of a study scaled."""
 
 from __future__ import annotations
 
@@ -6,17 +6,11 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
 from ninedof import _core
 from ninedof.design.limits import ROWS, Limit
 from ninedof.design.objective import CONDITION_LIMITS
-from ninedof.design.region_poses import Ranges
 from ninedof.design.study import Study
-from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import LEGS as LEG_NAMES
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats
 
 PARTS: dict[str, tuple[str, ...]] = _core.limit_parts
 """The limits that have a value at every pose, and their items: legs, pairs of legs "l1-q2", determinants "det N"."""
@@ -37,14 +31,6 @@ def leg_number(name: str) -> str:
 def compared(study: Study) -> list[str]:
     """Return the names of the limits of a study that compare its poses."""
     return list(dict.fromkeys(limit.name for limit in study.limits if limit.name in SPREADS and limit.at == "poses"))
-
-
-LEGS = {
-    name: [LEG_NAMES.index(part) for part in parts]
-    for name, parts in PARTS.items()
-    if ROWS[name].kind == "length" and set(parts) <= set(LEG_NAMES)
-}
-"""Constraints of lengths, and their legs in the order of `leg_lengths`."""
 
 
 def cone_limits(study: Study | None) -> dict[str, Limit | None]:
@@ -72,20 +58,6 @@ def exempt_pairs(g: Geometry, study: Study | None = None) -> list[bool]:
 def apart(g: Geometry, study: Study | None = None) -> list[int]:
     """Return the indices of the pairs of legs that are to keep a distance: those that are not exempt."""
     return [k for k, meet in enumerate(exempt_pairs(g, study)) if not meet]
-
-
-def leg_limits_of(study: Study, neutral: Configuration, ranges: Ranges = ()) -> tuple[Floats, Floats]:
-    """Return the least and greatest length of each leg in a study, shapes (9,); 0 and infinity where it has none.
-
-    The neutral configuration is a single one; `ranges` are those in which something else keeps each leg.
-    """
-    low, high = np.array(ranges or [(0.0, math.inf)] * 9).T.copy()
-    for limit in study.limits:
-        if limit.name in LEGS and limit.at == "poses":
-            unit, legs = study.zp(neutral) if limit.of == "zp" else 1.0, LEGS[limit.name]
-            low[legs] = np.maximum(low[legs], unit * limit.low)
-            high[legs] = np.minimum(high[legs], unit * limit.high)
-    return low, high
 
 
 def with_scaled_limits(study: Study, factor: Callable[[str, str], float]) -> Study:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.duty import Tool
+from ninedof.robot.geometry import LEGS
 from ninedof.support.arguments import Vector, choice, items, known_keys, number, shown, vector, whole
 from ninedof.support.structs import Check, Fixed, plain, within
 from ninedof.support.units import angle_entry, degrees_of, half_turn, in_radians, kind_unit
@@ -41,6 +42,12 @@ class Row(NamedTuple):
 
 
 ROWS = {values[0]: Row(*values) for values in _core.constraint_table}
+OF_LENGTHS = {
+    name: [LEGS.index(part) for part in parts]
+    for name, parts in _core.limit_parts.items()
+    if ROWS[name].kind == "length" and set(parts) <= set(LEGS)
+}
+"""Constraints of lengths, and their legs in the order of `leg_lengths`."""
 STEPS, MOST_STEPS = _core.singularity_free_steps  # parts of the way from the neutral pose that singularity_free tests
 AT = ("poses", "neutral")
 """The places where a limit holds: every pose of the objective, the default, or the neutral pose alone."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
+
+import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
@@ -18,7 +20,7 @@ from ninedof.design.actuators import FOR, LEG_KINDS, Actuator
 from ninedof.design.design_point import DesignPoint, design_point
 from ninedof.design.duty import DUTIES, About, Loads, Masses, Speeds, Tolerances, Tool, duty
 from ninedof.design.leg_duty import LegDuty, internal_motion, require_stated
-from ninedof.design.limits import ROWS, Limit, form, parse
+from ninedof.design.limits import OF_LENGTHS, ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import (
@@ -36,6 +38,7 @@ from ninedof.support.arguments import (
     text,
     whole,
 )
+from ninedof.support.arrays import Floats
 from ninedof.support.files import read_toml, write_toml
 from ninedof.support.structs import Check, Fixed, check_entries, entry, plain, within
 from ninedof.support.text import short_repr
@@ -163,6 +166,8 @@ class Study:
         Whether the external, the upper and the lower legs each take a row, or all nine the same.
     greatest_price : float, optional
         Of the nine actuators together.
+    catalogue : str
+        Name of the file that the actuators are from, for reports; that of the file where they are read from one.
 
     Raises
     ------
@@ -196,6 +201,7 @@ class Study:
     actuators: tuple[Actuator, ...] = entry(bought.actuator_rows, ())
     actuators_for: str = entry(partial(choice, known=FOR), FOR[0])
     greatest_price: float | None = entry(partial(finite, least=0.0), None)
+    catalogue: str = field(default="", compare=False, repr=False, metadata={"check": text})
     defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
     """Free variables that were not given and took the family's default bounds."""
     length_assumed: bool = field(default=False, init=False, compare=False, repr=False)
@@ -209,6 +215,7 @@ class Study:
         if assumed:
             object.__setattr__(self, LENGTH, 1.0)  # not UNGIVEN: copies have it given
         if isinstance(self.actuators, str | os.PathLike):
+            object.__setattr__(self, "catalogue", self.catalogue or os.path.basename(self.actuators))
             object.__setattr__(self, "actuators", bought.catalogue(self.actuators, _unit("unit", self.unit)))
         check_entries(self)
         bought.require_together(self.actuators, self.greatest_price, self.constraints)
@@ -251,7 +258,7 @@ class Study:
         with within(os.fspath(path), ": "):
             if isinstance(name := data.get("actuators"), str):
                 data["actuators"] = bought.beside_study(path, name, _unit("unit", data.get("unit", "")))
-            return cls.from_dict(data)
+            return cls.from_dict(data)._with(catalogue=name if isinstance(name, str) else "")
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Study:
@@ -398,6 +405,19 @@ class Study:
         """Return the height zp of the plate of a design whose neutral configuration, that of the tool, is given."""
         return float(instance("neutral", neutral, Configuration).position[2]) - self.tool.position[2]
 
+    def leg_limits(self, neutral: Configuration, ranges: Sequence[tuple[float, float]] = ()) -> tuple[Floats, Floats]:
+        """Return the least and greatest length of each leg of a design, shapes (9,); 0 and infinity where it has none.
+
+        The neutral configuration is a single one; `ranges` are those in which something else keeps each leg.
+        """
+        low, high = np.array(ranges or [(0.0, math.inf)] * 9).T.copy()
+        for limit in self.limits:
+            if limit.name in OF_LENGTHS and limit.at == "poses":
+                unit, legs = self.zp(neutral) if limit.of == "zp" else 1.0, OF_LENGTHS[limit.name]
+                low[legs] = np.maximum(low[legs], unit * limit.low)
+                high[legs] = np.minimum(high[legs], unit * limit.high)
+        return low, high
+
     def evaluate(self, variables: Mapping[str, float]) -> DesignPoint:
         """Return objective, condition numbers, margins and exact gradients of one design.
 
@@ -407,7 +427,7 @@ class Study:
             Name to value, as `vector` takes them; bounds are not enforced.
 
         """
-        return design_point(self.problem(), self.vector(variables))
+        return replace(design_point(self.problem(), self.vector(variables)), study=self)
 
     def vector(self, variables: Mapping[str, float]) -> list[float]:
         """Return named values in the order of the problem.

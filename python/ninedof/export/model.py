@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof.design.duty import Tool
-from ninedof.design.limit_numbers import cone_limits, leg_limits_of
+from ninedof.design.limit_numbers import cone_limits
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
@@ -148,7 +148,7 @@ class Model:
             return tuple(zip(lengths.min(axis=0).tolist(), lengths.max(axis=0).tolist(), strict=True))
         if study is None:
             return None
-        limits = np.transpose(leg_limits_of(study, self.source.configuration)).tolist()
+        limits = np.transpose(study.leg_limits(self.source.configuration)).tolist()
         return tuple((a, b) for a, b in limits) if all(0.0 < a < b < math.inf for a, b in limits) else None
 
 
@@ -168,8 +168,8 @@ def model_of(design: Any, name: str = "ninedof", unit: str | None = None) -> Mod
     """Return the model of anything with a geometry, a configuration and a characteristic length.
 
     The name is that of the robot inside the file; other characters than letters, digits, "_" and "-" become "_". The
-    unit is that of the study or of the design file. A Candidate or a DesignPoint names none, so it must be given, ""
-    for none: a simulator would take millimetres for metres. ValueError says what is missing or differs.
+    unit is that of the study or of the design file. Without both it must be given, "" for none: a simulator would take
+    millimetres for metres. ValueError says what is missing or differs.
     """
     if not all(hasattr(design, name) for name in ("geometry", "configuration", "characteristic_length")):
         raise ValueError(f"design: got {type(design).__name__}, expected a result or a design")

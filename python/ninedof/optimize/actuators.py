@@ -204,7 +204,7 @@ class ActuatorSearch:
         """Return the least margin of the limits of a row at the poses and the design of a study without them."""
         limits = {name: limit for kind in kinds for name, limit in row_limits(kind, row, free.study.stated).items()}
         point = replace(free.solved, constraints=limits).evaluate(best_of(free).variables)
-        return min(point.margins.values())
+        return float(min(point.margins.values()))
 
 
 def _fixed(rows: Rows) -> list[int]:

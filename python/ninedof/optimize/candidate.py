@@ -8,23 +8,50 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ninedof import _core
-from ninedof.design.design_point import DesignPoint, robot_at
+from ninedof.design.design_point import DERIVED, DesignPoint, robot_at
 from ninedof.design.poses import Pose
+from ninedof.design.region_poses import posed
+from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.plain_values import plain_fields
+from ninedof.support.arrays import Floats
 from ninedof.support.structs import Fixed, entries_of, from_core
 from ninedof.support.text import short_repr
 
-DERIVED = {"derived": True}  # fields that follow from others
 ROBOT = ("geometry", "configuration", "configurations")  # those of a candidate
 DENSE = 100_000  # poses of a dense search
 PASSED = 1e-7  # by which a limit or the index may be passed between the poses, relative
 
 
+class OfStudy:
+    """A design with the study that it is of: loads, masses, tool, region and limits of it are the study's."""
+
+    study: Any
+    region: Any
+    configuration: Any
+
+    @property
+    def solved(self) -> Any:
+        """The study with the poses that were solved for: those listed and, of a region, those that ruled."""
+        return self.study if self.study is None or self.region is None else posed(self.study, self.region.poses)
+
+    @property
+    def permitted_lengths(self) -> tuple[Floats, Floats] | None:
+        """Least and greatest length of each leg, shapes (9,), None without a design or its study.
+
+        By the limits of the study on lengths and, where placing O over a region is permitted a range for each leg,
+        within that; 0 and infinity where nothing limits it.
+        """
+        if self.study is None or self.configuration is None:
+            return None
+        study: Study = self.study
+        return study.leg_limits(self.configuration, self.region.leg_ranges if self.region else ())
+
+
 @short_repr
 @dataclass(frozen=True)
-class Candidate:
+class Candidate(OfStudy):
     """A local optimum that passed the checks."""
 
     objective: float
@@ -52,6 +79,10 @@ class Candidate:
     """Largest negative margin; 0 if none."""
     reached: int
     """Number of starts that ended at this objective; warm starts are not counted."""
+    study: Study | None = field(default=None, repr=False, compare=False, metadata=DERIVED)
+    """Of the result that it is in: sheet, payload, ... of the candidate are for its loads, tool and region."""
+    region: RegionReport | None = field(default=None, repr=False, compare=False, metadata=DERIVED)
+    """Of the result that it is in."""
 
     def __post_init__(self) -> None:
         """Make what is there by name unchangeable, as all else is."""
@@ -83,14 +114,15 @@ def best_of(result: Any) -> Candidate:
 def candidate_of(problem: _core.Problem, end: _core.Candidate) -> Candidate:
     """Return the candidate of the core with its robot and poses."""
     x = end.variables.tolist()
-    return from_core(Candidate, end, variables=dict(zip(problem.names, x, strict=True)), **robot_at(problem, x))
+    variables = dict(zip(problem.names, x, strict=True))
+    return from_core(Candidate, end, variables=variables, **robot_at(problem, x), study=None, region=None)
 
 
 def candidate_at(point: DesignPoint, residual: float) -> Candidate:
     """Return a design that no search has led to, with the residual that stands for the one that is unknown."""
     violation = max(0.0, -min(point.margins.values(), default=0.0))
     search: dict[str, Any] = {"active": (), "prices": {}, "optimality_residual": residual, "reached": 0}
-    return from_core(Candidate, point, **search, constraint_violation=violation)
+    return from_core(Candidate, point, **search, constraint_violation=violation, region=None)
 
 
 def candidate_from(problem: _core.Problem, data: Mapping[str, Any]) -> Candidate:

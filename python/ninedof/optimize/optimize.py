@@ -259,4 +259,4 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
     with within("start", ": "):
         x = study.vector(start)
     run = _core.trace(problem, x, formulation)
-    return Trace(run.best, candidate_of(problem, run.end))
+    return Trace(run.best, replace(candidate_of(problem, run.end), study=study))

@@ -11,14 +11,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ninedof.design.design_point import design_point
+from ninedof.design.design_point import DERIVED, design_point
 from ninedof.design.duty import Tolerances
-from ninedof.design.limit_numbers import leg_limits_of
 from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.design.variables import changed_variables
 from ninedof.optimize.actuator_choice import ActuatorChoice
-from ninedof.optimize.candidate import DERIVED, Candidate, RegionReport, best_of, candidate_at, candidate_from
+from ninedof.optimize.candidate import Candidate, OfStudy, RegionReport, best_of, candidate_at, candidate_from
 from ninedof.optimize.reserve import Reserve, certified, largest, machine_of, placing_of
 from ninedof.optimize.tables import agreement_sentence, candidates_table, internal_point_words, summary_lines
 from ninedof.proof.machine import machine_digest
@@ -29,7 +28,6 @@ from ninedof.robot.configuration import Configuration
 from ninedof.sheet.plain_values import plain_fields
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arguments import instance, path_argument
-from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
 from ninedof.support.structs import entries_of, within
 from ninedof.tables.html import notebook
@@ -62,7 +60,7 @@ class _OfBest(property, Generic[T]):
 
 
 @dataclass(frozen=True)
-class Result:
+class Result(OfStudy):
     """The result of an optimization. Properties of a design are those of the best candidate, or None without one."""
 
     status: Status
@@ -95,10 +93,10 @@ class Result:
     """Starts followed to their end in the round that found the best design, where that is known; warm starts, which are
     no evidence, are not counted."""
 
-    @property
-    def solved(self) -> Study:
-        """The study with the poses that were solved for: those listed and, of a region, those that ruled."""
-        return self.study if self.region is None else posed(self.study, self.region.poses)
+    def __post_init__(self) -> None:
+        """Let every candidate know the study, so that its sheet, payload, export, ... are as the result's."""
+        own = tuple(replace(one, study=self.study, region=self.region) for one in self.candidates)
+        object.__setattr__(self, "candidates", own)
 
     @property
     def best(self) -> Candidate | None:
@@ -176,17 +174,6 @@ class Result:
         if not self.candidates:
             return notebook(f"{self.status}: {self.reason}", f"causes: {', '.join(self.causes) or 'none found'}")
         return notebook(f"{self.status}: {self.reason}", candidates_table(self))
-
-    @property
-    def permitted_lengths(self) -> tuple[Floats, Floats] | None:
-        """Least and greatest length of each leg, shapes (9,), None without a design.
-
-        By the limits of the study on lengths and, where placing O over a region is permitted a range for each leg,
-        within that; 0 and infinity where nothing limits it.
-        """
-        if self.best is None:
-            return None
-        return leg_limits_of(self.study, self.best.configuration, self.region.leg_ranges if self.region else ())
 
     def sheet(self, poses: Configuration | None = None, **options: Any) -> Sheet:
         """Return the engineering sheet of the best candidate: `ninedof.sheet` with its arguments."""

@@ -13,8 +13,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.limit_numbers import CLEARANCE, CONES, PARTS, SPREADS, apart, leg_number
-from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
-from ninedof.design.limits import ROWS, kind_of
+from ninedof.design.limits import OF_LENGTHS, ROWS, kind_of
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.follow import Followed, LimitBreak

@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof import _core
-from ninedof.conditioning.characteristic_length import characteristic_length, length_argument
+from ninedof.conditioning.characteristic_length import length_at
+from ninedof.design.limit_numbers import compared
 from ninedof.design.poses import Pose
 from ninedof.design.region_poses import Placing, configurations_at, o_is_placed, poses_at
 from ninedof.robot.configuration import Configuration, flat
@@ -58,8 +59,9 @@ def look_over(design: Any, c: Configuration, question: _core.SheetQuestion, coun
     """
     study: Any = getattr(design, "study", None)
     region = None if study is None else study.objective.region
-    ranges: Any = getattr(getattr(design, "region", None), "leg_ranges", None)
-    if region is None or (o_is_placed(study) and ranges is None):
+    report: Any = getattr(design, "region", None)
+    ranges = () if report is None else report.leg_ranges
+    if region is None or (o_is_placed(study) and report is None and compared(study)):
         return Looked(c)
     place = None if not o_is_placed(study) else Placing(study, c[0], design.variables, design.objective, ranges)
     samples = 2 * (count if place is None else min(count, PLACED))
@@ -88,7 +90,7 @@ def robot_of(
     if isinstance(design, Geometry):
         if poses is None:
             raise ValueError("poses: got none, expected configurations for a Geometry, the neutral one first")
-        return design, poses, _number(design, poses, 1.0 if length is None else length)
+        return design, poses, length_at(design, poses[0], 1.0 if length is None else length)
     try:
         g, neutral, own = design.geometry, design.configuration, design.characteristic_length
     except AttributeError:
@@ -98,12 +100,7 @@ def robot_of(
     if poses is None and hasattr(design, "configurations"):
         poses = design.configurations[1:]
     c = _joined(neutral, *([] if poses is None else [poses]))
-    return g, c, _number(g, c, own if length is None else length)
-
-
-def _number(g: Geometry, c: Configuration, length: float | str) -> float:
-    length = length_argument(length)
-    return float(characteristic_length(g, c[0], length)) if isinstance(length, str) else length
+    return g, c, length_at(g, neutral, own if length is None else length)
 
 
 def _joined(*stacks: Configuration) -> Configuration:

@@ -26,8 +26,8 @@ WEIGHTS = ("platform", "inertia", "cylinder", "rod", "cylinder_inertia", "rod_in
 
 
 def duty_of(design: Any) -> Study:
-    """Return the study of a design with the poses that it was solved for; without one, with its unit and its tool."""
-    study: Study | None = getattr(design, "solved", None)
+    """Return the study of a design with the poses that it was solved for; without one, one with its unit and tool."""
+    study: Study | None = getattr(design, "solved", None) or getattr(design, "study", None)
     return study or Study(unit=getattr(design, "unit", ""), tool=getattr(design, "tool", Tool()))
 
 

@@ -38,7 +38,7 @@ from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import masses_for_core
 from ninedof.support.arguments import whole
-from ninedof.support.arrays import Floats, one_or_each
+from ninedof.support.arrays import Floats, all_finite, one_or_each
 from ninedof.support.structs import options_of
 from ninedof.support.units import per, unit_argument, with_unit
 from ninedof.tables.html import notebook
@@ -248,8 +248,8 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     Parameters
     ----------
     design : Result, Candidate, DesignPoint, a design of a file, or Geometry
-        With the poses of its study, the neutral pose first; a design of a file has the neutral pose alone. The limits
-        are shown for a Result, which has the study, and the region of its study is looked over.
+        The first three with the poses of their study, the neutral pose first: its limits are shown, and its region is
+        looked over. A design of a file has no study, and the neutral pose alone.
     poses : Configuration, shape (n,), optional
         In place of the study's; the neutral pose of the design stays the first. For a Geometry they are needed, and
         the first of them is the neutral one. No region is looked over then.
@@ -314,8 +314,8 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     values, stated = with_duty(options_of("sheet", SheetArguments, options, samples=SAMPLES), duty)
     g, c, length = robot_of(design, poses, values["characteristic_length"])
     weight = weight_of(duty, values["mass"], values["centre"], values["gravity"])
-    study = getattr(design, "study", None) if poses is None else None
-    rule = study.leg_duty.internal if isinstance(study, Study) else ""  # as the limits of the study have it
+    study: Study | None = getattr(design, "study", None)
+    rule = "" if study is None or poses is not None else study.leg_duty.internal  # as the limits of the study have it
     motion, bodies = motion_of(values, c, rule), masses_besides_platform(duty)
     weighs = weight is not None or bodies is not None
     loads = load_rows(np.zeros(6) if values["loads"] is None and weighs else values["loads"])
@@ -329,7 +329,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         question.gravity = duty.loads.gravity if weight is None else weight.gravity
     question.errors = _tolerances(values["leg_errors"], values["joint_errors"])
     if values["leg_stiffness"] is not None:
-        question.leg_stiffness = one_or_each("leg_stiffness", values["leg_stiffness"], 9)
+        question.leg_stiffness = _of_each("leg_stiffness", values["leg_stiffness"], 9)
     question.characteristic_length = length if np.isfinite(length) else None
     looked = look_over(design, c, question, count) if poses is None else Looked(c)
     c, region = looked.configurations, looked.search
@@ -354,7 +354,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         stiffness=Stiffness(*(extreme(x, np.argmin) for x in numbers["stiffness"].T))
         if "stiffness" in numbers
         else None,
-        limits=limit_rows(posed(duty, looked.worst), design.variables) if hasattr(design, "solved") else (),
+        limits=limit_rows(posed(duty, looked.worst), design.variables) if study is not None else (),
         region=region,
         unit=duty.unit if values["unit"] is None else unit_argument(values["unit"]),
         cone_axes={name: () if one is None else one.axis for name, one in cone_limits(duty).items()},
@@ -369,9 +369,13 @@ def _tolerances(legs: ArrayLike | None, joints: ArrayLike | None) -> _core.Toler
     if legs is None and joints is None:
         return None
     return _core.Tolerances(
-        legs=one_or_each("leg_errors", 0.0 if legs is None else legs, 9),
-        joints=one_or_each("joint_errors", 0.0 if joints is None else joints, 12),
+        legs=_of_each("leg_errors", 0.0 if legs is None else legs, 9),
+        joints=_of_each("joint_errors", 0.0 if joints is None else joints, 12),
     )
+
+
+def _of_each(name: str, value: ArrayLike, count: int) -> Floats:
+    return all_finite(name, one_or_each(name, value, count))
 
 
 def extreme(values: Floats, place: Callable[[Floats], Any]) -> Extreme:

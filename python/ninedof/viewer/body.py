@@ -11,17 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.limit_numbers import CONES, SPREADS
-from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
+from ninedof.design.limit_numbers import CONES
+from ninedof.design.limits import OF_LENGTHS
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import LEGS
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 from ninedof.viewer.machine import Variant
-from ninedof.viewer.numbers import limits_at
 from ninedof.viewer.shapes import Mesh
 from ninedof.workspace.search import workspace
-from ninedof.workspace.study_question import EASE, study_limits
+from ninedof.workspace.study_question import EASE, permitted_ranges, study_limits
 
 COARSE = {"tolerance": 0.01, "resolution": 16, "points": 1000, "most_evaluations": 400_000}
 COARSE_SEARCHED = {"tolerance": 0.05, "resolution": 6, "points": 64, "most_evaluations": 20_000}
@@ -71,23 +69,13 @@ def question_of(variant: Variant, c: Configuration, rule: str, size: float, cond
 def leg_limits(variant: Variant) -> tuple[Floats, Floats]:
     """Return the least and greatest length of each leg, shapes (9,), eased by `EASE` of themselves.
 
-    Of a limit on their spread: those that keep it together with the lengths at the poses of the study. A limit on the
-    spread of all legs leaves them one range, about those lengths.
+    Limits that compare lengths leave each leg the range about those of the study that `ninedof workspace` has; where O
+    is placed in a region, `leg_low` and `leg_high` are within it.
     """
-    low, high = variant.leg_low, variant.leg_high
-    if variant.study_lengths is not None:
-        least, most = variant.study_lengths.min(axis=0), variant.study_lengths.max(axis=0)
-        for one in limits_at(variant, variant.home):
-            if one.name in SPREADS and one.side == "max":
-                legs = [LEGS.index(one.part)] if one.part else list(range(9))
-                ends = most - one.limit, least + one.limit
-                if one.name != "stroke":
-                    ends = most / one.limit, least * one.limit
-                if not one.part:
-                    middle, half = math.sqrt(least.min() * most.max()), math.sqrt(one.limit)
-                    ends = np.full(9, middle / half), np.full(9, middle * half)
-                low, high = low.copy(), high.copy()
-                low[legs], high[legs] = np.maximum(low, ends[0])[legs], np.minimum(high, ends[1])[legs]
+    low, high, study, lengths = variant.leg_low, variant.leg_high, variant.study, variant.study_lengths
+    if study and lengths is not None and np.array_equal((low, high), study.leg_limits(variant.home)):
+        least, most = permitted_ranges(study, variant.home, lengths)
+        low, high = np.maximum(low, least), np.minimum(high, most)
     return low * (1.0 - EASE), high * (1.0 + EASE)
 
 

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninedof.conditioning.characteristic_length import characteristic_length
-from ninedof.design.limit_numbers import compared, leg_limits_of
+from ninedof.conditioning.characteristic_length import length_at
+from ninedof.design.limit_numbers import compared
 from ninedof.design.region import Region
 from ninedof.design.study import FAMILIES, LENGTH, Study, variable_kinds
 from ninedof.design.variables import variables_of
@@ -167,13 +167,13 @@ class Machine:
         length = self.design.characteristic_length if self.study is None else self.study.characteristic_length
         if isinstance(length, tuple):
             length = self.design.characteristic_length
-        return float(characteristic_length(g, home, length)) if isinstance(length, str) else float(length)
+        return length_at(g, home, length)
 
     def _leg_limits(self, home: Configuration) -> tuple[Floats, Floats]:
         if self.result is None:
             return np.zeros(9), np.full(9, math.inf)
         region = self.result.region
-        return leg_limits_of(self.result.study, home, () if region is None else region.leg_ranges)
+        return self.result.study.leg_limits(home, () if region is None else region.leg_ranges)
 
 
 def machine_of(design: Any = None) -> Machine:

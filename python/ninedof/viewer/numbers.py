@@ -10,8 +10,7 @@ import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number, singular_values
 from ninedof.design.limit_numbers import CONES, SPREADS
-from ninedof.design.limit_numbers import LEGS as OF_LENGTHS
-from ninedof.design.limits import kind_of, split_label
+from ninedof.design.limits import OF_LENGTHS, kind_of, split_label
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS

@@ -71,9 +71,9 @@ def workspace(
     Parameters
     ----------
     geometry : Geometry, Result or Design
-        A design stands for its geometry, its home pose, its characteristic length and its unit. A Result stands for
-        the limits of its study too, as `ninedof workspace RUN` has them: the actuators are as long as the study
-        permits, O follows its rule, and the box is about its region. What is given beside it counts instead.
+        A design stands for its geometry, its home pose, its characteristic length and its unit. One of a study, as a
+        Result, stands for the limits of that too, as `ninedof workspace RUN` has them: the actuators are as long as the
+        study permits, O follows its rule, and the box is about its region. What is given beside it counts instead.
     box : (low, high), each array_like, shape (3,)
         Positions p of the platform to search, length units, base frame. Not for "orientation".
     archetype : str

@@ -9,17 +9,18 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof import _core
-from ninedof.conditioning.characteristic_length import characteristic_length
+from ninedof.conditioning.characteristic_length import length_at
 from ninedof.design.duty import Tool
-from ninedof.design.limit_numbers import CLEARANCE, CONES, LEGS, PARTS, SPREADS, exempt_pairs
+from ninedof.design.limit_numbers import CLEARANCE, CONES, PARTS, SPREADS, exempt_pairs
+from ninedof.design.limits import OF_LENGTHS
 from ninedof.design.region import Region, extent
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.designs import HasRobot, robot_of
 from ninedof.robot.geometry import Geometry
+from ninedof.sheet.sheet import sheet
 from ninedof.support.arrays import Floats
 from ninedof.support.structs import Fixed
 from ninedof.workspace.question import ROWS, criteria_of
@@ -64,25 +65,25 @@ ACTUATORS = tuple(ACTUATOR_WORDS)
 
 
 def design_question(design: HasRobot, archetype: str = "constant_orientation") -> tuple[dict[str, Any], list[str]]:
-    """Return the arguments of `workspace` that a design brings, a result the limits of its study and its rule for O.
+    """Return the arguments of `workspace` that a design brings: the limits of its study too, and its rule for O.
 
     As `ninedof workspace RUN` has them; positions have a box about its region, or one that holds all that a home height
     reaches, "orientation" has the home position. Beside them the limits of the study that no single pose can meet.
     """
     g, home, length = robot_of(design), design.configuration, design.characteristic_length
-    study = design.study if isinstance(design, Result) else None
+    study: Study | None = getattr(design, "study", None)
     region, of = None if study is None else study.objective.region, study or design
     arguments = {
         **place_of(home, region, getattr(of, "tool", Tool()), archetype),
         "internal_point": rule_of_region(g, home, region),
         "home": home,
-        "characteristic_length": float(characteristic_length(g, home, length)) if isinstance(length, str) else length,
+        "characteristic_length": length_at(g, home, length),
         "unit": getattr(of, "unit", "") or None,
     }
-    if not isinstance(design, Result):
+    if study is None:
         return arguments, []
-    criteria, _, left, _ = asked_criteria(design)
-    return arguments | {"criteria": criteria}, left
+    asked = asked_criteria(design)
+    return arguments | {"criteria": asked.criteria}, asked.left
 
 
 def place_of(home: Configuration, region: Region | None, tool: Tool, archetype: str) -> dict[str, Any]:
@@ -104,19 +105,25 @@ class Asked(NamedTuple):
     """Limits of the study that are no criteria of a pose."""
     actuators: str
     """How long the legs are that a study compares, in words; "" without such."""
+    replaced: list[str]
+    """Limits of the study in whose place others count."""
 
 
-def asked_criteria(result: Result | None, values: Mapping[str, Any] = Fixed(), actuators: str = ACTUATORS[0]) -> Asked:
-    """Return the criteria of the study of a result, and of values that count instead.
+def asked_criteria(design: Any = None, values: Mapping[str, Any] = Fixed(), actuators: str = ACTUATORS[0]) -> Asked:
+    """Return the criteria of the study of a design, and of values that count instead.
 
-    `values` are of constraints of leg lengths, angles and axes of cones, and of other criteria. Where they say nothing
-    of lengths and the study compares those of several poses, the legs are built for them: see `built_ranges`.
+    `values` are of constraints of leg lengths, angles and axes of cones, and of other criteria; one of all legs or of
+    all joints of a body counts instead of those of each kind too. Where they say nothing of lengths and the study
+    compares those of several poses, the legs are built for them: see `built_ranges`.
     """
     from_study: dict[str, Any] = {}
     left: list[str] = []
-    if result is not None and result.best is not None:
-        from_study, left = study_limits(result.study, result.best.geometry, result.best.configuration)
-    criteria = from_study | {name: value for name, value in values.items() if not name.endswith("_axis")}
+    if design is not None and design.geometry is not None:
+        from_study, left = study_limits(design.study, design.geometry, design.configuration)
+    replaced = [name for name in from_study if any(_covers(other, name) for other in values)]
+    unchanged = from_study.keys() - replaced
+    criteria = {name: x for name, x in from_study.items() if name in unchanged}
+    criteria |= {name: value for name, value in values.items() if not name.endswith("_axis")}
     for cone in CONES:
         axis = values.get(f"{cone}_axis", _option(from_study.get(cone), "axis"))
         if axis is None:
@@ -125,17 +132,24 @@ def asked_criteria(result: Result | None, values: Mapping[str, Any] = Fixed(), a
             raise ValueError(f"{cone}_axis: got an axis alone, expected the angle too")
         criteria[cone] = {"max": _option(criteria[cone], "max", criteria[cone]), "axis": axis}
     criteria = {name: value for name, value in criteria.items() if value is not False}
-    ranges, unchanged = LEGS.keys() & criteria, from_study.keys() - values
+    ranges = OF_LENGTHS.keys() & criteria
     own = {name for name in unchanged - ranges if name in criteria}
     own |= {"leg_limits"} if ranges and ranges <= unchanged else set()
     criteria = with_leg_limits(criteria)
-    compares = any(name in SPREADS for name in left) and LEGS.keys().isdisjoint(values)
-    if result is None or not compares or (built := built_ranges(result, actuators)) is None:
-        return Asked(criteria, own, left, "")
+    compares = any(name in SPREADS for name in left) and OF_LENGTHS.keys().isdisjoint(values)
+    if not compares or (built := built_ranges(design, actuators)) is None:
+        return Asked(criteria, own, left, "", replaced)
     least, most = criteria.get("leg_limits", (0.0, math.inf))
     criteria["leg_limits"] = (np.maximum(least, built[0]), np.minimum(most, built[1]))
     left = [name for name in left if name not in SPREADS]
-    return Asked(criteria, own - {"leg_limits"}, left, ACTUATOR_WORDS[actuators])
+    return Asked(criteria, own - {"leg_limits"}, left, ACTUATOR_WORDS[actuators], replaced)
+
+
+def _covers(one: str, other: str) -> bool:
+    """Whether a limit is about all that another one is about: `base_cone` covers `base_cone_external`."""
+    if other in OF_LENGTHS:
+        return set(OF_LENGTHS.get(one, ())) >= set(OF_LENGTHS[other])
+    return one == other or (other in CONES and other.startswith(f"{one}_"))
 
 
 def _option(criterion: Any, name: str, otherwise: Any = None) -> Any:
@@ -158,7 +172,7 @@ def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[s
             continue
         unit = study.zp(home) if limit.of == "zp" else 1.0
         low, high = unit * limit.low * (1.0 - EASE), unit * limit.high * (1.0 + EASE)
-        if name in LEGS:
+        if name in OF_LENGTHS:
             criteria[name] = (low, high)
         elif ROWS[name].kind == "sign":
             criteria[name] = True
@@ -188,8 +202,8 @@ def _criterion(name: str, low: float, high: float, axis: Sequence[float]) -> Any
 
 def with_leg_limits(limits: Mapping[str, Any]) -> dict[str, Any]:
     """Return criteria whose ranges of leg lengths are one entry, the first."""
-    others = {name: value for name, value in limits.items() if name not in LEGS}
-    legs = leg_ranges({name: limits[name] for name in LEGS if name in limits})
+    others = {name: value for name, value in limits.items() if name not in OF_LENGTHS}
+    legs = leg_ranges({name: limits[name] for name in OF_LENGTHS if name in limits})
     return others if legs is None else {"leg_limits": legs} | others
 
 
@@ -199,7 +213,7 @@ def leg_ranges(ranges: Mapping[str, tuple[float, float]]) -> tuple[Any, Any] | N
     for name, (least, most) in ranges.items():
         if not 0.0 <= least < most:
             raise ValueError(f"{name}: got {least:g} to {most:g}, expected 0 <= low < high")
-        legs = LEGS[name]
+        legs = OF_LENGTHS[name]
         low[legs], high[legs] = np.maximum(low[legs], least), np.minimum(high[legs], most)
     if not low.any() and np.isinf(high).all():
         return None
@@ -207,30 +221,34 @@ def leg_ranges(ranges: Mapping[str, tuple[float, float]]) -> tuple[Any, Any] | N
     return (float(low[0]), float(high[0])) if alike else (low, high)
 
 
-def built_ranges(result: Result, actuators: str) -> tuple[Floats, Floats] | None:
+def built_ranges(design: Any, actuators: str) -> tuple[Floats, Floats] | None:
     """Return the lengths for which the legs are built, where a study compares those of several poses; None if unknown.
 
     "needed": the lengths that the poses of the study need, over its region all of it. "permitted": the ranges about
     them that its limits on strokes and ratios leave, so as long as the study lets an actuator be.
     """
-    best, region = result.best, result.study.objective.region
-    assert best is not None
-    if o_is_placed(result.study):
-        ranges = () if result.region is None else result.region.leg_ranges
+    study: Study = design.study
+    region, listed = study.objective.region, len(study.objective.poses)
+    if o_is_placed(study):
+        ranges = getattr(getattr(design, "region", None), "leg_ranges", ())
         if actuators == "needed":
-            ranges = tuple((leg.shortest, leg.longest) for leg in result.sheet().legs)
+            ranges = tuple((leg.shortest, leg.longest) for leg in sheet(design).legs)
         return _eased(*np.transpose(ranges)) if ranges else None
-    listed = len(result.study.objective.poses)
-    lengths = leg_lengths(best.geometry, best.configurations[1 : 1 + listed] if listed else best.configurations[:1])
+    lengths = leg_lengths(design.geometry, design.configurations[slice(1, 1 + listed) if listed else slice(1)])
     if region is not None:
-        over = leg_ranges_over(region, best.geometry, best.configuration)
+        over = leg_ranges_over(region, design.geometry, design.configuration)
         lengths = np.concatenate([over, lengths[:listed]])
     if actuators == "needed":
         return _eased(lengths.min(axis=0), lengths.max(axis=0))
+    return _eased(*permitted_ranges(study, design.configuration, lengths))
+
+
+def permitted_ranges(study: Study, home: Configuration, lengths: Floats) -> tuple[Floats, Floats]:
+    """Return the ranges about lengths at poses, shape (n, 9), that the limits of a study which compare them leave."""
     low, high = np.zeros(9), np.full(9, math.inf)
-    for _, least, most, _ in _core.leg_ranges(result.study.problem(), float(best.variables["zp"]), lengths):
+    for _, least, most, _ in _core.leg_ranges(study.problem(), study.zp(home), lengths):
         low, high = np.maximum(low, least), np.minimum(high, most)
-    return _eased(low, high)
+    return low, high
 
 
 def _eased(low: Floats, high: Floats) -> tuple[Floats, Floats]:

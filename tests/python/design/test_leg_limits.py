@@ -1,7 +1,6 @@
 """Limits of a study on the lengths of single legs."""
 
 import ninedof as nd
-from ninedof.design.limit_numbers import leg_limits_of
 
 
 def test_limits_of_legs_by_kind_and_unit():
@@ -14,6 +13,6 @@ def test_limits_of_legs_by_kind_and_unit():
             "radius_ratio": (None, 2.0),
         }
     )
-    low, high = leg_limits_of(study, nd.Configuration.neutral(4.0, 2.0))
+    low, high = study.leg_limits(nd.Configuration.neutral(4.0, 2.0))
     assert low.tolist() == [1.0] * 6 + [1.5] * 3
     assert high.tolist() == [9.0] * 3 + [8.0] * 3 + [9.0] * 3

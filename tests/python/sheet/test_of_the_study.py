@@ -1,5 +1,7 @@
 """Numbers of a design by the rules of its study: how O moves, at which poses, on which sides."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -73,3 +75,63 @@ def test_a_region_of_turns_alone_has_a_workspace_about_home():
     low, high = design_question(result)[0]["box"]
     assert (np.asarray(low) < result.configuration.position).all()
     assert (result.configuration.position < np.asarray(high)).all()
+
+
+@pytest.fixture(scope="module")
+def two():
+    """A result of two candidates of a study with loads, masses, a tool and a region."""
+    study = nd.Study(
+        variables=PLATES,
+        unit="mm",
+        characteristic_length=150.0,
+        constraints={"base_cone": {"max_deg": 50.0}, "force": (None, 400.0), "leg_length": (200.0, 900.0)},
+        objective={"region": {"box": [20.0, 20.0, 20.0]}},
+        loads={"wrenches": [[0.0, 0.0, 0.0, 30.0, 0.0, 0.0]]},
+        masses={"platform": 3.0, "rod": 0.2},
+        speeds={"linear": 100.0},
+        tolerances={"legs": 0.1},
+        tool={"position": [0.0, 0.0, -100.0]},
+    )
+    result = nd.optimize(study, starts=1)
+    return replace(result, candidates=(result.best, result.with_changes(zs="+4%").best))
+
+
+@pytest.mark.parametrize("k", [0, 1])
+def test_a_candidate_says_what_its_result_says(two, k, tmp_path):
+    result, candidate = replace(two, candidates=two.candidates[k:]), two.candidates[k]
+    sheets = [nd.sheet(one) for one in (result, candidate)]
+    assert str(sheets[0].to_dict()) == str(sheets[1].to_dict())
+    assert sheets[1].stated == ("speeds", "loads", "tolerances", "masses")
+    assert sheets[1].region.looked_at > 1000
+    assert [row.name for row in sheets[1].limits] == ["base_cone", "force", "leg_length", "leg_length"]
+    assert sheets[1].legs[0].permitted == (200.0, 900.0)
+    payloads = [nd.largest_payload(one) for one in (result, candidate)]
+    assert str(payloads[0].to_dict()) == str(payloads[1].to_dict())
+    assert 0.0 < payloads[1].mass < np.inf
+    for form in ("csv", "mjcf"):
+        texts = [nd.export(one, form, tmp_path / "machine.x").read_text() for one in (result, candidate)]
+        assert texts[0] == texts[1]
+    assert nd.load(nd.export(candidate, "csv", tmp_path / "plates.csv")).geometry == result.study.tool.plates(
+        candidate.geometry
+    )
+    spaces = [nd.workspace(one, tolerance=0.05) for one in (result, candidate)]
+    assert spaces[0].volume == spaces[1].volume > 0.0
+    assert str(nd.failure(result, pairs=False, samples=100).to_dict()) == str(
+        nd.failure(candidate, pairs=False, samples=100).to_dict()
+    )
+
+
+def test_a_design_point_knows_its_study(two):
+    point = two.study.evaluate(two.variables)
+    assert str(nd.sheet(point).limits) == str(two.sheet().limits)
+    assert nd.largest_payload(point).mass == pytest.approx(nd.largest_payload(two).mass, rel=1e-6)
+    assert point.permitted_lengths[1][0] == 900.0
+    assert "study" not in repr(point)
+    assert "study" not in repr(two.best)
+    assert "study" not in two.best.to_dict()
+
+
+def test_candidates_are_of_the_study_of_their_result(two):
+    other = replace(two, study=replace(two.study, masses={"platform": 9.0}))
+    assert {one.study.masses.platform for one in other.candidates} == {9.0}
+    assert two.best == other.best  # the same design

@@ -61,6 +61,7 @@ row("Study")(
         "actuators": [dict(ACTUATOR)],
         "actuators_for": "all",
         "greatest_price": 900.0,
+        "catalogue": "drives.csv",
         **{name: kind(**DUTY[name]).to_dict() for name, kind in DUTIES.items()},
     },
     words={"variables": OF_ROBOT, "characteristic_length": OF_ROBOT},
@@ -87,6 +88,9 @@ row("Tool.robot", nd.Tool(**DUTY["tool"]).robot)(ROBOT.copy)
 row("Tool.plates", nd.Tool(**DUTY["tool"]).plates)(lambda: {"geometry": it.g()})
 row("Tool.plate", nd.Tool(**DUTY["tool"]).plate)(lambda: {"configuration": it.c()})
 row("Tool.words", nd.Tool(**DUTY["tool"]).words)(lambda: {"unit": "mm"})
+row("Study.leg_limits", lambda **a: it.study().leg_limits(**a), loose=("ranges",))(
+    lambda: {"neutral": it.c(), "ranges": [(1.0, 9.0)] * 9}
+)
 row("Study.zp", lambda **a: it.study().zp(**a))(lambda: {"neutral": it.c()})
 row("Masses.seen_from", nd.Masses(**DUTY["masses"]).seen_from)(lambda: {"tool": nd.Tool(**DUTY["tool"])})
 row("Study.paper", nd.Study.paper)(dict)

@@ -6,11 +6,13 @@ import time
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 import ninedof as nd
-from ninedof.viewer.body import Body, BodySearch, body_of, question_of
+from ninedof.viewer.body import Body, BodySearch, body_of, leg_limits, question_of
 from ninedof.viewer.machine import machine_of
 from ninedof.viewer.state import State
+from ninedof.workspace.study_question import asked_criteria
 
 
 def body(state, condition_limit=math.inf):
@@ -94,3 +96,15 @@ def test_the_spread_of_a_study_bounds_the_body(constraint):
         long, short = legs.max(axis=0), legs.min(axis=0)
         spread = {"stroke": long - short, "stroke_ratio": long / short, "leg_ratio": long.max() / short.min()}[name]
         assert np.max(spread) < most * 1.02
+
+
+@pytest.mark.parametrize(
+    "constraint", [{"stroke_ratio": (None, 1.3)}, {"leg_ratio": (None, 3.0)}, {"stroke": (None, 2.0)}, {}]
+)
+@pytest.mark.parametrize("objective", [{"poses": nd.poses.box((0.3, 0.3, 0.3))}, {"region": {"box": [0.2, 0.2, 0.1]}}])
+def test_legs_have_the_ranges_of_the_command(constraint, objective):
+    limits = constraint | {"upper_length": (0.2, 9.0)}
+    result = nd.optimize(nd.Study(constraints=limits, objective=objective), starts=2)
+    typed = asked_criteria(result).criteria["leg_limits"]
+    for own, other in zip(leg_limits(State(machine_of(result)).variant), typed, strict=True):
+        assert_allclose(own, other, rtol=1e-6)

@@ -190,8 +190,7 @@ def test_every_limit_of_a_run_is_replaced_by_its_option(run, tmp_path, a_run):
     asked = json.loads((tmp_path / "a" / "record.json").read_text())["question"]
     assert asked["internal_point"] == home.internal_point.tolist()
     assert_allclose(asked["criteria"]["leg_limits"][0], np.full(9, 0.5))
-    high = np.repeat([6.0, 1.3 * home.position[2], 7.0], 3)
-    assert_allclose(asked["criteria"]["leg_limits"][1], high, rtol=2 * EASE)
+    assert_allclose(asked["criteria"]["leg_limits"][1], np.repeat([8.0, 8.0, 7.0], 3))
     assert asked["criteria"]["base_cone"] == {"max": np.radians(70.0), "axis": [0.0, 1.0, 1.0]}
     assert asked["criteria"]["leg_clearance"] == 0.01
     assert "singularity_free" not in asked["criteria"]
@@ -263,3 +262,28 @@ def test_limits_of_legs_and_what_the_poses_need_hold_together():
     typed = asked_criteria(result, {"upper_length": (1.0, 9.0)})
     assert (typed.left, typed.actuators) == (["stroke_ratio"], "")
     assert typed.criteria["leg_limits"][0].tolist() == pytest.approx(np.repeat([4.0, 1.0, 0.0], 3).tolist())
+
+
+def test_an_option_of_all_joints_or_legs_replaces_those_of_each_kind(run, tmp_path):
+    limits = {
+        "base_cone_external": {"max_deg": 30.0},
+        "base_cone_internal": {"max_deg": 60.0},
+        "platform_cone_internal": {"max_deg": 50.0},
+        "upper_length": (0.5, 9.0),
+    }
+    result = nd.optimize(nd.Study(variables={"a1": 0.0, "b2": 0.0}, constraints=limits), starts=2)
+    typed = asked_criteria(result, {"base_cone": 0.7})
+    assert typed.replaced == ["base_cone_external", "base_cone_internal"]
+    assert sorted(typed.criteria) == ["base_cone", "leg_limits", "platform_cone_internal"]
+    assert typed.own == {"leg_limits", "platform_cone_internal"}
+    assert asked_criteria(result, {"base_cone_external": 0.7}).replaced == ["base_cone_external"]
+    assert asked_criteria(result, {"leg_length": (1.0, 8.0)}).replaced == ["upper_length"]
+    assert asked_criteria(result, {"external_length": (1.0, 8.0)}).replaced == []
+    assert asked_criteria(result).replaced == []
+    folder = nd.save(result, tmp_path / "run").parent
+    status, out, _ = run(f"workspace {folder} --base-cone-deg 40 --no-figures --tolerance 0.2 --out {tmp_path / 'w'}")
+    assert status == 0
+    words = " ".join(out.split())
+    assert "limits of the study that options replace: base_cone_external, base_cone_internal " in words
+    assert "limit: base cone 40 degrees" in words
+    assert "base cone external" not in words

@@ -36,8 +36,9 @@ EXAMPLES = """
 def workspace(options: WorkspaceOptions) -> None:
     """Compute the workspace of a robot: its volume, its boundary and what limits it.
 
-    A run brings the limits of its study that a single pose can meet; each option replaces its own. O keeps its place
-    between the plates. Of a region study, the box is about the region, which is outlined, and O follows its rule.
+    A run brings the limits of its study that a single pose can meet; each option replaces its own, one of all legs or
+    joints those of each kind too. O keeps its place between the plates. Of a region study, the box is about the region,
+    which is outlined, and O follows its rule.
     """
     screen = options.screen
     chosen = with_length(named_design(options.design), options.lc)
@@ -104,6 +105,8 @@ def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator
     yield next(asked)
     if question.asked.actuators:
         yield question.asked.actuators
+    if question.asked.replaced:
+        yield f"limits of the study that options replace: {', '.join(question.asked.replaced)}"
     yield from asked
     yield workspace_table(result)
     yield from (bold(*words) for words in workspace_words(result))
