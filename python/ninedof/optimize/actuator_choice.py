@@ -65,7 +65,7 @@ class ActuatorChoice(Table):
     left_out: tuple[str, ...] = entry(_texts, ())
     """Rows that were not tried: another can do as much and costs no more, or their stroke is too short."""
     notes: tuple[str, ...] = entry(_texts, ())
-    """What was not looked at."""
+    """The file that the rows are from, and what was not looked at."""
 
     @property
     def words(self) -> list[str]:
@@ -87,10 +87,14 @@ def _priced(one: Combination) -> str:
 
 
 def notes_of(study: Study) -> tuple[str, ...]:
-    """Return which columns of the actuators have no effect in a study."""
+    """Return where the actuators of a study are from, and which of their columns have no effect in it."""
     columns = (("force", "loads"), ("rate", "speeds"))
-    return tuple(
-        f"the {column}s of the actuators are not looked at: the study states no {needs}"
-        for column, needs in columns
-        if not study.stated[needs] and any(getattr(row, column) < math.inf for row in study.actuators)
+    file = [f"actuators from {study.catalogue}, {len(study.actuators)} rows"] if study.catalogue else []
+    return (
+        *file,
+        *(
+            f"the {column}s of the actuators are not looked at: the study states no {needs}"
+            for column, needs in columns
+            if not study.stated[needs] and any(getattr(row, column) < math.inf for row in study.actuators)
+        ),
     )

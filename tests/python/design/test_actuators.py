@@ -10,6 +10,7 @@ from duty_oracle import DUTY
 
 import ninedof as nd
 from ninedof.design.actuators import hull
+from ninedof.optimize.actuator_choice import notes_of
 from ninedof.optimize.actuators import least_travel
 
 INF = math.inf
@@ -43,7 +44,11 @@ def test_rows_of_a_study_are_those_of_its_file(tmp_path):
     text = 'unit = "mm"\nactuators = "lists/catalogue.csv"\n[design]\nactuators_for = "all"\ngreatest_price = 700.0\n'
     loaded = nd.Study.load(saved(tmp_path, text, "listed.toml"))
     assert (loaded.actuators, loaded.actuators_for, loaded.greatest_price) == ((A, B), "all", 700.0)
-    assert nd.Study(actuators=saved(tmp_path, FILE)).actuators == (A, B)
+    assert (loaded.catalogue, typed.catalogue) == ("lists/catalogue.csv", "")
+    assert notes_of(loaded)[0] == "actuators from lists/catalogue.csv, 2 rows"
+    assert not any("rows" in words for words in notes_of(typed))
+    read = nd.Study(actuators=saved(tmp_path, FILE))
+    assert (read.actuators, read.catalogue) == ((A, B), "catalogue.csv")
 
 
 @pytest.mark.parametrize(
