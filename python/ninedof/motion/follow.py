@@ -235,8 +235,8 @@ def follow(
     Parameters
     ----------
     geometry : Geometry, Result or Design
-        A design stands for its geometry, its home and its characteristic length, a Result also for the leg lengths
-        that its study permits and for the rule for O of its region.
+        A design stands for its geometry, its home and its characteristic length, one of a study, as a Result, also for
+        the leg lengths that the study permits and for the rule for O of its region.
     trajectory : Trajectory
     home : Configuration
         The neutral configuration, a single one: it says where O is. Needed with a Geometry.

@@ -249,7 +249,8 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
     ----------
     design : Result, Candidate, DesignPoint, a design of a file, or Geometry
         The first three with the poses of their study, the neutral pose first: its limits are shown, and its region is
-        looked over. A design of a file has no study, and the neutral pose alone.
+        looked over, but for a DesignPoint where O is placed anew at every pose and limits compare lengths. A design of
+        a file has no study, and the neutral pose alone.
     poses : Configuration, shape (n,), optional
         In place of the study's; the neutral pose of the design stays the first. For a Geometry they are needed, and
         the first of them is the neutral one. No region is looked over then.
