@@ -68,12 +68,28 @@ NINEDOF_INLINE void for_each_reduced_chunk(const Block& b, const Work& work) {
 /// Above this condition number, or if the distance of O from p is more than this many characteristic lengths times the
 /// largest singular value of M, rounding errors are too large: the row is unsure.
 constexpr double most_condition = 1e8, most_lever = 16.0;
+/// So it is unless the larger of the platform's radius and this distance is between these multiples of the
+/// characteristic length: of angular and other columns of such different sizes the smaller ones lose digits that the
+/// Jacobi method for one configuration keeps.
+constexpr double least_size = 1.0 / 32.0, most_size = 1e4;
+
+/// The largest distance of an external joint of the platform from p, squared.
+NINEDOF_INLINE double squared_radius(const Joints& g) {
+  double radius = 0.0;
+  for (const auto& u : g.platform_external) {
+    const double squared = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+    if (squared > radius) radius = squared;
+  }
+  return radius;
+}
 
 template <class P>
-NINEDOF_INLINE typename P::Mask lever_allows(const Columns& c, long k, const P& greatest) {
+NINEDOF_INLINE typename P::Mask lever_allows(const Block& b, const Columns& c, long k, const P& greatest) {
   const Poses<P> pose = c.poses<P>(k);
   const Xyz<P> y = pose.s - pose.p;
-  return dot(y, y) <= (most_lever * most_lever) * greatest * square(c.length<P>(k));
+  const P lever = dot(y, y), unit = square(c.length<P>(k)), size = max(lever, P(squared_radius(b.robot)));
+  return (lever <= (most_lever * most_lever) * greatest * unit) & (size >= (least_size * least_size) * unit) &
+         (size <= (most_size * most_size) * unit);
 }
 
 void leg_lengths(const Block& b, double* out) {
@@ -102,7 +118,7 @@ void condition_numbers(const Block& b, double* out) {
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const auto [least, greatest] = extreme_roots(reduced.load<Lanes>(k));
       const Lanes ratio = sqrt(greatest.x / least.x);
-      const auto sure = (ratio <= most_condition) & lever_allows(c, k, greatest.x);
+      const auto sure = (ratio <= most_condition) & lever_allows(b, c, k, greatest.x);
       store(select(least.open | greatest.open, unsure, select(sure, ratio, unsure)), kappa + k);
     }
     scatter<1>(&kappa, rows, out + first);
@@ -116,7 +132,7 @@ void frobenius_condition_numbers(const Block& b, double* out) {
       const Polynomial<Lanes> p(reduced.load<Lanes>(k));
       const Lanes& sum = p.s[0];
       const Lanes ratio = sqrt(sum * (p.s[4] / p.s[5]));
-      store(select((ratio <= most_condition) & lever_allows(c, k, sum), ratio, unsure), kappa + k);
+      store(select((ratio <= most_condition) & lever_allows(b, c, k, sum), ratio, unsure), kappa + k);
     }
     scatter<1>(&kappa, rows, out + first);
   });
@@ -127,7 +143,7 @@ void singular_values(const Block& b, double* out) {
     alignas(64) double sigma[6][chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const Roots<Lanes> root = all_roots(reduced.load<Lanes>(k));
-      const auto sure = (root.x[5] <= (most_condition * most_condition) * root.x[0]) & lever_allows(c, k, root.x[5]);
+      const auto sure = (root.x[5] <= (most_condition * most_condition) * root.x[0]) & lever_allows(b, c, k, root.x[5]);
 #pragma GCC unroll 6
       for (int j = 0; j < 6; ++j) {
         const Lanes value = 1.0 / sqrt(root.x[j]);
