@@ -13,6 +13,7 @@
 #include "position/path_bounds.hpp"
 #include "position/polish_rotation.hpp"
 #include "position/rotation_problem.hpp"
+#include "position/sharpened.hpp"
 
 namespace ninedof {
 namespace {
@@ -62,6 +63,7 @@ struct Target {
         seed(problem.unit, rotation),
         scale(problem.base_distance.cwiseProduct(problem.platform_distance)),
         waypoint(robot, lengths, there, seed.value.cwiseProduct(scale)),
+        of_points(point_error / lengths.maxCoeff()),
         error(known_to + point_error * lengths.head<3>().maxCoeff() / scale.minCoeff()),
         beta(seed.inverse_norm()),
         eta(seed.newton_step().norm()) {}
@@ -73,6 +75,7 @@ struct Target {
   RotationResidual seed;
   Vec3 scale;  ///< of the residuals
   Waypoint waypoint;
+  double of_points;  ///< error of O in both frames, relative to the longest leg
   double error;  ///< of the equations, from rounding and from that of O
   double beta, eta;
 };
@@ -191,7 +194,8 @@ Step step_to(const Robot& robot, const Waypoint& start, const Vec9& lengths, con
     if (!proved_from_middle(robot, start.lengths, lengths, rotation, polished.rotation)) return out;
   }
   out.reach = Reach::yes;
-  out.configuration = {target->at.s - polished.rotation * target->at.o, polished.rotation, target->at.s};
+  const Configuration found{target->at.s - polished.rotation * target->at.o, polished.rotation, target->at.s};
+  out.configuration = sharpened(robot.geometry, lengths, found, target->of_points, out.separation);
   return out;
 }
 
