@@ -7,7 +7,7 @@
 #include "ninedof/position/trilateration.hpp"
 #include "position/branch.hpp"
 #include "position/length_unit.hpp"
-#include "position/sharpened.hpp"
+#include "position/sharpen.hpp"
 
 namespace ninedof {
 namespace {
@@ -121,7 +121,7 @@ AssemblyModes solve_ordinary(const Geometry& g, const Vec9& leg_lengths, Rotatio
   const double error = (lower.error + upper.error) / unit;
   for (std::size_t k = 0; k < at_index(out.count); ++k) {
     AssemblyMode& mode = out.mode[k];
-    mode.configuration = sharpened(g, leg_lengths, mode.configuration, error, mode.separation);
+    sharpen(g, leg_lengths, error, mode.configuration, mode.separation);
   }
   if (lower.kind == Meeting::touching || upper.kind == Meeting::touching) out.certain = false;  // one O or two
   if (self_motion) {

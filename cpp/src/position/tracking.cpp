@@ -13,7 +13,7 @@
 #include "position/path_bounds.hpp"
 #include "position/polish_rotation.hpp"
 #include "position/rotation_problem.hpp"
-#include "position/sharpened.hpp"
+#include "position/sharpen.hpp"
 
 namespace ninedof {
 namespace {
@@ -194,8 +194,8 @@ Step step_to(const Robot& robot, const Waypoint& start, const Vec9& lengths, con
     if (!proved_from_middle(robot, start.lengths, lengths, rotation, polished.rotation)) return out;
   }
   out.reach = Reach::yes;
-  const Configuration found{target->at.s - polished.rotation * target->at.o, polished.rotation, target->at.s};
-  out.configuration = sharpened(robot.geometry, lengths, found, target->of_points, out.separation);
+  out.configuration = {target->at.s - polished.rotation * target->at.o, polished.rotation, target->at.s};
+  sharpen(robot.geometry, lengths, target->of_points, out.configuration, out.separation);
   return out;
 }
 
@@ -212,6 +212,12 @@ bool ends_at(const Robot& robot, const Waypoint& at, const Mat3& rotation) {
 int usable_exponent(const Geometry& g) {
   const int exponent = unit_exponent(largest_coordinate(g));
   return exponent != 0 && scaled(g, -exponent) ? exponent : 0;
+}
+
+/// A rotation matrix may be off by 1e-9; the proofs take it for orthogonal to rounding.
+Configuration made_orthogonal(const Configuration& c) {
+  if ((c.rotation.transpose() * c.rotation - Mat3::Identity()).cwiseAbs().maxCoeff() <= 16.0 * eps) return c;
+  return {c.position, Eigen::Quaterniond(c.rotation).normalized().toRotationMatrix(), c.internal_point};
 }
 
 /// O in the platform frame.
@@ -263,8 +269,9 @@ Tracker::Tracker(const Geometry& g)
       base_(geometry_.base_internal()),
       platform_(geometry_.platform_internal()) {}
 
-Tracked Tracker::operator()(const Vec9& leg_lengths, const Configuration& start) const {
+Tracked Tracker::operator()(const Vec9& leg_lengths, const Configuration& given) const {
   require_leg_lengths(leg_lengths);
+  const Configuration start = made_orthogonal(given);
   if (exponent_ == 0) return follow(leg_lengths, start);
   Tracked out = follow(scaled(leg_lengths, -exponent_), scaled(start, -exponent_));
   out.configuration = scaled(out.configuration, exponent_);

@@ -273,3 +273,16 @@ def test_a_plate_too_small_to_place_o_proves_nothing(plate, width, status):
         there = nd.track(g, nd.leg_lengths(g, start), start)
         assert there.status == status
         assert (nd.condition_number(g, start) > 1e12) == (status == "unproved")
+
+
+@pytest.mark.parametrize("digits", [9.5, 11.0, 13.0, 15.0])
+def test_a_start_whose_rotation_is_orthogonal_to_fewer_digits(digits):
+    """Such as one from a file: accepted to 1e-9. The first row of its own lengths is tracked too."""
+    rng = np.random.default_rng(17)
+    for _ in range(20):
+        g, c = any_pose(rng, hexagonal=True)
+        off = 10.0**-digits * rng.uniform(-0.4, 0.4, size=(3, 3))
+        start = nd.Configuration(c.position, c.rotation + off, c.internal_point)
+        modes = nd.track(g, [nd.leg_lengths(g, start)] * 2, start)
+        assert (modes.status == "tracked").all()
+        assert np.abs(modes.rotation - c.rotation).max() < 1e-5

@@ -42,6 +42,13 @@ def near_a_double_rotation():
     return g, nd.Configuration(p, np.eye(3), s), np.repeat([5.0, 13.0, 13.0], 3)
 
 
+def separation(g, c):
+    """Whole numbers, or nearly so: no rounding to speak of."""
+    d, w = g.base_external - c.internal_point, c.position + g.platform_external - c.internal_point
+    rows = np.cross(w, d) / (np.linalg.norm(w, axis=1) * np.linalg.norm(d, axis=1))[:, None]
+    return np.linalg.svd(rows)[1][-1]
+
+
 ROBOTS = [near_the_base, near_the_platform, near_a_double_rotation]
 
 
@@ -65,6 +72,10 @@ def test_all_modes_have_all_digits(robot):
     modes = nd.forward_position(g, lengths)
     assert modes.status == "found"
     assert error(modes, c) < 4e-15
+    nearest = np.argmin(
+        np.abs(modes.rotation - np.eye(3)).max(axis=(1, 2)) + np.abs(modes.position - c.position).max(axis=1)
+    )
+    np.testing.assert_allclose(modes.separation[nearest], separation(g, c), rtol=1e-9)
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
@@ -73,6 +84,7 @@ def test_and_so_has_a_tracked_one(robot):
     found = nd.track(g, lengths, c.moved(NEAR / 64.0 * np.array([1.0, -1.0, 1.0, 1.0, 1.0, -1.0, 1.0, -1.0, 1.0])))
     assert found.status == "tracked"
     assert error(found, c) < 4e-15
+    np.testing.assert_allclose(found.separation, separation(g, c), rtol=1e-9)
 
 
 @pytest.mark.parametrize("size", [2.0**-200, 2.0**200])

@@ -1,12 +1,15 @@
-#include "position/sharpened.hpp"
+#include "position/sharpen.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "kinematics/closure.hpp"
 #include "math/numbers.hpp"
 #include "math/twofold.hpp"
+#include "position/polish_rotation.hpp"
+#include "position/rotation_problem.hpp"
 
 namespace ninedof {
 namespace {
@@ -85,11 +88,8 @@ double missing(double length, const Point& leg) {
   return 0.5 * (Twofold::product(length, length) - dot(leg, leg)).high;
 }
 
-}  // namespace
-
-Configuration sharpened(const Geometry& g, const Vec9& leg_lengths, const Configuration& mode, double error,
-                        double separation) {
-  if (error + equation_rounding <= small_error * separation) return mode;
+/// Empty where the corrections do not shrink.
+std::optional<Configuration> corrected(const Geometry& g, const Vec9& leg_lengths, const Configuration& mode) {
   const double unit = leg_lengths.maxCoeff();
   Precise at(mode);
   double last = longest_correction / shrinking;
@@ -112,11 +112,27 @@ Configuration sharpened(const Geometry& g, const Vec9& leg_lengths, const Config
     const Vec3 turn = vec3(v.angular), ds = vec3(v.o), dp = vec3(v.at_o + cross(solver.legs.y, v.angular));
     const double size = std::max({turn.norm(), dp.norm() / unit, ds.norm() / unit});
     if (size <= no_correction) return here;
-    if (!(size <= shrinking * last)) return mode;
+    if (!(size <= shrinking * last)) return std::nullopt;
     at.move(turn, dp, ds);
     last = size;
   }
   return rounded(at, at.rotation());
+}
+
+double separation_of(const Geometry& g, const Vec3& external_lengths, const Configuration& c) {
+  const Vec3 o = c.rotation.transpose() * (c.internal_point - c.position);
+  const ScaledRotationProblem problem = rotation_problem(g, {c.internal_point, o}, external_lengths);
+  return 1.0 / RotationResidual(problem.unit, c.rotation).inverse_norm();
+}
+
+}  // namespace
+
+void sharpen(const Geometry& g, const Vec9& leg_lengths, double error, Configuration& mode, double& separation) {
+  if (error + equation_rounding <= small_error * separation) return;
+  const std::optional<Configuration> found = corrected(g, leg_lengths, mode);
+  if (!found) return;
+  mode = *found;
+  separation = separation_of(g, leg_lengths.head<3>(), mode);
 }
 
 }  // namespace ninedof
