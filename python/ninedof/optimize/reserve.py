@@ -151,12 +151,18 @@ def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) 
             return replace(_of(study, result, first), interrupted=True, reserve=Reserve(shares, note=note))
         if not lacking:
             return replace(_of(study, result, first), reserve=Reserve(shares, proved=True))
+        if _is_stopped(result):
+            break
         taken = {key: shares.get(key, 1.0) * share for key, share in lacking.items()}
         if left == 0 or not all(LEAST_SHARE < share < 1.0 / LEAST_SHARE for share in taken.values()):
             break
         shares |= taken
         result = solve(Reserve(shares).study(study), result)
     return _without(study, result, first, Reserve(shares, note=UNPROVED), lacking)
+
+
+def _is_stopped(result: Any) -> bool:
+    return result.interrupted or result.status == type(result.status).STOPPED
 
 
 def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
@@ -191,8 +197,11 @@ def _of(study: Study, result: Any, first: Any) -> Any:
 
 
 def _without(study: Study, result: Any, first: Any, reserve: Reserve, lacking: Iterable[str]) -> Any:
-    """Return what is left where no design is proved: the last one, or that there is none."""
-    if first.best is None or result.interrupted:
+    """Return what is left where no design is proved: of a search that was stopped the last one, else that there is none."""
+    if first.best is None or _is_stopped(result):
+        if result.best is None and first.best is not None:  # that without a reserve is the best one so far
+            result = replace(first, status=result.status, reason=result.reason, interrupted=result.interrupted)
+            reserve = Reserve(note=reserve.note)
         return replace(_of(study, result, first), reserve=reserve)
     if result.best is not None:
         reason = f"{UNPROVED}: {', '.join(name.replace('_', ' ') for name in lacking)}"

@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
+from ninedof.optimize.reserve import Reserve, with_reserve
 from ninedof.optimize.result import result_from
 
 REQUIREMENT = nd.Study.load(Path(__file__).parents[3] / "examples" / "18_requirement.toml")
@@ -187,3 +188,24 @@ def test_a_limit_that_the_design_keeps_as_drawn_is_no_end(limit):
     result = nd.optimize(study)
     assert result.status == "optimal"
     assert result.reserve.proved
+
+
+def test_a_search_that_the_time_ended_is_not_infeasible():
+    """The time is over after the search without a reserve: its design is the best one so far."""
+    asked = replace(REQUIREMENT, tolerances=TOLERANCES)
+    first = nd.optimize(REQUIREMENT, starts=2)
+    asked_again = []
+
+    def ended(study, known):
+        asked_again.append(study)
+        return replace(known, status=nd.Status.STOPPED, reason="the time", candidates=(), region=None)
+
+    result = with_reserve(replace(first, study=asked), ended, 0)
+    assert result.status == "stopped"
+    assert result.best == first.best
+    assert result.reserve == Reserve(note="not proved of every machine within the tolerances")
+    assert result.solved.constraints == asked.constraints
+    stopped = with_reserve(replace(first, study=asked, status=nd.Status.STOPPED), ended, 0)
+    assert stopped.status == "stopped"
+    assert stopped.best == first.best
+    assert len(asked_again) == 1  # nothing is solved when the time is over
