@@ -6,7 +6,10 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+import numpy as np
+
 from ninedof.design.poses import rule_words
+from ninedof.design.region_poses import configurations_at
 from ninedof.design.study import LENGTH, Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.redundancy.redundancy import best_internal_point
@@ -16,6 +19,8 @@ from ninedof.tables import RIGHT, SHORT, Column, Line, Table
 
 LEAST_PRICE = 0.0005  # per cent of the objective for one per cent of the limit; smaller prices have no number
 MOST_GAIN = 10.0  # per cent of the objective: first-order prices hold for small gains only
+ENDS = 1e3 * np.array([(1.0, 2.0, 3.0, 2.0, 1.0, 1.0), (-2.0, 1.0, -1.0, -1.0, 3.0, -1.0)])
+"""Coordinates of two poses at ends of a region."""
 SURE = 0.95  # probability with which a better optimum would have been met
 
 
@@ -205,7 +210,13 @@ def internal_point_words(result: Any) -> str:
     if best is None or len(result.solved.objective.poses) < 2:
         return ""
     where = rule_words(result.solved.objective.poses)
-    idle = ", ".join(idle_names(leg_lengths(best.geometry, best.configurations)))
+    lengths = leg_lengths(best.geometry, best.configurations)
+    region = result.study.objective.region
+    if region is not None and region.internal_point != "best":
+        # At the poses that ruled a leg may be equally long by chance.
+        others = configurations_at(region, best.configurations[0], ENDS)
+        lengths = np.concatenate([lengths, leg_lengths(best.geometry, others)])
+    idle = ", ".join(idle_names(lengths))
     if not idle:
         return where
     sentence = f'{where}; {idle} never move, with internal_point = "best" they would'

@@ -159,3 +159,14 @@ def test_o_by_the_rule_of_each_pose():
     assert rule_words([nd.Pose(shift), nd.Pose(shift, internal_point="held"), nd.Pose()]) == (
         "O is shifted with the platform's origin at 2 poses, held in the base at 1 pose"
     )
+
+
+@pytest.mark.parametrize(("tilt", "never"), [(0.2, False), (0.0, True)])
+def test_a_leg_of_one_length_at_the_poses_that_ruled_moves_where_the_region_turns_it(tilt, never):
+    study = dataclasses.replace(nd.Study.paper(), objective={"region": {"box": (0.3, 0.3, 0.1), "tilt": tilt}})
+    result = nd.optimize(study, starts=1)
+    home = result.best.configurations
+    ruled = home[np.zeros(len(home), dtype=int)]  # the same lengths of all legs
+    said = dataclasses.replace(result, candidates=(dataclasses.replace(result.best, configurations=ruled),))
+    assert ("q1, q2, q3 never move" in said.internal_points) == never
+    assert "l1" not in said.internal_points
