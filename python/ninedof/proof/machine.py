@@ -87,7 +87,6 @@ def certify(
             raise ValueError("resume: got a certificate of another machine, expected one of this machine")
     begin = perf_counter()
     rule = _rule(study, configurations[0], values["rule"], resume)
-    end = perf_counter() + seconds  # finding a rule does not count for the time limit
 
     def settings(bounds: list[float]) -> _core.ConditionSettings:
         remaining = end - perf_counter()
@@ -104,6 +103,7 @@ def certify(
         errors = _core.error_over_poses(machine, 2.0 * gap, threads, max(FOR_ERRORS * seconds, FOR_LIMITS))
 
     phase(progress, "proving the condition number")
+    end = perf_counter() + seconds  # what was before does not count: it is done again whenever a proof is gone on with
     objective = study.objective
     bounds = {"condition_limit": objective.condition_limit, "condition_number": condition_number}
     limits_of_index = {name: bound for name, bound in bounds.items() if bound is not None}

@@ -9,6 +9,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
+from time import sleep
 
 import numpy as np
 import numpy_model as model
@@ -319,3 +320,22 @@ def test_no_known_pose_is_worse_than_the_worst_met():
         certificate = result.certify(gap=0.3, time_limit=0.0)
         assert certificate.condition[0] >= result.best.objective * (1.0 - 1e-9)
         assert all(limit.answer != "undecided" for limit in certificate.limits)
+
+
+def test_the_time_of_the_limits_is_not_taken_from_the_condition_number(monkeypatch):
+    """Whenever a proof is gone on with they take as long again."""
+    limits, settings, seconds = _core.limits_over_poses, _core.ConditionSettings, []
+
+    def slow(*arguments):
+        sleep(0.2)
+        return limits(*arguments)
+
+    def noted(**given):
+        seconds.append(given["seconds"])
+        return settings(**given)
+
+    monkeypatch.setattr(_core, "limits_over_poses", slow)
+    monkeypatch.setattr(_core, "ConditionSettings", noted)
+    geometry, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0), nd.Configuration.neutral([4.0], [2.4])
+    certify(nd.Study(objective={"region": {"box": [0.01] * 3}}), geometry, home, 1.0, time_limit=0.2)
+    assert 0.1 < seconds[0] <= 0.2
