@@ -197,7 +197,7 @@ def _of(study: Study, result: Any, first: Any) -> Any:
 
 
 def _without(study: Study, result: Any, first: Any, reserve: Reserve, lacking: Iterable[str]) -> Any:
-    """Return what is left where no design is proved: of a search that was stopped the last one, else that there is none."""
+    """Return what is left where no design is proved: the last one of a stopped search, else that there is none."""
     if first.best is None or _is_stopped(result):
         if result.best is None and first.best is not None:  # that without a reserve is the best one so far
             result = replace(first, status=result.status, reason=result.reason, interrupted=result.interrupted)
