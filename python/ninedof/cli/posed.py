@@ -74,6 +74,12 @@ class Chosen:
         return None if self.result is None else self.result.study
 
     @property
+    def rule(self) -> str:
+        """The rule for O, that of the region of its study."""
+        region = None if self.study is None else self.study.objective.region
+        return "carried" if region is None else region.internal_point
+
+    @property
     def duty(self) -> nd.Study:
         """The study that says what the machine is for; one of the tool alone without a study."""
         return self.study or nd.Study(tool=self.tool)
@@ -129,7 +135,8 @@ class PoseOptions(Options):
     position: Three | None = triple("Position of the platform, base frame; the neutral one by default.")
     rotation_deg: Three | None = triple("Rotation vector from the neutral orientation, base axes, degrees.")
     internal_point: str | None = option(
-        'O at that pose: carried (default), shifted, held, best, a fraction between the plates, or "X Y Z".'
+        'O at that pose: carried, shifted, held, best, a fraction between the plates, or "X Y Z"; by default as in the '
+        "region of the run's study, else carried."
     )
 
     def at(self) -> DesignAtPoses:
@@ -145,7 +152,7 @@ class PoseOptions(Options):
         q = home.moved(np.concatenate([turn, np.zeros(6)])).rotation if turn.any() else home.rotation
         s = home.internal_point
         if self.given(*POSE):
-            s = _internal_point(chosen, p, q, self.internal_point or "carried")
+            s = _internal_point(chosen, p, q, self.internal_point or chosen.rule)
         return nd.Configuration(p[None], q[None], s[None])
 
 

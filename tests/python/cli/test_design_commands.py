@@ -156,6 +156,22 @@ def test_places_of_the_internal_point(run):
     assert best["internal_point"] == pytest.approx(placed, abs=1e-9)
 
 
+@pytest.mark.parametrize("rule", ["shifted", "held", "best"])
+def test_o_is_where_the_region_of_the_study_has_it(run, tmp_path, rule):
+    region = {"box": (0.2, 0.2, 0.1), "tilt": 0.1, "internal_point": rule}
+    sides = {"a1": 0.0, "a2": (5.0, 6.0), "b1": 2.9, "b2": 0.0, "zp": 4.0, "zs": 2.4}
+    nd.save(nd.optimize(nd.Study(variables=sides, objective={"region": region}), starts=1), tmp_path / "run")
+    at = f"forces {tmp_path / 'run'} --load {LOAD} --position 0.1 0.2 4.1 --rotation-deg 4 0 0"
+    there, said = (data_of(run, at + more)["poses"][0]["internal_point"] for more in ("", f" --internal-point {rule}"))
+    assert there == said
+    assert there != data_of(run, f"{at} --internal-point carried")["poses"][0]["internal_point"]
+    (tmp_path / "path.csv").write_text(
+        "t,x,y,z,rx_deg,ry_deg,rz_deg\n" + "".join(f"{t},0.1,0.2,{4.1 + 1e-3 * t},4,0,0\n" for t in range(-3, 4))
+    )
+    assert run(f"path {tmp_path / 'run'} {tmp_path / 'path.csv'} --no-figures --out {tmp_path / 'path'}")[0] in (0, 3)
+    assert nd.load(tmp_path / "path").configurations.internal_point[3] == pytest.approx(there, abs=1e-6)
+
+
 BEYOND = "beyond a singularity: det {} is {} at the neutral pose, {}; every way from the neutral pose passes det {} = 0"
 COMMANDS = [f"forces {{}} --load {LOAD}", "stiffness {} --leg-stiffness 10", "accuracy {} --leg-error 1"]
 

@@ -83,7 +83,8 @@ def path(options: _Options) -> None:
     g, home, study = chosen.geometry, chosen.configuration, chosen.study
     trajectory = _trajectory(chosen, options)
     limits: Any = chosen.permitted_lengths if options.legs is None else options.legs
-    how: dict[str, Any] = {"internal_point": _rule(options.internal_point, study), "limits": limits}
+    rule = chosen.rule if options.internal_point is None else rule_option(options.internal_point)
+    how: dict[str, Any] = {"internal_point": rule, "limits": limits}
     masses = masses_of(chosen.duty, options.mass, options.centre)
     gravity = chosen.duty.loads.gravity if options.gravity is None else options.gravity
     force, moment, stated = _load(options, chosen.duty)
@@ -146,14 +147,6 @@ def _load(options: _Options, duty: nd.Study) -> tuple[Any, Any, list[str]]:
         return options.force, options.moment, []
     rows = np.array(wrenches)[:, None] if len(wrenches) > 1 else np.array(wrenches[0])
     return rows[..., 3:], rows[..., :3], ["[loads]" if len(wrenches) == 1 else f"{len(wrenches)} loads of [loads]"]
-
-
-def _rule(text: str | None, study: nd.Study | None) -> str | float:
-    """Return the rule for O: that of the option, or of the region of a study."""
-    if text is not None:
-        return rule_option(text)
-    region = study.objective.region if study else None
-    return "carried" if region is None else region.internal_point
 
 
 def _draw(result: nd.Followed, screen: Screen, of_study: nd.PathLimits | None, directory: Path) -> list[Path]:
