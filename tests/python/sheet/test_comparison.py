@@ -31,6 +31,15 @@ def compared(machine, changed):
     return nd.compare(machine, changed)
 
 
+def test_variables_that_differ_by_the_rounding_of_a_unit_are_equal(machine):
+    inches = {"a2": 10.1, "b1": 5.7, "zp": 11.3, "zs": 5.6}
+    one = replace(machine, study=replace(machine.study, unit="in")).with_changes(**inches)
+    other = machine.with_changes(**{name: 25.4 * value for name, value in inches.items()})
+    numbers = nd.compare(one, other).numbers
+    assert not {*inches} & {*numbers}
+    assert "zp" in nd.compare(one, other.with_changes(zp="+1%")).numbers
+
+
 @pytest.mark.slow(sanitized=True)
 def test_the_worst_of_a_change_is_never_passed_at_sampled_poses_and_is_attained(machine, changed, compared):
     worst = compared.numbers["worst condition number"][1]
