@@ -193,20 +193,21 @@ class RegionReport:
     def words(self) -> str:
         """The report in a sentence."""
         if self.looked_at == 0:
-            return f"{self._ruling} poses of the region were imposed; the design was not looked at between them"
+            return f"limits were imposed at {self._ruling} of the region; the design was not looked at between them"
         verdict = f"{self.limit} is passed by {-self.margin:.1e} of it"
         if self.margin >= -PASSED:
             verdict = "no limit is passed"
         average = "" if self.mean is None else f"{self.mean.words}; "
         return (
-            f"{average}{self._ruling} poses of the region ruled; of {self.looked_at} looked at the worst has "
+            f"{average}{self._ruling} of the region ruled; of {self.looked_at} looked at the worst has "
             f"{self.objective:.6f}, and {verdict}{self._ranges}"
         )
 
     @property
-    def _ruling(self) -> int:
+    def _ruling(self) -> str:
         nodes = [pose.weight > 0.0 for pose in self.poses]
-        return len(nodes) if all(nodes) else nodes.count(False)
+        count = len(nodes) if all(nodes) else nodes.count(False)
+        return "1 pose" if count == 1 else f"{count} poses"
 
     @property
     def _ranges(self) -> str:

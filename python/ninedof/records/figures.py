@@ -166,7 +166,8 @@ def _over_poses(result: Result) -> list[DesignCurves]:
     is_condition = study.objective.index == "condition_number"
     index, _, over = study.words.partition(" over ")
     if result.region is not None:
-        over = f"the {len(result.region.poses)} poses that ruled the region"
+        count = len(result.region.poses)
+        over = "the pose that ruled the region" if count == 1 else f"the {count} poses that ruled the region"
     zs_kappa, twist_kappa = ([point.neutral_condition_number for point in points] for points in (lifted, turned))
     curves = DesignCurves(
         name=f"{index} over {over}",

@@ -170,3 +170,13 @@ def test_a_leg_of_one_length_at_the_poses_that_ruled_moves_where_the_region_turn
     said = dataclasses.replace(result, candidates=(dataclasses.replace(result.best, configurations=ruled),))
     assert ("q1, q2, q3 never move" in said.internal_points) == never
     assert "l1" not in said.internal_points
+
+
+@pytest.mark.parametrize(
+    ("count", "words"), [(1, "1 pose of the region ruled; "), (2, "2 poses of the region ruled; ")]
+)
+def test_one_pose_that_ruled_is_one_pose(count, words):
+    study = dataclasses.replace(nd.Study.paper(), objective={"region": {"box": (0.3, 0.3, 0.1)}})
+    result = nd.optimize(study, starts=1)
+    report = dataclasses.replace(result.region, poses=result.region.poses[:1] * count)
+    assert words in dataclasses.replace(result, region=report).summary()
