@@ -162,7 +162,7 @@ def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) 
 
 
 def _is_stopped(result: Any) -> bool:
-    return result.interrupted or result.status == type(result.status).STOPPED
+    return bool(result.interrupted or result.status == type(result.status).STOPPED)
 
 
 def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
