@@ -38,7 +38,7 @@ void bind_limits(py::module_& m) {
   m.attr("margin_tolerance") = margin_tolerance;
   m.def("limit_numbers", [](const Limit& one, const Geometry& g, const Configuration& home, const ConfigurationStack& c,
                             double characteristic_length) {
-    const LimitNumbers numbers(one.name, g, home, one.options(), {}, characteristic_length);
+    const LimitNumbers numbers(one.name, g, home, characteristic_length, one.options());
     return for_each_row(c.count(), numbers.items(), 0, py::none(), [&](long k, double* out) { numbers.at(c[k], out); });
   });
   m.def("pairs_sharing_a_joint", [](const Geometry& g) { return pairs_sharing_a_joint(g); });

@@ -28,8 +28,8 @@ std::vector<std::string> limit_parts(const std::string& name) {
 }
 
 LimitNumbers::LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home,
-                           const LimitOptions& options, const std::array<bool, 21>& exempt,
-                           double characteristic_length)
+                           double characteristic_length, const LimitOptions& options,
+                           const std::array<bool, 21>& exempt)
     : row_(pose_row("limit", name)),
       geometry_(g),
       home_(posed_points(g, home)),

@@ -23,8 +23,8 @@ WorstEnd worst_end(const std::string& limit) {
 
 SheetNumbers::SheetNumbers(const SheetQuestion& question) : question_(question) {
   for (const Limit& limit : question_.limits) {
-    limits_.emplace_back(limit.name, question_.geometry, question_.neutral, limit.options(), question_.exempt,
-                         question_.characteristic_length.value_or(1.0));
+    limits_.emplace_back(limit.name, question_.geometry, question_.neutral,
+                         question_.characteristic_length.value_or(1.0), limit.options(), question_.exempt);
     groups_.push_back({limit.name, limits_.back().items(), worst_end(limit.name)});
   }
   using enum WorstEnd;

@@ -191,12 +191,12 @@ def broadcast_flat(
     """Broadcast a configuration against arrays of shape (..., k), each given with its k.
 
     Return the leading shape, the flat arrays of the configuration, and the others beside each other in one array of n
-    rows. ValueError names the argument that has another shape or is not finite; in a stack NaN marks missing data.
+    rows. ValueError names the argument that has another shape or an infinite number; NaN marks missing data.
     """
     own = {name: (array, array.ndim - len(configuration.shape)) for name, array in arrays_of(configuration).items()}
-    arrays = {name: (as_floats(name, values, (k,)), 1) for name, (values, k) in others.items()}
-    for name, (array, _) in arrays.items():
-        all_finite(name, array, missing=array.ndim > 1)
+    arrays = {
+        name: (all_finite(name, as_floats(name, values, (k,)), missing=True), 1) for name, (values, k) in others.items()
+    }
     shape, (p, q, s, *rest) = broadcast_leading(own | arrays)
     flat_rest = [a.reshape(math.prod(shape), a.shape[-1]) for a in rest]
     return shape, _flat(p, q, s), np.concatenate(flat_rest, axis=1)

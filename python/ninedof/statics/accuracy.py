@@ -13,7 +13,7 @@ from ninedof.robot.configuration import Configuration, Operands, operands, opera
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, whole
-from ninedof.support.arrays import Floats, one_or_each, thread_argument
+from ninedof.support.arrays import Floats, all_finite, one_or_each, thread_argument
 from ninedof.support.text import short_repr
 
 DISTRIBUTIONS = ("uniform", "normal")
@@ -192,4 +192,6 @@ def _with_tolerances(
     g: Geometry, c: Configuration, leg_errors: ArrayLike, joint_errors: ArrayLike
 ) -> tuple[tuple[int, ...], Operands, Floats]:
     legs, joints = one_or_each("leg_errors", leg_errors, 9), one_or_each("joint_errors", joint_errors, 12)
+    for name, tolerances in (("leg_errors", legs), ("joint_errors", joints)):
+        all_finite(name, tolerances, missing=tolerances.ndim > 1)
     return operands_with(g, c, leg_errors=(legs, 9), joint_errors=(joints, 12))

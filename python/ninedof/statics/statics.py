@@ -12,7 +12,7 @@ from ninedof.robot.configuration import Configuration, operands_with, single
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, flag
-from ninedof.support.arrays import Floats, one_or_each
+from ninedof.support.arrays import Floats, all_finite, one_or_each
 from ninedof.support.text import short_repr
 
 PARTS = ("translation", "rotation", "twist")
@@ -160,6 +160,7 @@ def stiffness(
 
     """
     k = one_or_each("leg_stiffness", leg_stiffness, 9)
+    all_finite("leg_stiffness", k, missing=k.ndim > 1)
     shape, flat, k = operands_with(geometry, configuration, leg_stiffness=(k, 9))
     core, size = (_core.stiffness_with_o, 9) if flag("internal", internal) else (_core.stiffness, 6)
     return core(*flat, k, 0).reshape(*shape, size, size)

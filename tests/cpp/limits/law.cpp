@@ -327,7 +327,7 @@ TEST_SUITE("law") {
     const Case one(random, 0);
     const PosedPoints here = posed_points(one.g, one.here), home = posed_points(one.g, one.home);
     for (const std::string& name : limits_of_poses()) {
-      const LimitNumbers numbers(name, one.g, one.home, one.options);
+      const LimitNumbers numbers(name, one.g, one.home, 1.0, one.options);
       const PoseRow& row = *limit_row(name).pose;
       REQUIRE(numbers.items() == row.items);
       REQUIRE(limit_parts(name).size() == static_cast<std::size_t>(row.items));
@@ -337,7 +337,7 @@ TEST_SUITE("law") {
         CHECK(found[at_index(item)] == row.number(PointLook(here, home, one.options), item));
     }
     CHECK(limits_over_lengths() == std::vector<std::string>{"leg_ratio", "stroke_ratio", "stroke"});
-    CHECK_THROWS_WITH_AS(LimitNumbers("height", one.g, one.home), doctest::Contains("height"), InvalidArgument);
+    CHECK_THROWS_WITH_AS(LimitNumbers("height", one.g, one.home, 1.0), doctest::Contains("height"), InvalidArgument);
     Triple same = one.g.base_internal();
     same[1] = one.g.base_external()[2];
     const Geometry coupled(one.g.base_external(), same, one.g.platform_external(), one.g.platform_internal());

@@ -52,9 +52,9 @@ double margin(double a2, double b1, const Vec6& at) {
   const Vec3 tilt(at[3], at[4], 0.0);
   if (tilt.norm() > 0.0) c.rotation = Eigen::AngleAxisd(tilt.norm(), tilt.normalized()).toRotationMatrix();
   std::array<double, 9> lengths;
-  LimitNumbers("leg_length", g, home).at(c, lengths.data());
+  LimitNumbers("leg_length", g, home, 1.0).at(c, lengths.data());
   std::array<double, 6> angles;
-  LimitNumbers("base_cone", g, home, Vec3(0, 0, 1)).at(c, angles.data());
+  LimitNumbers("base_cone", g, home, 1.0, Vec3(0, 0, 1)).at(c, angles.data());
   return std::min(6.6 - *std::ranges::max_element(lengths), 1.0 - *std::ranges::max_element(angles));
 }
 

@@ -178,7 +178,7 @@ double margin_of(const DesignQuestion& q, const Want& want, const DrawnDesign& d
     }
     return least;
   }
-  const LimitNumbers numbers(limit.name, g, home, limit.options());
+  const LimitNumbers numbers(limit.name, g, home, 1.0, limit.options());
   std::array<double, 21> all{};
   numbers.at(at, all.data());
   if (want.about == Want::About::duty) return bound - *std::ranges::max_element(all);

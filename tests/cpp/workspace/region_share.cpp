@@ -53,4 +53,16 @@ TEST_SUITE("region_share") {
     CHECK(part.share == doctest::Approx((2.4 + 3.0) / 6.0).epsilon(0.01));
     CHECK(region_share(g, home, {}, region, 10).share == 1.0);
   }
+
+  TEST_CASE("a limit of the condition number has the characteristic length of the criteria") {
+    const Geometry g = Geometry::hexagonal(0.0, 5.8, 2.9, 0.0);
+    const Configuration home = neutral(4.0, 2.4);
+    Region region;
+    region.size = Vec3(0.3, 0.3, 0.3);
+    WorkspaceCriteria criteria;
+    criteria.limits = {{.name = "fault_tolerant", .high = 20.0}};
+    CHECK(region_share(g, home, criteria, region, 200).share == 1.0);
+    criteria.characteristic_length = 1e-3;
+    CHECK(region_share(g, home, criteria, region, 200).share == 0.0);
+  }
 }

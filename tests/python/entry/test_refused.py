@@ -46,11 +46,11 @@ KINDS = {  # values that are refused, arguments that have the kind
     "count from 1": ([0, *NO_COUNTS], "starts chunk seed_every audit_every designs most_boxes resolution"),
     "count from 0": (NO_COUNTS, "seed threads samples points perturbations directions audit_seed"),
     "vector": (
-        [None, [0.0, NAN, 1.0], *NO_VECTORS],
+        [None, *NO_VECTORS],
         "omega pdot sdot alpha pddot sddot moment force force_at_o position internal_point step centre",
     ),
     "number a leg": (
-        [np.ones(8), np.ones((7, 8)), np.full(9, INF), np.full(9, NAN), "abc", np.ones(9) * 1j, [["1"] * 9], None],
+        [np.ones(8), np.ones((7, 8)), np.full(9, INF), "abc", np.ones(9) * 1j, [["1"] * 9], None],
         "leg_rates leg_accelerations leg_lengths direction weights",
     ),
     "tolerance": (

@@ -29,8 +29,8 @@ std::vector<std::string> limit_parts(const std::string& name);
 class LimitNumbers {
  public:
   /// Pairs of legs that are `exempt` have an infinite distance.
-  LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const LimitOptions& options = {},
-               const std::array<bool, 21>& exempt = {}, double characteristic_length = 1.0);
+  LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, double characteristic_length,
+               const LimitOptions& options = {}, const std::array<bool, 21>& exempt = {});
   int items() const;
   /// `out` has room for them.
   void at(const Configuration& pose, double* out) const;

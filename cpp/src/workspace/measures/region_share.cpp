@@ -43,7 +43,8 @@ class Judge {
       // A determinant is positive on the side of home.
       const double low =
           c.row->info.kind == LimitKind::sign ? std::max(c.low, std::numeric_limits<double>::min()) : c.low;
-      limits_.push_back({LimitNumbers(names.back(), g, home, c.options, exempt), low, c.high});
+      limits_.push_back(
+          {LimitNumbers(names.back(), g, home, criteria.characteristic_length, c.options, exempt), low, c.high});
     }
     if (criteria.condition_number) names.emplace_back("condition_number");
   }

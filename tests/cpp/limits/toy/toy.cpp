@@ -48,7 +48,7 @@ TEST_SUITE("toy") {
     CHECK(limits_of_poses().back() == "apex_distance");
     CHECK(limit_parts("apex_distance") == std::vector<std::string>{"O"});
     double found = 0.0;
-    LimitNumbers("apex_distance", published, home).at({Vec3(1.0, 2.0, 3.0), Mat3::Identity(), apex}, &found);
+    LimitNumbers("apex_distance", published, home, 1.0).at({Vec3(1.0, 2.0, 3.0), Mat3::Identity(), apex}, &found);
     CHECK(found == doctest::Approx((Vec3(1.0, 2.0, 3.0) - apex).norm()).epsilon(1e-15));
   }
 
