@@ -197,7 +197,8 @@ def _range(study: Study, name: str, ends: tuple[float, float] | None) -> tuple[f
         raise ValueError(f"vary: got {shown(name)}, expected variables of the study: {', '.join(study.variables)}")
     bounds = study.variables[name] if ends is None else ends
     if not isinstance(bounds, tuple):
-        raise ValueError(f"vary.{name}: got a variable that is fixed in the study, expected its ends (low, high) too")
+        ends_too = f"its ends too, (low, high) or --vary {name}=LOW:HIGH"
+        raise ValueError(f"vary.{name}: got a variable that is fixed in the study, expected {ends_too}")
     low, high = _ends(name, bounds)
     if not low < high:
         raise ValueError(f"vary.{name}: got ({low:g}, {high:g}), expected low < high")

@@ -39,7 +39,8 @@ class Comparison:
     limits: dict[str, tuple[LimitRow | None, ...]]
     """Limit and side, as "stroke_ratio max", to its row in the sheet of each design; lengths in the unit of each."""
     differences: dict[str, tuple[Any, ...]]
-    """Entries of the studies that are not the same, to the value in each; None where a study has none."""
+    """Entries of the studies that are not the same, to the value in each, as its file has it; None where a study has
+    none."""
     outside: tuple[dict[str, tuple[float, float, float]], ...]
     """For each design its variables that lie outside of the bounds of its own study: value, low and high, in the unit
     of the design, angles in radians."""
@@ -82,7 +83,8 @@ class Comparison:
                 out.append(f"{name} breaks {', '.join(labels)}")
         if self.differences:
             entries = [[key, *map(_short_entry, values)] for key, values in self.differences.items()]
-            out.append(Table("What differs in the studies", self._columns("", WORDS), entries))
+            own = ", lengths in the unit of each" if len({one.unit for one in self.sheets}) > 1 else ""
+            out.append(Table(f"What differs in the studies{own}", self._columns("", WORDS), entries))
         return out
 
     def _columns(self, first: str, form: str = RIGHT) -> list[Column]:

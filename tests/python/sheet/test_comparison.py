@@ -38,6 +38,8 @@ def test_variables_that_differ_by_the_rounding_of_a_unit_are_equal(machine):
     numbers = nd.compare(one, other).numbers
     assert not {*inches} & {*numbers}
     assert "zp" in nd.compare(one, other.with_changes(zp="+1%")).numbers
+    assert "What differs in the studies, lengths in the unit of each" in str(nd.compare(one, other))
+    assert "unit of each" not in str(nd.compare(other, other.with_changes(zp="+1%")))
 
 
 @pytest.mark.slow(sanitized=True)
