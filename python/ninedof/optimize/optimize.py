@@ -132,7 +132,7 @@ def optimize(
             def again(one: Study, known: Result) -> Result:
                 return run.result(one, warm_variables(known), "a reserve for tolerances")
 
-            result = with_reserve(result, again, count)
+            result = with_reserve(result, again, count, progress)
         if not certify or result.best is None or result.interrupted:
             return result
         run.end = math.inf  # a proof does not count

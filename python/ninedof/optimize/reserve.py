@@ -19,7 +19,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.rows import limit_rows
 from ninedof.support.arguments import finite, flag, known_keys, table, text
-from ninedof.support.running import phase, progress_argument
+from ninedof.support.running import Progress, phase, progress_argument
 from ninedof.support.structs import Fixed, Table, entry
 from ninedof.support.text import short_repr
 
@@ -132,7 +132,9 @@ class Reserve(Table):
         return [*out, note] if note else out
 
 
-def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) -> Any:
+def with_reserve(
+    result: Any, solve: Callable[[Study, Any], Any], threads: int, progress: Progress | None = None
+) -> Any:
     """Return the result whose limits are proved of every machine within the study's tolerances, if one is found.
 
     What the proof of a design lacks is taken from its limits, and `solve` solves the study anew from there, until the
@@ -144,6 +146,7 @@ def with_reserve(result: Any, solve: Callable[[Study, Any], Any], threads: int) 
     for left in reversed(range(ROUNDS + 1)):
         if result.best is None or result.interrupted:
             break
+        phase(progress, "proving the limits of every machine within the tolerances")
         try:
             lacking = _open(study, result, threads)
         except KeyboardInterrupt:

@@ -20,9 +20,29 @@ REQUIREMENT = nd.Study.load(Path(__file__).parents[3] / "examples" / "18_require
 TOLERANCES = nd.Tolerances(joints=0.3, legs=0.1)
 
 
+class Told:
+    def __init__(self):
+        self.phases = []
+
+    def __call__(self, done, total, value):
+        pass
+
+    def phase(self, words):
+        self.phases.append(words)
+
+
 @pytest.fixture(scope="module")
-def result():
-    return nd.optimize(replace(REQUIREMENT, tolerances=TOLERANCES), starts=4)
+def told():
+    return Told()
+
+
+@pytest.fixture(scope="module")
+def result(told):
+    return nd.optimize(replace(REQUIREMENT, tolerances=TOLERANCES), starts=4, progress=told)
+
+
+def test_progress_tells_of_the_proofs(result, told):
+    assert told.phases.count("proving the limits of every machine within the tolerances") > 1
 
 
 def strokes(result, rng, machines, poses):
