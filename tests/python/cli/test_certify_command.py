@@ -35,6 +35,7 @@ def status(*arguments):
     return main_status("certify", *arguments)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_run_is_proved_and_its_certificate_comes_back(run, capsys):
     assert status(run) == 0
     out = " ".join(capsys.readouterr().out.split())
@@ -61,6 +62,7 @@ def test_a_machine_is_written_for_the_checker(run, tmp_path, capsys):
     assert "`--tolerance 0`" in words
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_run_may_be_called_as_its_certificate(run, tmp_path, capsys):
     named = tmp_path / "certify-1"
     shutil.copytree(run, named)
@@ -136,6 +138,7 @@ def test_an_interrupted_search_for_tolerances_tells_the_largest_so_far(run, monk
     assert asked[-1].joints == (4.0 if proofs else 1.0) * asked[0].joints
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_report_takes_no_certificate_of_another_machine_nor_a_changed_one(run, tmp_path):
     found = nd.load(run)
     ours, other = tmp_path / "ours", tmp_path / "other"
@@ -166,6 +169,7 @@ def test_the_table_has_one_line_a_row_at_80_columns():
     assert lines[-1].startswith("│ condition number ")
 
 
+@pytest.mark.slow(sanitized=True)
 def test_other_tolerances_are_proved_anew_and_the_largest_are_found(run, capsys):
     assert status(run) == 0
     capsys.readouterr()

@@ -156,6 +156,7 @@ def test_places_of_the_internal_point(run):
     assert best["internal_point"] == pytest.approx(placed, abs=1e-9)
 
 
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("rule", ["shifted", "held", "best"])
 def test_o_is_where_the_region_of_the_study_has_it(run, tmp_path, rule):
     region = {"box": (0.2, 0.2, 0.1), "tilt": 0.1, "internal_point": rule}

@@ -66,6 +66,7 @@ def test_the_masses_of_a_study_are_those_of_the_model(run, tmp_path, monkeypatch
         assert plate.ipos + first == pytest.approx([0.0, 0.01, 0.03], abs=1e-12)
 
 
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", formats())
 def test_only_a_file_that_export_wrote_is_replaced(name, run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -106,6 +106,7 @@ def test_a_path_of_few_poses_says_that_nothing_is_looked_at_between_them(run):
         assert (words.format(count) in " ".join(out.split())) is (count < 50)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_every_limit_of_a_run(run, tmp_path):
     with open("machine.toml", "w") as file:
         file.write(REGION)

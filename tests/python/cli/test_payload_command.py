@@ -62,6 +62,7 @@ def test_with_a_tool_the_payload_is_at_the_origin_of_the_plate(run, tmp_path):
     assert "│ l1 │ 0 │" in said  # rounding is not a force
 
 
+@pytest.mark.slow(sanitized=True)
 def test_the_force_is_that_of_the_study_where_it_has_one(folder, mass, run, tmp_path):
     machine = nd.load(folder)
     limits = {"force": [{"max": 60.0}, {"max": 9.0, "at": "neutral"}], "power": (None, 9.0), "rate": (None, 9.0)}
@@ -105,6 +106,7 @@ def test_forces_and_paths_have_the_masses_of_the_study(folder, run, tmp_path):
     assert [legs[leg]["rms"] for leg in legs] == pytest.approx(motion.drives["rms"].tolist(), rel=1e-12)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_path_tells_the_forces_of_every_load_of_the_study(folder, run, tmp_path):
     machine = nd.load(folder)
     wrenches = [[0.0, 0.0, 0.0, 12.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0, 90.0, 0.0]]

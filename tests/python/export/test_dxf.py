@@ -77,6 +77,7 @@ def test_joints_where_they_are_and_no_complaint(name):
     assert labels == sorted(4 * ["E1", "E2", "E3", "I1", "I2", "I3"])  # beside its circle and in the table
 
 
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", CASES)
 def test_the_outline_goes_around_all_joints(name):
     document = drawn(name)

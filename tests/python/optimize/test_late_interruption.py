@@ -18,12 +18,14 @@ def late(*_):
     signal.raise_signal(signal.SIGINT)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_an_optimization():
     found, whole = nd.optimize(PAPER, progress=late), nd.optimize(PAPER)
     assert (found.status, found.interrupted, whole.interrupted) == (nd.Status.OPTIMAL, True, False)
     assert found.candidates == whole.candidates
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_proof_of_an_optimum():
     found = nd.prove_optimum(nd.Study.paper(), 3.7627, gap=0.3, progress=late)
     assert (found.complete, found.interrupted) == (True, True)
@@ -40,12 +42,14 @@ def test_a_workspace(published, method):
     assert not whole.interrupted
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_certified_workspace(published):
     found, whole = (nd.certified_workspace(published, BOX, criteria=LEGS, gap=0.5, progress=p) for p in (late, None))
     assert (found.end, whole.end) == ("stopped", "gap")
     assert found.volume == whole.volume
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_certificate():
     made = nd.optimize(PAPER)
     found, whole = (made.certify(gap=0.3, progress=call) for call in (late, None))

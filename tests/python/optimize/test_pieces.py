@@ -64,6 +64,7 @@ def test_pieces_change_nothing(whole):
     assert len(list(folder.glob("pieces/*.npz"))) == (3 if asked is PROVED else 1)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_run_that_was_killed_goes_on_to_the_same_bits(whole, tmp_path, monkeypatch):
     """Killed as a piece is written: the piece is lost, those before it are not computed again."""
     asked, without, _, folder = whole
@@ -86,6 +87,7 @@ def test_a_run_that_was_killed_goes_on_to_the_same_bits(whole, tmp_path, monkeyp
         assert len(searches) == 1  # of a proof, that without the clearance
 
 
+@pytest.mark.slow(sanitized=True)
 def test_after_ctrl_c_what_is_finished_is_not_done_again(whole, tmp_path, monkeypatch):
     """A study over a region is one piece: it begins anew."""
     asked, without, _, _ = whole
@@ -102,6 +104,7 @@ def test_after_ctrl_c_what_is_finished_is_not_done_again(whole, tmp_path, monkey
     assert "optimize" not in computed
 
 
+@pytest.mark.slow(sanitized=True)
 def test_what_the_time_ended_is_not_kept(whole, tmp_path):
     """The next call, with any limit, solves it anew; what is finished does not depend on the limit."""
     asked, without, _, folder = whole
@@ -137,6 +140,7 @@ def test_another_question_is_refused(whole):
         nd.optimize(asked, out=7)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_proof_is_kept_with_its_certificate(tmp_path):
     asked = nd.Study.paper().with_solver(8)
     first = nd.optimize(asked, certify=True, out=tmp_path)

@@ -76,6 +76,7 @@ def test_every_place_has_the_worst_of_its_poses(name):
     assert found.worst >= best.objective * (1.0 - 1e-9)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_the_map_covers_the_region_and_its_ruling_poses():
     for name in REGIONS:
         found = nd.region_map(solved(name))
@@ -88,6 +89,7 @@ def test_the_map_covers_the_region_and_its_ruling_poses():
     assert nd.region_map(solved("cylinder")).over == "heights, tilts and yaws"
 
 
+@pytest.mark.slow(sanitized=True)
 def test_o_placed_anew_is_no_worse_than_shifted():
     region = {"box": [0.3, 0.3, 0.0], "tilt_deg": 5}
     maps = []

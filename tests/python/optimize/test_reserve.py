@@ -94,6 +94,7 @@ def test_a_result_with_a_reserve_is_an_optimum_of_the_study_that_was_solved(resu
     assert again.best == result.best
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_folder_gives_the_same_result(tmp_path):
     asked = replace(REQUIREMENT, tolerances=TOLERANCES)
     first = nd.optimize(asked, starts=2, out=tmp_path / "run")

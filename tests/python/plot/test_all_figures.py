@@ -36,6 +36,7 @@ def test_no_two_texts_intersect_and_axes_have_names(name):
     assert figure.get_size_inches()[0] <= style.TWO_COLUMNS + 1e-9  # a width of print
 
 
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("name", size(QUICK, FIGURES))
 def test_formulas_are_our_own_symbols_alone(name):
     """Everything else is plain text, in which a "$" of a name is a dollar; ticks of logarithmic axes too."""

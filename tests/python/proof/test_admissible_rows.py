@@ -48,6 +48,7 @@ def test_a_design_that_exists_keeps_the_limits_of_its_row(found):
             assert least_margin(one, one.design, 2000, rng) > 0.0, one
 
 
+@pytest.mark.slow(sanitized=True)
 def test_where_none_exists_no_design_drawn_at_random_keeps_the_limits(found):
     rng = np.random.default_rng(2)
     for one in found.rows:

@@ -169,6 +169,7 @@ def test_tolerances_of_nothing_are_the_drawing():
     assert none.machine == drawn.machine
 
 
+@pytest.mark.slow(sanitized=True)
 def test_the_certificate_says_of_which_machines_it_is():
     region = REGIONS["ball"]
     *_, certificate = proved(region, time_limit=0.01, tolerance=0.1)

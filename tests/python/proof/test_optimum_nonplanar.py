@@ -20,6 +20,7 @@ def proof():
     return nd.prove_optimum(STUDY, BEST, gap=GAP)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_the_optimum_of_the_example_has_a_bound(proof):
     assert proof.complete
     assert proof.lower_bound == BEST * (1.0 - GAP)

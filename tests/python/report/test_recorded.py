@@ -72,6 +72,7 @@ def test_axes_with_names(made, asked):
     assert re.search(rf"(coordinate|leg) {name}", shown(page))
 
 
+@pytest.mark.slow(sanitized=True)
 def test_an_atlas(made):
     _, results, page = made("atlas --designs 2000")
     assert "Which condition numbers have 2000 designs drawn at random?" in shown(page)

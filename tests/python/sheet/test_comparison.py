@@ -31,6 +31,7 @@ def compared(machine, changed):
     return nd.compare(machine, changed)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_variables_that_differ_by_the_rounding_of_a_unit_are_equal(machine):
     inches = {"a2": 10.1, "b1": 5.7, "zp": 11.3, "zs": 5.6}
     one = replace(machine, study=replace(machine.study, unit="in")).with_changes(**inches)

@@ -72,6 +72,7 @@ def test_external_and_internal_joints_have_limits_of_their_own():
     assert set(result.active) & {f"{body}_cone_{kind}" for body in ("base", "platform") for kind in ("external",)}
 
 
+@pytest.mark.slow(sanitized=True)
 def test_the_cones_of_one_kind_of_joint_are_those_of_its_legs():
     """Both halves together limit as the whole does."""
     whole = nd.optimize(study({"base_cone": {"max_deg": 38, "axis": UP}}))
@@ -118,6 +119,7 @@ def test_a_sheet_has_angles_about_the_axis_that_the_limit_has():
     assert "the direction at the neutral pose at the platform" in sheet.summary()
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_reversed_axis_is_named():
     result = nd.optimize(
         study({"platform_cone": {"max_deg": 45, "axis": UP}, "base_cone": {"max_deg": 60, "axis": UP}})

@@ -103,6 +103,7 @@ def region_result(region):
     return SimpleNamespace(study=study, variables=sizes | angles, **{name: getattr(point, name) for name in names})
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_region_no_random_pose_is_worse_and_shares():
     region = {"box": [0.5, 0.4, 0.3], "tilt": 0.15}
     design = region_result(region)

@@ -96,6 +96,7 @@ def two():
     return replace(result, candidates=(result.best, result.with_changes(zs="+4%").best))
 
 
+@pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("k", [0, 1])
 def test_a_candidate_says_what_its_result_says(two, k, tmp_path):
     result, candidate = replace(two, candidates=two.candidates[k:]), two.candidates[k]
@@ -121,6 +122,7 @@ def test_a_candidate_says_what_its_result_says(two, k, tmp_path):
     )
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_design_point_knows_its_study(two):
     point = two.study.evaluate(two.variables)
     assert str(nd.sheet(point).limits) == str(two.sheet().limits)

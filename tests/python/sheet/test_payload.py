@@ -66,6 +66,7 @@ def test_limits_of_each_leg_and_side():
     assert payload.leg == "l1 l2 l3 q1 q2 q3 r1 r2 r3".split()[int(np.argmin(ratios))]
 
 
+@pytest.mark.slow(sanitized=True)
 def test_no_pose_of_a_region_is_worse(machine):
     limit = 60.0
     payload = nd.largest_payload(machine, limit)
@@ -84,6 +85,7 @@ def test_no_pose_of_a_region_is_worse(machine):
     assert worst <= limit * (1.0 + 1e-6)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_each_kind_of_legs_keeps_its_own_limit_of_the_study(machine):
     limits = {"force": (None, 500.0), "upper_force": (None, 90.0), "lower_force": (None, 400.0)}
     limited = replace(machine, study=replace(machine.study, constraints=limits))

@@ -166,6 +166,7 @@ def test_an_error_of_the_index_is_raised(tmp_path):
         asked(work.wrong_shape)
 
 
+@pytest.mark.slow(sanitized=True)
 def test_a_bounded_number_of_chunks_waits_at_the_executor(expected, monkeypatch):
     monkeypatch.setattr(chunks, "IN_FLIGHT", 8)
 

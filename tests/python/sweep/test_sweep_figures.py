@@ -428,6 +428,7 @@ def test_figure_6_says_which_curve_it_cuts_off(six):
     assert said == [f"theta_z is cut off: it reaches {rows['theta_z'].max():.4g}"]
 
 
+@pytest.mark.slow(sanitized=True)
 def test_every_index_of_a_sweep_is_drawn(run, tmp_path):
     indices = ["leg_lengths", "leg_ratio", "singularity_margins"]
     asked = " ".join(f"--index {name}" for name in indices)

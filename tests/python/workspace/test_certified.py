@@ -134,6 +134,7 @@ def test_the_volume_of_a_shell(published, low, high):
     assert proved.end == "gap" or low > 2.5
 
 
+@pytest.mark.slow(sanitized=True)
 def test_bounds_of_more_boxes_lie_within_those_of_fewer(published):
     criteria, before = LEGS | {"condition_number": 5.0}, (0.0, np.inf)
     for gap in (0.5, 0.2, 0.1, size(0.06, 0.005)):
