@@ -1,7 +1,6 @@
 #include "ninedof/conditioning/locked_legs.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -34,6 +33,11 @@ std::array<Stretch, 2> stretches(const Mat36& null, const Mat36& range, Eigen::I
   const double c = std::cos(angle), s = std::sin(angle);
   const Vec3 m = null.col(j), n = null.col(k);
   return {stretch(c * m + s * n, c * a + s * b), stretch(c * n - s * m, c * b - s * a)};
+}
+
+/// The part of `v` across a unit vector.
+Vec6 across(const Vec6& unit, const Vec6& v) {
+  return v - unit.dot(v) * unit;
 }
 
 /// M times the least rho, stretched: its singular values in their ratios, without overflow.
@@ -78,12 +82,12 @@ double LockedLegs::condition_number(const LegSet& locked) const {
   for (const Stretch& one : along)
     if (!(one.rho > negligible)) return infinity;
   Mat6 m = stretched(m_, std::span(along).first(internals));
-  if (externals > 0) {  // twists that leave those legs as long as they are
-    Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 2> rows(6, static_cast<Eigen::Index>(externals));
-    for (std::size_t k = 0; k < externals; ++k) rows.col(static_cast<Eigen::Index>(k)) = m_.row(external[k]);
-    const Mat6 q = Eigen::HouseholderQR<decltype(rows)>(rows).householderQ();
-    m = (m * q).eval();
-    m.leftCols(rows.cols()).setZero();
+  Vec6 first = Vec6::Zero();
+  for (std::size_t k = 0; k < externals; ++k) {  // of twists that leave those legs as long as they are
+    Vec6 way = m_.row(external[k]).transpose().normalized();
+    if (k > 0) way = across(first, across(first, way).normalized()).normalized();  // twice, for its last digits
+    m -= (m * way).eval() * way.transpose();
+    first = way;
   }
   const Vec6 sigma = singular_values_6x6(m);
   const double least = sigma[locked.freedoms() - 1];

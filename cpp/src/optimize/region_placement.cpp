@@ -1,11 +1,11 @@
 #include "ninedof/optimize/region_placement.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <memory>
 #include <span>
 
 #include "domains/region_descent.hpp"
+#include "math/linear/least_squares.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/domains/region_sample.hpp"
 #include "ninedof/math/error.hpp"
@@ -82,7 +82,8 @@ class Placing {
       normal += row * row.transpose();
       right += row * placed.shift.transpose();
     }
-    if (!known.empty()) fit_ = normal.ldlt().solve(right);
+    if (known.empty()) return;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) fit_.col(axis) = solve_definite(normal, right.col(axis));
   }
 
   double near(Placed& placed, double enough) {

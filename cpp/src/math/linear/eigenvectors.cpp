@@ -17,8 +17,9 @@ RealEigen8 real_eigen(const Eigen::Matrix<double, 8, 8>& a) {
   return {true, eigen.eigenvalues(), eigen.pseudoEigenvectors()};
 }
 
-Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<UpTo8>(symmetric).eigenvectors().col(0);
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<UpTo8> eigen(symmetric);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
 }  // namespace ninedof

@@ -16,7 +16,11 @@ struct RealEigen8 {
 };
 RealEigen8 real_eigen(const Eigen::Matrix<double, 8, 8>& a);
 
-/// The unit eigenvector of the least eigenvalue of a symmetric matrix of at most eight columns.
-Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& symmetric);
+/// Of a symmetric matrix of at most eight columns: eigenvalues, the least first, and a unit vector of each in a column.
+struct SymmetricEigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& symmetric);
 
 }  // namespace ninedof

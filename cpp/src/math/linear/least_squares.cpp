@@ -1,5 +1,6 @@
 #include "math/linear/least_squares.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
@@ -123,6 +124,10 @@ std::optional<Vec9> solve_regular(const Mat9& a, const Vec9& b, double least_piv
   const Eigen::ColPivHouseholderQR<Mat9> qr(a);
   if (std::abs(qr.matrixQR()(8, 8)) > least_pivot * qr.maxPivot()) return solve_pivoted(qr, b);
   return {};
+}
+
+Eigen::VectorXd solve_definite(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  return a.ldlt().solve(b);
 }
 
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {

@@ -225,8 +225,9 @@ PlacedPose::Piece PlacedPose::steepest(const Vec3& step) const {
         out(i, j) = out(j, i) = free_of(block[entry++]).dot(step) + (i == j ? log_sigma[top ? i : 5 - i] : 0.0);
     return out;
   };
-  Piece out{-1, least_eigenvector(-matrix(tops_, true))};
-  if (p_.problem.objective.index == Index::condition_number) out.bottom = least_eigenvector(matrix(bottoms_, false));
+  Piece out{-1, symmetric_eigen(-matrix(tops_, true)).vectors.col(0)};
+  if (p_.problem.objective.index == Index::condition_number)
+    out.bottom = symmetric_eigen(matrix(bottoms_, false)).vectors.col(0);
   return out;
 }
 

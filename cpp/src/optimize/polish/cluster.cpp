@@ -43,7 +43,7 @@ Eigen::VectorXd Cluster::extreme(const Block& b, const Eigen::VectorXd& along, d
   std::size_t k = 0;
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = i; j < n; ++j) slope(i, j) = slope(j, i) = sign * b.entries[k++].dot(along);
-  const Eigen::VectorXd w = least_eigenvector(slope);
+  const Eigen::VectorXd w = symmetric_eigen(slope).vectors.col(0);
   Eigen::VectorXd out = Eigen::VectorXd::Zero(along.size());
   k = 0;
   for (Eigen::Index i = 0; i < n; ++i)

@@ -1,7 +1,6 @@
 #include "optimize/region/pose_follower.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include "math/linear/eigenvectors.hpp"
 
 namespace ninedof {
 namespace {
@@ -23,13 +22,17 @@ Ways free_ways(const Region& region, const Vec6& at) {
   const auto round = [&](Eigen::Index first, Eigen::Index count) {
     const double radius = reach[first];
     if (radius == 0.0) return;
-    Eigen::MatrixXd within = Eigen::MatrixXd::Identity(count, count);
-    const Eigen::VectorXd v = at.segment(first, count) / radius;
-    if (v.norm() >= 1.0 - 2.0 * step)
-      within = Eigen::MatrixXd(v.householderQr().householderQ()).rightCols(count - 1).eval();
-    for (const auto& way : within.colwise()) {
+    Vec3 v = Vec3::Zero();
+    v.head(count) = at.segment(first, count) / radius;
+    Mat3 within = Mat3::Identity();
+    const bool on_edge = v.norm() >= 1.0 - 2.0 * step;
+    if (on_edge) {
+      const Vec3 across = count == 2 ? Vec3(-v.y(), v.x(), 0.0).normalized() : v.unitOrthogonal();
+      within << across, v.cross(across).normalized(), v;
+    }
+    for (const auto& way : within.leftCols(on_edge ? count - 1 : count).colwise()) {
       out.emplace_back(Vec6::Zero());
-      out.back().segment(first, count) = radius * way;
+      out.back().segment(first, count) = radius * way.head(count);
     }
   };
   switch (region.shape) {
@@ -76,12 +79,10 @@ std::shared_ptr<const FollowingPose> PoseFollower::following(const Look::Worst& 
       mixed.row(j) += by * slopes.head(n);
     }
   if (!curvature.allFinite() || !mixed.allFinite()) return nullptr;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (curvature + curvature.transpose()));
-  const double least = std::max(any_curvature, least_curvature * solver.eigenvalues().maxCoeff());
-  const Eigen::VectorXd inverse =
-      solver.eigenvalues().unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
+  const auto [values, axes] = symmetric_eigen(0.5 * (curvature + curvature.transpose()));
+  const double least = std::max(any_curvature, least_curvature * values.maxCoeff());
+  const Eigen::VectorXd inverse = values.unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
   if (inverse.isZero(0.0)) return nullptr;
-  const Eigen::MatrixXd& axes = solver.eigenvectors();
   return std::make_shared<const FollowingPose>(
       FollowingPose{region_, worst.at, variables_, -ways * axes * inverse.asDiagonal() * axes.transpose() * mixed});
 }

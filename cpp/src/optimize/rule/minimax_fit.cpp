@@ -1,10 +1,10 @@
 #include "optimize/rule/minimax_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "math/linear/least_squares.hpp"
 #include "math/numbers.hpp"
 #include "optimize/rule/rule_samples.hpp"
 
@@ -54,9 +54,8 @@ MinimaxFit::MinimaxFit(const RuleRows& rows, const std::vector<Powers>& powers, 
   Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(count, 3);
   for (std::size_t n = 0; n < best.size(); ++n)
     wanted += terms_.col(static_cast<Eigen::Index>(n)) * best[n].shift.transpose() / static_cast<double>(best.size());
-  const auto nearest = metric().topLeftCorner(count, count).ldlt();
-  for (Eigen::Index i = 0; i < 3; ++i)
-    unknowns_.segment(i * count, count) = nearest.solve(Eigen::VectorXd(wanted.col(i)));
+  const Eigen::MatrixXd weights = metric().topLeftCorner(count, count);
+  for (Eigen::Index i = 0; i < 3; ++i) unknowns_.segment(i * count, count) = solve_definite(weights, wanted.col(i));
   unknowns_.tail(rows.middle_count()) = rows.middles(placed(poses));
   move_to(unknowns_);
 }
@@ -102,7 +101,7 @@ void MinimaxFit::lower(double smoothing) {
     double fall = 0.0;
     for (int k = 0; k < most_tries && !(fall > 0.0); ++k) {
       if (k > 0) damping *= shorter;
-      move_to(start - (here.bend + damping * weights).ldlt().solve(here.gradient));
+      move_to(start - solve_definite(here.bend + damping * weights, here.gradient));
       fall = here.value - smoothed(smoothing);
     }
     if (!(fall > 0.0)) move_to(start);

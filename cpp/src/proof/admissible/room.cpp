@@ -1,11 +1,11 @@
 /// The largest box around a design that is proved to be inside. Declared in ninedof/proof/admissible.hpp.
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
 
+#include "math/linear/least_squares.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "proof/admissible/examine.hpp"
@@ -71,7 +71,7 @@ Vector widest(const std::vector<Bound>& bounds, const Vector& start) {
         gradient -= weight * inverse * slope;
         bend += weight * inverse * inverse * slope * slope.transpose();
       }
-      const Vector along = bend.ldlt().solve(gradient);
+      const Vector along = solve_definite(bend, gradient);
       double most = 1.0;
       for (const Bound& one : bounds)
         if (const double slope = one.slope.dot(along); slope > 0.0)
