@@ -15,8 +15,9 @@ import ninedof as nd
 from ninedof import plot
 from ninedof.plot import style
 from ninedof.plot.space.ellipsoid import VIEW
+from ninedof.plot.space.mechanism import legs_of
 from ninedof.robot.geometry import LEGS
-from ninedof.robot.plates import distinct, outlines
+from ninedof.robot.plates import distinct, outlines, points_of
 from ninedof.support.placing import toward
 
 SPREAD = np.array([0.0, 120.0, 240.0])
@@ -151,6 +152,19 @@ def test_every_leg_is_named_on_light_ground_and_o_is_no_second_ring(robot):
     ]
     assert point.get_marker() == "D"
     assert to_hex(point.get_markerfacecolor()) == style.INK.lower()
+
+
+def test_no_name_is_nearer_to_another_leg_of_its_colour():
+    """Joints in pairs: q3 stood beside q2."""
+    geometry, c = nd.Geometry.hexagonal(a1=0.0, a2=850.0, b1=293.0, b2=0.0), nd.Configuration.neutral(483.0, 319.0)
+    legs = {name: VIEW.seen(np.stack(ends)) for name, *ends in legs_of(points_of(geometry, c))}
+    axes = plot.mechanisms([plot.Robot("", geometry, c)]).axes[0]
+    names = {text.get_text(): VIEW.seen(np.array(text.get_position_3d())) for text in axes.texts}
+    share = np.linspace(0.0, 1.0, 201)[:, None]
+    for name in LEGS:
+        alike = {other: ends for other, ends in legs.items() if other[0] == name[0]}
+        away = {n: np.linalg.norm(a + share * (b - a) - names[name], axis=1).min() for n, (a, b) in alike.items()}
+        assert min(away, key=away.__getitem__) == name
 
 
 def test_bad_input_is_named():

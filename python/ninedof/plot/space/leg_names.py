@@ -28,7 +28,8 @@ def write_names(
 ) -> None:
     """Write the name of each leg, `away` to one side, and O beside its point.
 
-    Names keep off other legs, further lines (2, 3), and dark faces (n, 3) where there is another place.
+    Names keep off other legs, further lines (2, 3), and dark faces (n, 3) where there is another place; beside its leg,
+    a name is nearer to it than to others of its colour.
     """
     lines = [VIEW.seen(np.stack([start, end])) for _, start, end in legs] + [VIEW.seen(line) for line in clear_of]
     faces = [Path(VIEW.seen(face)) for face in dark]
@@ -47,14 +48,15 @@ def write_names(
         on_leg, spots, apart = _places(start, end, away)
         flat = VIEW.seen(spots)
         others = lines[:k] + lines[k + 1 :]
-        room = (
-            np.min([*(2.0 * _distance(flat, line) for line in others), 1.6 * _distance(flat, lines[k])], axis=0) / away
-        )
+        own = _distance(flat, lines[k])
+        room = np.min([*(2.0 * _distance(flat, line) for line in others), 1.6 * own], axis=0) / away
+        alike = [lines[j] for j, leg in enumerate(legs) if j != k and leg[0][0] == name[0]]
+        taken_for = (apart == 1.0) & np.any([_distance(flat, line) < 1.2 * own for line in alike], axis=0)
         names = np.min([np.linalg.norm(flat - one, axis=1) for one in taken], axis=0) / away
         crossed = sum(_crosses(VIEW.seen(on_leg), flat, line) for line in others)
         centred = np.tile(np.abs(ALONG - 0.5), len(spots) // len(ALONG))
         worth = np.minimum(np.minimum(room, names / 1.6), 1.6) - 0.3 * centred - 0.6 * _within(flat, faces)
-        worth -= 0.7 * (apart > 1.0) + 0.15 * (apart - 1.0) + 0.25 * crossed + 2.0 * (names < LEAST)
+        worth -= 0.7 * (apart > 1.0) + 0.15 * (apart - 1.0) + 0.25 * crossed + 2.0 * (names < LEAST) + 0.9 * taken_for
         best = np.argmax(np.round(worth, 6))
         taken.append(flat[best])
         colour = style.LEG_COLOURS[name[0]]
