@@ -48,7 +48,7 @@ def region_map(region: RegionMap, figure: Figure | None = None) -> Figure:
     width, height = np.ptp(outline, axis=0)
     panels = 1 if region.margin is None else 2
     wide = style.ONE_COLUMN + 0.6 if panels == 1 else style.TWO_COLUMNS
-    tall = np.clip(1.05 + 0.34 * style.TWO_COLUMNS * height / width, 2.2, TALLEST + 1.0)
+    tall = np.clip(1.05 + 0.15 * bool(region.over) + 0.34 * style.TWO_COLUMNS * height / width, 2.2, TALLEST + 1.0)
     with style.page(figure, wide, tall, layout="constrained") as figure:
         axes: Any = figure.subplots(1, panels, squeeze=False)[0]
         over = f"\nover all {region.over}" if region.over else ""

@@ -11,6 +11,7 @@ import ninedof as nd
 from ninedof import plot
 from ninedof.paper import figures as paper
 from ninedof.plot import style
+from ninedof.support.placing import toward
 from ninedof.workspace import WorkspaceSlice
 
 G = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
@@ -149,6 +150,14 @@ def region():
     return nd.region_map(nd.optimize(replace(study, characteristic_length=100.0), starts=2))
 
 
+def tilts():
+    """A disc of tilts along a path: two lines of title, a line more in the legend, panels as wide as they get."""
+    one, disc = region(), np.radians(5.0) * toward(np.linspace(0.0, 2.0 * np.pi, 41))
+    sides = {"horizontal": one.horizontal * np.radians(5.0) / 40.0, "vertical": one.vertical * np.radians(5.0) / 30.0}
+    words = {"axes": ("tilt about x", "tilt about y"), "over": "the path", "compared": {"stroke_ratio": 0.1602}}
+    return replace(one, **words, outline=disc, ruled=disc[:1], **sides)
+
+
 def sweep(index="condition_number", **over):
     return plot.sweep(nd.sweep(G, HOME, over, index, unit="mm"))
 
@@ -178,6 +187,7 @@ FIGURES = {
     "region": lambda: plot.region_map(region()),
     "region without limits": lambda: plot.region_map(replace(region(), margin=None)),
     "region of turns": lambda: plot.region_map(replace(region(), axes=("tilt about x", "tilt about y"), **TURNS)),
+    "region of tilts": lambda: plot.region_map(tilts()),
     "poses": lambda: plot.poses(BOTH, POSES),
     "named poses": lambda: plot.poses({"a": range(2, 11)}, [f"x +{k}, y -0.3" for k in range(9)]),
     "singular pose": lambda: plot.poses({"a": [4.0, math.inf, 900.0]}),
