@@ -79,10 +79,12 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Fi
     style.counted("designs", designs, len(style.SERIES))
     pairs = list(zip(style.SERIES, designs, strict=False))
     compared = next(((colour, d) for colour, d in pairs if d.level is not None and d.crossings), None)
-    with style.page(figure, style.TWO_COLUMNS, 4.3) as figure:
-        bottom, height = (0.475, 0.45) if compared else (0.185, 0.74)
-        left = figure.add_axes((0.085, bottom, 0.415, height))
-        right = figure.add_axes((0.575, 0.185, 0.405, 0.74))
+    with style.page(figure, style.TWO_COLUMNS, 4.3 if compared else 3.1) as figure:
+        tall = style.inches(figure)[1]
+        foot, head = 0.8 / tall, 1.0 - 0.32 / tall  # room for the legend, for the titles
+        bottom = foot + 0.29 if compared else foot
+        left = figure.add_axes((0.085, bottom, 0.415, head - bottom))
+        right = figure.add_axes((0.575, foot, 0.405, head - foot))
         for number, (colour, design) in enumerate(pairs):
             zs, theta, kappa = design.point
             _curve(left, design.zs, design.along_zs, (zs, kappa), colour, number)
@@ -102,7 +104,7 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Fi
             if design.slope is not None:
                 _tangent(right, design, design.slope)
         if compared:
-            box = figure.add_axes((0.085, 0.185, 0.415, 0.165), label="magnified")
+            box = figure.add_axes((0.085, foot, 0.415, 0.165), label="magnified")
             _magnify(left, box, *compared)
         keys: list[Any] = []
         for number, (colour, d) in enumerate(pairs):

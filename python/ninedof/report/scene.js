@@ -39,7 +39,7 @@
   function draw() {
     waiting = false;
     const paper = "print" in document.documentElement.dataset; // scaled there to what room it has
-    const [width, height] = paper ? [760, 430] : [canvas.clientWidth, canvas.clientHeight];
+    const [width, height] = paper ? [760, 311] : [canvas.clientWidth, canvas.clientHeight];
     const ratio = Math.max(paper ? 2.5 : 1, Math.min(window.devicePixelRatio || 1, 3));
     if (!width) return;
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {

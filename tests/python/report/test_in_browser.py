@@ -92,7 +92,7 @@ def test_tables_fit_the_paper(browser, pages, name):
 TORN = """(() => {
   const height = 1024; // pixels of A4 between the margins
   return [...document.querySelectorAll("main table")].filter((t) => t.getBoundingClientRect().height > height)
-    .map((t) => t.caption?.innerText).concat([...document.querySelectorAll(".table, figure, .stage, tr")]
+    .map((t) => t.caption?.innerText).concat([...document.querySelectorAll("table, figure, .stage, tr")]
     .filter((e) => getComputedStyle(e).breakInside !== "avoid").map((e) => e.className || e.tagName));
 })()"""
 ORDINARY = nd.Study(
