@@ -105,10 +105,11 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure |
         bands, most = _bands(found.percentiles, sections)
         turn, unit = (np.degrees, "deg") if found.of_angles else (np.asarray, found.unit)
         filled: Any = None
+        ends: set[str] = set()
         panels = above.subplots(1, len(sections), squeeze=False)[0]
         for axes, section in zip(panels, sections, strict=True):
             filled = _fill(axes, section.plane, turn, bands, most is not None) or filled
-            _boundary(axes, section.plane, turn, kinds)
+            ends |= _boundary(axes, section.plane, turn, kinds)
             _marks(axes, section, turn, unit, style.INK)
         if filled is not None:
             more = "" if most is None else f", {most:.4g} at most" if np.isfinite(most) else ", without a bound"
@@ -123,7 +124,9 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure |
                 aspect=28,
                 panchor=False,
             )
-        _legend(figure, _keys_of_limits(sections, kinds), sections, style.INK, 4)
+        looks = [look for kind, look in KINDS.items() if kind in ends]
+        keys = [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in looks]
+        _legend(figure, keys, sections, style.INK, 4)
         left, right = below.subplots(1, 2)
         _shares(left, found.limits())
         _distribution(right, found.percentiles)
@@ -224,9 +227,9 @@ def _outline(s: WorkspaceSlice, turn: Any) -> list[Floats]:
     return [np.asarray(line) for line in contour_generator(turn(s.horizontal), turn(s.vertical), s.fraction).lines(0.5)]
 
 
-def _boundary(axes: Any, s: WorkspaceSlice, turn: Any, kinds: Sequence[str]) -> None:
-    """Draw the boundary in stretches of one kind of limit, and show the part of the plane about it."""
-    names = list(KINDS)
+def _boundary(axes: Any, s: WorkspaceSlice, turn: Any, kinds: Sequence[str]) -> set[str]:
+    """Draw the boundary in stretches of one kind of limit, show the plane about it, and return the kinds."""
+    names, drawn = list(KINDS), set[str]()
     numbers = np.array([names.index(kind) for kind in kinds] + [-1])
     lines = _outline(s, turn)
     for line in lines:
@@ -237,6 +240,7 @@ def _boundary(axes: Any, s: WorkspaceSlice, turn: Any, kinds: Sequence[str]) -> 
         number = numbers[s.limit[row, column]]
         for first, last in style.stretches(number):
             _, colour, dashes = KINDS[names[number[first]]] if number[first] >= 0 else ("", style.MUTED, "-")
+            drawn |= {names[number[first]]} if number[first] >= 0 else set()
             part = line[first : last + 1].T
             axes.plot(*part, color="white", lw=BOUNDARY, solid_capstyle="butt", zorder=4)
             axes.plot(*part, color=colour, ls=dashes, lw=BOUNDARY, dash_capstyle="butt", zorder=5)
@@ -245,6 +249,7 @@ def _boundary(axes: Any, s: WorkspaceSlice, turn: Any, kinds: Sequence[str]) -> 
         room = 0.06 * np.ptp(every, axis=0).max()
         low, high = every.min(axis=0) - room, every.max(axis=0) + room
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    return drawn
 
 
 def _certified(axes: Any, s: CertifiedSection) -> None:
@@ -289,13 +294,6 @@ def _marks(axes: Any, section: Section, turn: Any, unit: str, region: str) -> No
     axes.set(xlabel=style.with_unit(s.axes[0], unit), ylabel=style.with_unit(s.axes[1], unit))
     axes.set_aspect("equal", anchor="N")  # titles at one height
     axes.set_title(f"{s.plane[0]} = {amount(style.signed(turn(s.plane[1])), unit)}")
-
-
-def _keys_of_limits(sections: Sequence[Section], kinds: Sequence[str]) -> list[Any]:
-    planes = [section.plane for section in sections]
-    there = {kinds[n] for s in planes for n in np.unique(s.limit[s.state == 1]) if n >= 0}
-    looks = [look for kind, look in KINDS.items() if kind in there]
-    return [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in looks]
 
 
 def _legend(figure: Any, keys: list[Any], sections: Sequence[Section], region: str, columns: int) -> None:

@@ -50,6 +50,13 @@ def test_bounds_are_drawn_in_the_style_of_their_limits():
     assert len({str(KINDS[kind][2]) for kind in "lqr"}) == 3  # kinds differ without colours
 
 
+def test_the_legend_names_no_limit_that_the_boundary_does_not_meet():
+    drawn = section(np.full((8, 8), 4.0), 1)
+    drawn.plane.state[3, 3], drawn.plane.limit[3, 3] = 1, 0  # a cell that no line passes
+    (legend,) = plot.workspace(space(names=["l1 low", "q2 high"]), [drawn]).legends
+    assert [text.get_text() for text in legend.get_texts()] == ["upper internal legs"]
+
+
 @pytest.mark.parametrize("kind", ["box", "region"])
 def test_what_ends_a_workspace_is_seen_on_every_colour_of_the_condition_number(kind):
     ground = colormaps[style.CONDITION](np.linspace(0.0, 1.0, 64))[:, :3]
