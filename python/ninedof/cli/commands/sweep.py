@@ -64,7 +64,7 @@ class _Options(HexagonalOptions, Job):
 
 def sweep(job: _Options) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
-    what, chosen, note = job.what, None, ""
+    what, chosen, start, note = job.what, None, "", ""
     if what in FIGURES:
         job.refuse(f"with {what}", *NONE_WITH_FIGURES)
         call: Callable[..., nd.SweepResult] = partial(nd.sweep_figure, what.removeprefix("figure-"), job.points)
@@ -74,7 +74,7 @@ def sweep(job: _Options) -> None:
         title = f"over {', '.join(grid)}"
         chosen = None if what is None else chosen_design(what, job)
         if all(plain_name(name) in COORDINATES for name in grid):
-            title += "" if job.absolute else ", from the neutral pose"
+            start = "" if job.absolute else "from the neutral pose"
             rule = job.internal_point or rule_of_study(chosen, grid)
             note = _held_words(grid, rule) + _note(chosen)
             call = _over_poses(chosen, job, grid, rule)
@@ -82,12 +82,14 @@ def sweep(job: _Options) -> None:
             job.refuse("in a sweep over designs", *OF_POSES)
             note = f"at the neutral pose alone{_note(chosen)}"
             call = _over_designs(what, chosen, job, grid)
+    title += f", {start}" * bool(start)
     result, folder = job.compute(call, title)
     title += f"; {note}" * bool(note)
+    drawn = f"{start}; {note}" if start else note
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
     table = summary_table(summary, title, result.units)
     stated = None if chosen is None else chosen.stated
-    job.write(result, folder, json_data(result, summary), table, lambda: _figures(result, what, note), stated)
+    job.write(result, folder, json_data(result, summary), table, lambda: _figures(result, what, drawn), stated)
 
 
 def _held_words(grid: Iterable[str], rule: str) -> str:
