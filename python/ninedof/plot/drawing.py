@@ -88,7 +88,7 @@ def drawing(
         half, middle = 0.72 * (high - low).max(), 0.5 * (low + high)
         panel = _Panel(figure, 2, "Front, along +y, neutral pose", half, middle)
         panel.front(seen, configuration, unit)
-        panel.note(words)
+        panel.note([*words, "each view at its own scale"])
     return figure
 
 

@@ -117,7 +117,7 @@ def _file(name: str) -> str:
 
 CAPTIONS = {
     "drawing": "Dimensions. E1 to E3 are joints of external legs (circles), I1 to I3 of internal legs (squares); all "
-    "coordinates are in the sheet. Each view has its own scale.",
+    "coordinates are in the sheet.",
     "mechanism": "The mechanism at its neutral pose.",
     "condition": "Along the height of O and along the twist, other variables as in the design: what the study asks "
     "for, at its poses or those that ruled its region; grey where a limit is passed there.",
