@@ -51,7 +51,7 @@ def write_names(
         own = _distance(flat, lines[k])
         room = np.min([*(2.0 * _distance(flat, line) for line in others), 1.6 * own], axis=0) / away
         alike = [lines[j] for j, leg in enumerate(legs) if j != k and leg[0][0] == name[0]]
-        taken_for = (apart == 1.0) & np.any([_distance(flat, line) < 1.2 * own for line in alike], axis=0)
+        taken_for = (apart == 1.0) & np.any([_distance(flat, line) < 1.5 * own for line in alike], axis=0)
         names = np.min([np.linalg.norm(flat - one, axis=1) for one in taken], axis=0) / away
         crossed = sum(_crosses(VIEW.seen(on_leg), flat, line) for line in others)
         centred = np.tile(np.abs(ALONG - 0.5), len(spots) // len(ALONG))
