@@ -83,7 +83,7 @@ double LockedLegs::condition_number(const LegSet& locked) const {
     if (!(one.rho > negligible)) return infinity;
   Mat6 m = stretched(m_, std::span(along).first(internals));
   Vec6 first = Vec6::Zero();
-  for (std::size_t k = 0; k < externals; ++k) {  // of twists that leave those legs as long as they are
+  for (std::size_t k = 0; k < externals; ++k) {  // M on the twists that leave these legs as long as they are
     Vec6 way = m_.row(external[k]).transpose().normalized();
     if (k > 0) way = across(first, across(first, way).normalized()).normalized();  // twice, for its last digits
     m -= (m * way).eval() * way.transpose();

@@ -82,8 +82,7 @@ class Placing {
       normal += row * row.transpose();
       right += row * placed.shift.transpose();
     }
-    if (known.empty()) return;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) fit_.col(axis) = solve_definite(normal, right.col(axis));
+    if (!known.empty()) fit_ = solve_definite(normal, right);
   }
 
   double near(Placed& placed, double enough) {

@@ -16,10 +16,10 @@ namespace {
 
 constexpr double equation_rounding = 8.0 * eps;
 constexpr double small_error = 1e-12;        // of a mode; the bounds are wide, and few modes exceed it
-constexpr double longest_correction = 1e-4;  // rad, or relative to the longest leg
-constexpr double shrinking = 0.1;            // largest ratio of a correction to the one before
+constexpr double longest_correction = 1e-4, wide = 100.0;  // rad, or of the longest leg; times the error that is known
+constexpr double shrinking = 0.1;  // largest ratio of a correction to the one before
 constexpr double no_correction = eps;
-constexpr int most_corrections = 5;
+constexpr int most_corrections = 12;
 
 using Point = std::array<Twofold, 3>;
 
@@ -88,11 +88,12 @@ double missing(double length, const Point& leg) {
   return 0.5 * (Twofold::product(length, length) - dot(leg, leg)).high;
 }
 
-/// Empty where the corrections do not shrink.
-std::optional<Configuration> corrected(const Geometry& g, const Vec9& leg_lengths, const Configuration& mode) {
+/// Empty where the first correction is longer than that or they do not shrink.
+std::optional<Configuration> corrected(const Geometry& g, const Vec9& leg_lengths, const Configuration& mode,
+                                       double longest) {
   const double unit = leg_lengths.maxCoeff();
   Precise at(mode);
-  double last = longest_correction / shrinking;
+  double last = longest / shrinking;
   for (int k = 0; k < most_corrections; ++k) {
     const std::array<Point, 3> rotation = at.rotation();
     const Configuration here = rounded(at, rotation);
@@ -110,13 +111,14 @@ std::optional<Configuration> corrected(const Geometry& g, const Vec9& leg_length
     const ClosureSolver solver(g, here);
     const ClosureSolver::Solution v = solver.solve(internal, external);
     const Vec3 turn = vec3(v.angular), ds = vec3(v.o), dp = vec3(v.at_o + cross(solver.legs.y, v.angular));
+    if (!(turn.allFinite() && dp.allFinite() && ds.allFinite())) return std::nullopt;
     const double size = std::max({turn.norm(), dp.norm() / unit, ds.norm() / unit});
     if (size <= no_correction) return here;
     if (!(size <= shrinking * last)) return std::nullopt;
     at.move(turn, dp, ds);
     last = size;
   }
-  return rounded(at, at.rotation());
+  return std::nullopt;
 }
 
 double separation_of(const Geometry& g, const Vec3& external_lengths, const Configuration& c) {
@@ -128,8 +130,10 @@ double separation_of(const Geometry& g, const Vec3& external_lengths, const Conf
 }  // namespace
 
 void sharpen(const Geometry& g, const Vec9& leg_lengths, double error, Configuration& mode, double& separation) {
-  if (error + equation_rounding <= small_error * separation) return;
-  const std::optional<Configuration> found = corrected(g, leg_lengths, mode);
+  const double known = (error + equation_rounding) / separation;
+  if (known <= small_error) return;
+  const std::optional<Configuration> found =
+      corrected(g, leg_lengths, mode, std::min(longest_correction, wide * known));
   if (!found) return;
   mode = *found;
   separation = separation_of(g, leg_lengths.head<3>(), mode);

@@ -214,8 +214,8 @@ int usable_exponent(const Geometry& g) {
   return exponent != 0 && scaled(g, -exponent) ? exponent : 0;
 }
 
-/// A rotation matrix may be off by 1e-9; the proofs take it for orthogonal to rounding.
-Configuration made_orthogonal(const Configuration& c) {
+/// Rotations are accepted (see Configuration) where they are orthogonal to 1e-9; the proofs take them for exact.
+Configuration orthogonalized(const Configuration& c) {
   if ((c.rotation.transpose() * c.rotation - Mat3::Identity()).cwiseAbs().maxCoeff() <= 16.0 * eps) return c;
   return {c.position, Eigen::Quaterniond(c.rotation).normalized().toRotationMatrix(), c.internal_point};
 }
@@ -271,7 +271,7 @@ Tracker::Tracker(const Geometry& g)
 
 Tracked Tracker::operator()(const Vec9& leg_lengths, const Configuration& given) const {
   require_leg_lengths(leg_lengths);
-  const Configuration start = made_orthogonal(given);
+  const Configuration start = orthogonalized(given);
   if (exponent_ == 0) return follow(leg_lengths, start);
   Tracked out = follow(scaled(leg_lengths, -exponent_), scaled(start, -exponent_));
   out.configuration = scaled(out.configuration, exponent_);

@@ -111,9 +111,10 @@ class Screen:
         progress = Progress(*parts, console=self.progress_console)
         if at_once:
             progress.start()
-        bar, ended = Bar(progress, title, words), Event()
+        bar, ended, looking = Bar(progress, title, words), Event(), None
         if not self.progress_console.is_interactive:  # reports may be minutes apart
-            Thread(target=bar.wait, args=(ended,), daemon=True).start()
+            looking = Thread(target=bar.wait, args=(ended,), daemon=True)
+            looking.start()
         try:
             yield bar
         except ValueError:
@@ -123,6 +124,8 @@ class Screen:
             raise
         finally:
             ended.set()
+            if looking is not None:
+                looking.join()
             if progress.live.is_started:
                 progress.stop()
 
@@ -139,7 +142,7 @@ class _Boxes(ProgressColumn):
         return Text(f"{task.completed:,.0f} boxes" if task.completed else "")
 
 
-SECOND = 1.0  # between two looks at the clock while nothing is reported
+BETWEEN_LOOKS = 1.0  # seconds, at the clock while nothing is reported
 FIRST_LINE, LONGEST_SILENCE = 10.0, 300.0  # seconds: in a log lines at 10, 20, 40 ... s, then every five minutes
 NARROW = partial(BarColumn, bar_width=12)
 VALUE, TO_GO = "{task.fields[value]}", (TimeRemainingColumn, "to go")
@@ -191,9 +194,10 @@ class Bar:
 
     def wait(self, ended: Event) -> None:
         """Print lines until the work has ended, while nothing is reported too; none before the bar is shown."""
-        while not ended.wait(SECOND):
-            if self._progress.live.is_started:
-                self._line()
+        with suppress(OSError):  # a pipe that has been closed
+            while not ended.wait(BETWEEN_LOOKS):
+                if self._progress.live.is_started:
+                    self._line()
 
     def _line(self) -> None:
         """Print what the bar says as a plain line where no bar can be drawn, if the time of the next line has come."""
@@ -203,6 +207,6 @@ class Bar:
             if progress.console.is_interactive or seconds < self._next_line:
                 return
             self._next_line = seconds + min(seconds, LONGEST_SILENCE)
-        shown = [column(progress.tasks[0]) for column in progress.columns if isinstance(column, ProgressColumn)]
-        words = [part.plain.strip() for part in shown if isinstance(part, Text)]
-        progress.console.print("  ".join(filter(None, words)), soft_wrap=True)
+            shown = [column(progress.tasks[0]) for column in progress.columns if isinstance(column, ProgressColumn)]
+            words = [part.plain.strip() for part in shown if isinstance(part, Text)]
+            progress.console.print("  ".join(filter(None, words)), soft_wrap=True)

@@ -90,11 +90,19 @@ class Actuator(Table):
         return wide and strong and self.price <= other.price
 
 
+class Rows(tuple[Actuator, ...]):
+    """Rows of a file, and its name as it was given; other rows are a plain tuple."""
+
+    file: str
+
+
 COLUMNS = tuple(one.name for one in entries(Actuator))
 
 
 def actuator_rows(name: str, value: Any) -> tuple[Actuator, ...]:
     """Return the rows of an argument: actuators, or mappings of their entries."""
+    if isinstance(value, Rows):
+        return value
     rows = items(name, value, "rows with name, shortest and longest")
     own = duty(Actuator)
     return _distinct(name, [own(f"{name}[{k}]", row) for k, row in enumerate(rows)])
@@ -108,11 +116,11 @@ def _distinct(where: str, rows: Sequence[Actuator]) -> tuple[Actuator, ...]:
     return tuple(rows)
 
 
-def catalogue(path: str | os.PathLike[str], unit: str) -> tuple[Actuator, ...]:
+def catalogue(path: str | os.PathLike[str], unit: str, called: str = "") -> Rows:
     """Return the rows of a CSV file whose first line names the columns; ValueError names file, line and column.
 
     An empty force or rate is without limit, an empty price unknown. Other columns are left out. Lengths are in `unit`:
-    a file that names another one is refused.
+    a file that names another one is refused. The rows are of the file `called` so, by default as it is named.
     """
     file = path_argument("actuators", path)
     text = read_text(file)
@@ -129,7 +137,9 @@ def catalogue(path: str | os.PathLike[str], unit: str) -> tuple[Actuator, ...]:
         if not body:
             raise ValueError("got no rows, expected at least one actuator")
         require_entries(body, names)
-        return _distinct("name", [_row(at, dict(zip(names, row, strict=True))) for at, row in body])
+        rows = Rows(_distinct("name", [_row(at, dict(zip(names, row, strict=True))) for at, row in body]))
+        rows.file = called or file.name
+        return rows
 
 
 def _row(line: int, entries: Mapping[str, str]) -> Actuator:
@@ -144,12 +154,12 @@ def _row(line: int, entries: Mapping[str, str]) -> Actuator:
         return Actuator(**values)
 
 
-def beside_study(path: str | os.PathLike[str], name: str, unit: str) -> tuple[Actuator, ...]:
+def beside_study(path: str | os.PathLike[str], name: str, unit: str) -> Rows:
     """Return the rows of the file that a study file names: one of its own folder, or in a folder there."""
     file = path_argument("actuators", name)
     if file.is_absolute() or ".." in file.parts:
         raise ValueError(f"actuators: got {shown(name)}, expected a CSV file in the folder of the study file")
-    return catalogue(Path(path).parent / file, unit)
+    return catalogue(Path(path).parent / file, unit, name)
 
 
 def require_together(rows: Sequence[Actuator], greatest_price: float | None, constraints: Mapping[str, Any]) -> None:

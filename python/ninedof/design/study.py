@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
@@ -38,7 +39,7 @@ from ninedof.support.arguments import (
     text,
     whole,
 )
-from ninedof.support.arrays import Floats
+from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import read_toml, write_toml
 from ninedof.support.structs import Check, Fixed, check_entries, entry, plain, within
 from ninedof.support.text import short_repr
@@ -166,8 +167,6 @@ class Study:
         Whether the external, the upper and the lower legs each take a row, or all nine the same.
     greatest_price : float, optional
         Of the nine actuators together.
-    catalogue : str
-        Name of the file that the actuators are from, for reports; that of the file where they are read from one.
 
     Raises
     ------
@@ -201,7 +200,6 @@ class Study:
     actuators: tuple[Actuator, ...] = entry(bought.actuator_rows, ())
     actuators_for: str = entry(partial(choice, known=FOR), FOR[0])
     greatest_price: float | None = entry(partial(finite, least=0.0), None)
-    catalogue: str = field(default="", compare=False, repr=False, metadata={"check": text})
     defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
     """Free variables that were not given and took the family's default bounds."""
     length_assumed: bool = field(default=False, init=False, compare=False, repr=False)
@@ -215,7 +213,6 @@ class Study:
         if assumed:
             object.__setattr__(self, LENGTH, 1.0)  # not UNGIVEN: copies have it given
         if isinstance(self.actuators, str | os.PathLike):
-            object.__setattr__(self, "catalogue", self.catalogue or os.path.basename(self.actuators))
             object.__setattr__(self, "actuators", bought.catalogue(self.actuators, _unit("unit", self.unit)))
         check_entries(self)
         bought.require_together(self.actuators, self.greatest_price, self.constraints)
@@ -258,7 +255,7 @@ class Study:
         with within(os.fspath(path), ": "):
             if isinstance(name := data.get("actuators"), str):
                 data["actuators"] = bought.beside_study(path, name, _unit("unit", data.get("unit", "")))
-            return cls.from_dict(data)._with(catalogue=name if isinstance(name, str) else "")
+            return cls.from_dict(data)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Study:
@@ -270,7 +267,12 @@ class Study:
         known_keys("study", data, ["unit", "actuators", *TABLES])
         tables = {name: table(name, data.get(name, {})) for name in TABLES}
         require_unit_at_top({name: entries for name, entries in tables.items() if name != "objective"})
-        rows = items("actuators", data.get("actuators", ()), "rows with name, shortest and longest")
+        given = data.get("actuators", ())
+        rows = (
+            given
+            if isinstance(given, bought.Rows)
+            else items("actuators", given, "rows with name, shortest and longest")
+        )
         if "actuators" in data and not rows:
             raise ValueError("actuators: got no rows, expected at least one actuator")
         arguments: dict[str, Any] = {"unit": data.get("unit", ""), "actuators": rows}
@@ -310,6 +312,11 @@ class Study:
     def with_solver(self, starts: int | None = None, seed: int | None = None) -> Study:
         """Return the same study with another number of starts or another seed."""
         return self._with(starts=self.starts if starts is None else starts, seed=self.seed if seed is None else seed)
+
+    @property
+    def catalogue(self) -> str:
+        """Name of the file that the actuators are from, as it was given; "" where there is none."""
+        return self.actuators.file if isinstance(self.actuators, bought.Rows) else ""
 
     def with_actuators(self, rows: Mapping[str, Actuator]) -> Study:
         """Return the study of legs that have these rows, by "external", "upper" and "lower": with their limits."""
@@ -405,12 +412,16 @@ class Study:
         """Return the height zp of the plate of a design whose neutral configuration, that of the tool, is given."""
         return float(instance("neutral", neutral, Configuration).position[2]) - self.tool.position[2]
 
-    def leg_limits(self, neutral: Configuration, ranges: Sequence[tuple[float, float]] = ()) -> tuple[Floats, Floats]:
+    def leg_limits(self, neutral: Configuration, ranges: ArrayLike | None = None) -> tuple[Floats, Floats]:
         """Return the least and greatest length of each leg of a design, shapes (9,); 0 and infinity where it has none.
 
-        The neutral configuration is a single one; `ranges` are those in which something else keeps each leg.
+        The neutral configuration is a single one; `ranges`, shape (9, 2), are those in which something else keeps each
+        leg.
         """
-        low, high = np.array(ranges or [(0.0, math.inf)] * 9).T.copy()
+        ends = as_floats("ranges", [(0.0, math.inf)] * 9 if ranges is None else ranges, (9, 2))
+        if ends.ndim > 2:
+            raise ValueError(f"ranges: got shape {ends.shape}, expected shape (9, 2)")
+        low, high = ends.T.copy()
         for limit in self.limits:
             if limit.name in OF_LENGTHS and limit.at == "poses":
                 unit, legs = self.zp(neutral) if limit.of == "zp" else 1.0, OF_LENGTHS[limit.name]

@@ -89,7 +89,8 @@ def _priced(one: Combination) -> str:
 def notes_of(study: Study) -> tuple[str, ...]:
     """Return where the actuators of a study are from, and which of their columns have no effect in it."""
     columns = (("force", "loads"), ("rate", "speeds"))
-    file = [f"actuators from {study.catalogue}, {len(study.actuators)} rows"] if study.catalogue else []
+    count = len(study.actuators)
+    file = [f"actuators from {study.catalogue}, {count} row{'s' * (count > 1)}"] if study.catalogue else []
     return (
         *file,
         *(

@@ -46,7 +46,7 @@ class OfStudy:
         if self.study is None or self.configuration is None:
             return None
         study: Study = self.study
-        return study.leg_limits(self.configuration, self.region.leg_ranges if self.region else ())
+        return study.leg_limits(self.configuration, (self.region and self.region.leg_ranges) or None)
 
 
 @short_repr
@@ -80,9 +80,9 @@ class Candidate(OfStudy):
     reached: int
     """Number of starts that ended at this objective; warm starts are not counted."""
     study: Study | None = field(default=None, repr=False, compare=False, metadata=DERIVED)
-    """Of the result that it is in: sheet, payload, ... of the candidate are for its loads, tool and region."""
+    """It is a design of this study: its sheet, payload, ... have the loads, tool and region. None where unknown."""
     region: RegionReport | None = field(default=None, repr=False, compare=False, metadata=DERIVED)
-    """Of the result that it is in."""
+    """That of the result that it is in, if it is in one."""
 
     def __post_init__(self) -> None:
         """Make what is there by name unchangeable, as all else is."""
@@ -98,7 +98,7 @@ class Candidate(OfStudy):
         return max(self.conditions)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return every field as plain values, but for the robot and its poses, which follow from the variables."""
+        """Return every field as plain values, but for the study, and for robot and poses, which the variables give."""
         return plain_fields(self)
 
 

@@ -65,7 +65,7 @@ def optimize(
         Called as progress(runs done, runs in all, best objective so far); infinite before a start has found a feasible
         design. A start is one run, or two where it is followed to its end after a short run. Runs in all grow where
         more starts follow. If it has a method `phase`, that is called with a few words where a part of the work begins:
-        over a region, all starts and every round behind them, which are no runs.
+        over a region, all starts and every round behind them, and the proofs that a reserve needs, which are no runs.
     warm : Result, Candidate, mapping of names to values, or a sequence of them, optional
         Additional starts, tried first: a result of a similar study (its best four candidates), or a known design. They
         are moved inside the bounds.
@@ -132,7 +132,7 @@ def optimize(
             def again(one: Study, known: Result) -> Result:
                 return run.result(one, warm_variables(known), "a reserve for tolerances")
 
-            result = with_reserve(result, again, count, progress)
+            result = with_reserve(result, again, count, progress, lambda: perf_counter() >= run.end)
         if not certify or result.best is None or result.interrupted:
             return result
         run.end = math.inf  # a proof does not count

@@ -133,7 +133,11 @@ class Reserve(Table):
 
 
 def with_reserve(
-    result: Any, solve: Callable[[Study, Any], Any], threads: int, progress: Progress | None = None
+    result: Any,
+    solve: Callable[[Study, Any], Any],
+    threads: int,
+    progress: Progress | None = None,
+    ended: Callable[[], bool] = bool,
 ) -> Any:
     """Return the result whose limits are proved of every machine within the study's tolerances, if one is found.
 
@@ -154,18 +158,15 @@ def with_reserve(
             return replace(_of(study, result, first), interrupted=True, reserve=Reserve(shares, note=note))
         if not lacking:
             return replace(_of(study, result, first), reserve=Reserve(shares, proved=True))
-        if _is_stopped(result):
+        if ended():
             break
         taken = {key: shares.get(key, 1.0) * share for key, share in lacking.items()}
         if left == 0 or not all(LEAST_SHARE < share < 1.0 / LEAST_SHARE for share in taken.values()):
             break
         shares |= taken
         result = solve(Reserve(shares).study(study), result)
-    return _without(study, result, first, Reserve(shares, note=UNPROVED), lacking)
-
-
-def _is_stopped(result: Any) -> bool:
-    return bool(result.interrupted or result.status == type(result.status).STOPPED)
+    over = result.interrupted or ended()
+    return _without(study, result, first, Reserve(shares, note=UNPROVED), lacking, over)
 
 
 def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
@@ -199,9 +200,9 @@ def _of(study: Study, result: Any, first: Any) -> Any:
     return replace(result, study=study, actuators=chosen)
 
 
-def _without(study: Study, result: Any, first: Any, reserve: Reserve, lacking: Iterable[str]) -> Any:
-    """Return what is left where no design is proved: the last one of a stopped search, else that there is none."""
-    if first.best is None or _is_stopped(result):
+def _without(study: Study, result: Any, first: Any, reserve: Reserve, lacking: Iterable[str], over: bool) -> Any:
+    """Return what is left where no design is proved: the last one of a search that is over, else that there is none."""
+    if first.best is None or over:
         if result.best is None and first.best is not None:  # that without a reserve is the best one so far
             result = replace(first, status=result.status, reason=result.reason, interrupted=result.interrupted)
             reserve = Reserve(note=reserve.note)

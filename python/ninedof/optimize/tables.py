@@ -19,7 +19,7 @@ from ninedof.tables import RIGHT, SHORT, Column, Line, Table
 
 LEAST_PRICE = 0.0005  # per cent of the objective for one per cent of the limit; smaller prices have no number
 MOST_GAIN = 10.0  # per cent of the objective: first-order prices hold for small gains only
-ENDS = 1e3 * np.array([(1.0, 2.0, 3.0, 2.0, 1.0, 1.0), (-2.0, 1.0, -1.0, -1.0, 3.0, -1.0)])
+ENDS = 1e9 * np.array([(1.0, 2.0, 3.0, 2.0, 1.0, 1.0), (-2.0, 1.0, -1.0, -1.0, 3.0, -1.0)])
 """Coordinates of two poses at ends of a region."""
 SURE = 0.95  # probability with which a better optimum would have been met
 

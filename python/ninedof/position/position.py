@@ -278,7 +278,8 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
         Shape (..., 9), broadcast against `start`: one step each. With one dimension more than `start` has, shape
         (..., n, 9): a trajectory of n steps, each from the configuration of the one before.
     start : Configuration
-        The known configuration, shape (...). The path of the lengths begins at its own lengths.
+        The known configuration, shape (...). The path of the lengths begins at its own lengths; those of the nearest
+        rotation where its rotation is orthogonal to few digits.
     threads : int, optional
         Number of threads; one per processor by default. The result does not depend on it.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple, Unpack
 
 import numpy as np
@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.design.duty import Tool
-from ninedof.design.limit_numbers import CLEARANCE, PARTS, cone_limits
-from ninedof.design.region_poses import posed
+from ninedof.design.limit_numbers import CLEARANCE, PARTS, compared, cone_limits
+from ninedof.design.region_poses import o_is_placed, posed
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
@@ -355,7 +355,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         stiffness=Stiffness(*(extreme(x, np.argmin) for x in numbers["stiffness"].T))
         if "stiffness" in numbers
         else None,
-        limits=limit_rows(posed(duty, looked.worst), design.variables) if study is not None else (),
+        limits=() if study is None else limit_rows(posed(_judged(duty, design), looked.worst), design.variables),
         region=region,
         unit=duty.unit if values["unit"] is None else unit_argument(values["unit"]),
         cone_axes={name: () if one is None else one.axis for name, one in cone_limits(duty).items()},
@@ -373,6 +373,14 @@ def _tolerances(legs: ArrayLike | None, joints: ArrayLike | None) -> _core.Toler
         legs=_of_each("leg_errors", 0.0 if legs is None else legs, 9),
         joints=_of_each("joint_errors", 0.0 if joints is None else joints, 12),
     )
+
+
+def _judged(study: Study, design: Any) -> Study:
+    """Return the study without the limits that a design point does not know: of lengths compared, O being placed."""
+    if not o_is_placed(study) or getattr(design, "region", None) is not None:
+        return study
+    unknown = compared(study)
+    return replace(study, constraints={name: one for name, one in study.constraints.items() if name not in unknown})
 
 
 def _of_each(name: str, value: ArrayLike, count: int) -> Floats:

@@ -13,6 +13,7 @@ import numpy as np
 
 from ninedof.design.limit_numbers import CONES
 from ninedof.design.limits import OF_LENGTHS
+from ninedof.design.region_poses import o_is_placed
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
@@ -73,7 +74,7 @@ def leg_limits(variant: Variant) -> tuple[Floats, Floats]:
     is placed in a region, `leg_low` and `leg_high` are within it.
     """
     low, high, study, lengths = variant.leg_low, variant.leg_high, variant.study, variant.study_lengths
-    if study and lengths is not None and np.array_equal((low, high), study.leg_limits(variant.home)):
+    if study and lengths is not None and not o_is_placed(study):
         least, most = permitted_ranges(study, variant.home, lengths)
         low, high = np.maximum(low, least), np.minimum(high, most)
     return low * (1.0 - EASE), high * (1.0 + EASE)

@@ -173,7 +173,7 @@ class Machine:
         if self.result is None:
             return np.zeros(9), np.full(9, math.inf)
         region = self.result.region
-        return self.result.study.leg_limits(home, () if region is None else region.leg_ranges)
+        return self.result.study.leg_limits(home, (region and region.leg_ranges) or None)
 
 
 def machine_of(design: Any = None) -> Machine:

@@ -230,8 +230,9 @@ def built_ranges(design: Any, actuators: str) -> tuple[Floats, Floats] | None:
     study: Study = design.study
     region, listed = study.objective.region, len(study.objective.poses)
     if o_is_placed(study):
-        ranges = getattr(getattr(design, "region", None), "leg_ranges", ())
-        if actuators == "needed":
+        over = getattr(design, "region", None)
+        ranges = () if over is None else over.leg_ranges
+        if over is not None and actuators == "needed":
             ranges = tuple((leg.shortest, leg.longest) for leg in sheet(design).legs)
         return _eased(*np.transpose(ranges)) if ranges else None
     lengths = leg_lengths(design.geometry, design.configurations[slice(1, 1 + listed) if listed else slice(1)])

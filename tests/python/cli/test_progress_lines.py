@@ -65,7 +65,7 @@ def test_a_phase_is_named(capsys):
 
 def test_lines_come_where_nothing_is_reported(capsys, monkeypatch):
     """A certificate of a machine is one box, which takes minutes."""
-    monkeypatch.setattr(screens, "SECOND", 0.01)
+    monkeypatch.setattr(screens, "BETWEEN_LOOKS", 0.01)
     now, printed = 0.0, Event()
     screen = Screen(json=False)
     console = screen.progress_console

@@ -1,6 +1,7 @@
 """Actuators of a study: rows, files of rows, and the limits of the legs that have them."""
 
 import math
+import pickle
 import re
 from dataclasses import replace
 
@@ -49,6 +50,13 @@ def test_rows_of_a_study_are_those_of_its_file(tmp_path):
     assert not any("rows" in words for words in notes_of(typed))
     read = nd.Study(actuators=saved(tmp_path, FILE))
     assert (read.actuators, read.catalogue) == ((A, B), "catalogue.csv")
+    other = replace(read, actuators=saved(tmp_path, FILE, "other.csv"))
+    assert (other.catalogue, replace(read, actuators=[A]).catalogue, replace(read, actuators=()).catalogue) == (
+        "other.csv",
+        "",
+        "",
+    )
+    assert pickle.loads(pickle.dumps(read)).catalogue == replace(read, starts=3).catalogue == "catalogue.csv"
 
 
 @pytest.mark.parametrize(

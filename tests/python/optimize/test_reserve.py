@@ -215,18 +215,24 @@ def test_a_search_that_the_time_ended_is_not_infeasible():
     """The time is over after the search without a reserve: its design is the best one so far."""
     asked = replace(REQUIREMENT, tolerances=TOLERANCES)
     first = nd.optimize(REQUIREMENT, starts=2)
-    asked_again = []
+    solved = []
 
-    def ended(study, known):
-        asked_again.append(study)
+    def solve(study, known):
+        solved.append(study)
         return replace(known, status=nd.Status.STOPPED, reason="the time", candidates=(), region=None)
 
-    result = with_reserve(replace(first, study=asked), ended, 0)
+    result = with_reserve(replace(first, study=asked), solve, 0, ended=lambda: bool(solved))
     assert result.status == "stopped"
     assert result.best == first.best
     assert result.reserve == Reserve(note="not proved of every machine within the tolerances")
     assert result.solved.constraints == asked.constraints
-    stopped = with_reserve(replace(first, study=asked, status=nd.Status.STOPPED), ended, 0)
-    assert stopped.status == "stopped"
-    assert stopped.best == first.best
-    assert len(asked_again) == 1  # nothing is solved when the time is over
+    over = with_reserve(replace(first, study=asked), solve, 0, ended=lambda: True)
+    assert over.best == first.best
+    assert len(solved) == 1  # nothing is solved when the time is over
+
+
+def test_a_search_that_stopped_for_another_reason_goes_on_with_a_reserve():
+    first = nd.optimize(REQUIREMENT, starts=2)
+    stopped = replace(first, study=replace(REQUIREMENT, tolerances=TOLERANCES), status=nd.Status.STOPPED)
+    result = with_reserve(stopped, lambda study, known: nd.optimize(study, starts=2, warm=known), 0)
+    assert (result.status, result.reserve.proved) == ("optimal", True)

@@ -339,5 +339,5 @@ def test_the_time_of_the_limits_is_not_taken_from_the_condition_number(monkeypat
     monkeypatch.setattr(_core, "limits_over_poses", slow)
     monkeypatch.setattr(_core, "ConditionSettings", noted)
     geometry, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0), nd.Configuration.neutral([4.0], [2.4])
-    certify(nd.Study(objective={"region": {"box": [0.01] * 3}}), geometry, home, 1.0, time_limit=0.2)
-    assert 0.1 < seconds[0] <= 0.2
+    certify(nd.Study(objective={"region": {"box": [0.01] * 3}}), geometry, home, 1.0, time_limit=2.0)
+    assert 1.85 < seconds[0] <= 2.0

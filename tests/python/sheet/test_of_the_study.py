@@ -133,6 +133,14 @@ def test_a_design_point_knows_its_study(two):
     assert "study" not in two.best.to_dict()
 
 
+def test_a_design_point_does_not_know_limits_that_compare_lengths_where_o_is_placed():
+    region = {"box": [0.2, 0.2, 0.1], "internal_point": "best"}
+    study = nd.Study(constraints={"stroke_ratio": (None, 3.0), "base_cone": (None, 1.2)}, objective={"region": region})
+    point = study.evaluate({"a1": 0.0, "a2": 5.8, "b1": 2.9, "b2": 0.0, "zp": 4.0, "zs": 2.4, "theta_z": 0.0})
+    assert [row.name for row in nd.sheet(point).limits] == ["base_cone"]
+    assert built_ranges(point, "needed") is None
+
+
 def test_candidates_are_of_the_study_of_their_result(two):
     other = replace(two, study=replace(two.study, masses={"platform": 9.0}))
     assert {one.study.masses.platform for one in other.candidates} == {9.0}

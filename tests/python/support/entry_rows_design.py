@@ -61,7 +61,6 @@ row("Study")(
         "actuators": [dict(ACTUATOR)],
         "actuators_for": "all",
         "greatest_price": 900.0,
-        "catalogue": "drives.csv",
         **{name: kind(**DUTY[name]).to_dict() for name, kind in DUTIES.items()},
     },
     words={"variables": OF_ROBOT, "characteristic_length": OF_ROBOT},

@@ -69,9 +69,10 @@ NINEDOF_INLINE void for_each_reduced_chunk(const Block& b, const Work& work) {
 /// largest singular value of M, rounding errors are too large: the row is unsure.
 constexpr double most_condition = 1e8, most_lever = 16.0;
 /// So it is unless the larger of the platform's radius and this distance is between these multiples of the
-/// characteristic length: of angular and other columns of such different sizes the smaller ones lose digits that the
-/// Jacobi method for one configuration keeps.
-constexpr double least_size = 1.0 / 32.0, most_size = 1e4;
+/// characteristic length. Of angular columns that are so much longer or shorter than the others the smaller ones lose
+/// digits that the Jacobi method for one configuration keeps: below, all that the ratio has; above, as few as it has at
+/// 1e3, where the error is 1e-12. Millimetres with a length of 1 are there, and stay as quick as they were.
+constexpr double least_size = 1.0 / 32.0, most_size = 1e3;
 
 /// The largest distance of an external joint of the platform from p, squared.
 NINEDOF_INLINE double squared_radius(const Joints& g) {
@@ -84,10 +85,10 @@ NINEDOF_INLINE double squared_radius(const Joints& g) {
 }
 
 template <class P>
-NINEDOF_INLINE typename P::Mask lever_allows(const Block& b, const Columns& c, long k, const P& greatest) {
+NINEDOF_INLINE typename P::Mask lever_allows(const P& radius, const Columns& c, long k, const P& greatest) {
   const Poses<P> pose = c.poses<P>(k);
   const Xyz<P> y = pose.s - pose.p;
-  const P lever = dot(y, y), unit = square(c.length<P>(k)), size = max(lever, P(squared_radius(b.robot)));
+  const P lever = dot(y, y), unit = square(c.length<P>(k)), size = max(lever, radius);
   return (lever <= (most_lever * most_lever) * greatest * unit) & (size >= (least_size * least_size) * unit) &
          (size <= (most_size * most_size) * unit);
 }
@@ -113,12 +114,13 @@ void leg_lengths(const Block& b, double* out) {
 }
 
 void condition_numbers(const Block& b, double* out) {
+  const Lanes radius(squared_radius(b.robot));
   for_each_reduced_chunk(b, [&](const Columns& c, const Bidiagonals& reduced, long first, long rows) {
     alignas(64) double kappa[chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const auto [least, greatest] = extreme_roots(reduced.load<Lanes>(k));
       const Lanes ratio = sqrt(greatest.x / least.x);
-      const auto sure = (ratio <= most_condition) & lever_allows(b, c, k, greatest.x);
+      const auto sure = (ratio <= most_condition) & lever_allows(radius, c, k, greatest.x);
       store(select(least.open | greatest.open, unsure, select(sure, ratio, unsure)), kappa + k);
     }
     scatter<1>(&kappa, rows, out + first);
@@ -126,24 +128,27 @@ void condition_numbers(const Block& b, double* out) {
 }
 
 void frobenius_condition_numbers(const Block& b, double* out) {
+  const Lanes radius(squared_radius(b.robot));
   for_each_reduced_chunk(b, [&](const Columns& c, const Bidiagonals& reduced, long first, long rows) {
     alignas(64) double kappa[chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const Polynomial<Lanes> p(reduced.load<Lanes>(k));
       const Lanes& sum = p.s[0];
       const Lanes ratio = sqrt(sum * (p.s[4] / p.s[5]));
-      store(select((ratio <= most_condition) & lever_allows(b, c, k, sum), ratio, unsure), kappa + k);
+      store(select((ratio <= most_condition) & lever_allows(radius, c, k, sum), ratio, unsure), kappa + k);
     }
     scatter<1>(&kappa, rows, out + first);
   });
 }
 
 void singular_values(const Block& b, double* out) {
+  const Lanes radius(squared_radius(b.robot));
   for_each_reduced_chunk(b, [&](const Columns& c, const Bidiagonals& reduced, long first, long rows) {
     alignas(64) double sigma[6][chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const Roots<Lanes> root = all_roots(reduced.load<Lanes>(k));
-      const auto sure = (root.x[5] <= (most_condition * most_condition) * root.x[0]) & lever_allows(b, c, k, root.x[5]);
+      const auto sure =
+          (root.x[5] <= (most_condition * most_condition) * root.x[0]) & lever_allows(radius, c, k, root.x[5]);
 #pragma GCC unroll 6
       for (int j = 0; j < 6; ++j) {
         const Lanes value = 1.0 / sqrt(root.x[j]);

@@ -126,7 +126,7 @@ std::optional<Vec9> solve_regular(const Mat9& a, const Vec9& b, double least_piv
   return {};
 }
 
-Eigen::VectorXd solve_definite(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+Eigen::MatrixXd solve_definite(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.ldlt().solve(b);
 }
 

@@ -19,8 +19,8 @@ Mat6 triangular_factor(const Mat96& x);
 /// The solution of a x = b; nothing if a pivot is at most `least_pivot` times the largest.
 std::optional<Vec9> solve_regular(const Mat9& a, const Vec9& b, double least_pivot);
 
-/// The solution of a x = b for a symmetric `a` that is positive definite.
-Eigen::VectorXd solve_definite(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+/// The solution of a x = b for a symmetric `a` that is positive definite, a column for each of b.
+Eigen::MatrixXd solve_definite(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// A least-squares solution of a x = b; entries that the rank leaves open are zero.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);

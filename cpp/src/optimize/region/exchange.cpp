@@ -218,8 +218,8 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     exact += exact > 0 || (still && out.look.excess <= passed);
     if (out.rounds <= most_drops) drop(x, first.at.size(), known_before, imposed);
     known_before = imposed.at.size();
-    // Poses that follow take with them what excludes the design they joined at: where that leads from one design to
-    // another and back, those that stay end it.
+    // Poses that follow may carry away what excludes the design where they joined, so that two designs alternate: then
+    // poses stay where they are.
     moving = join(x, out.look.worst, exact == 0 && out.look.excess <= shrinks * excess, imposed);
     excess = out.look.excess;
   }

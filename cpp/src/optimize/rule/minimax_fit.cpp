@@ -54,8 +54,7 @@ MinimaxFit::MinimaxFit(const RuleRows& rows, const std::vector<Powers>& powers, 
   Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(count, 3);
   for (std::size_t n = 0; n < best.size(); ++n)
     wanted += terms_.col(static_cast<Eigen::Index>(n)) * best[n].shift.transpose() / static_cast<double>(best.size());
-  const Eigen::MatrixXd weights = metric().topLeftCorner(count, count);
-  for (Eigen::Index i = 0; i < 3; ++i) unknowns_.segment(i * count, count) = solve_definite(weights, wanted.col(i));
+  unknowns_.head(3 * count) = solve_definite(metric().topLeftCorner(count, count), wanted).reshaped();
   unknowns_.tail(rows.middle_count()) = rows.middles(placed(poses));
   move_to(unknowns_);
 }
