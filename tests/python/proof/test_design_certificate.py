@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 from forged import line_of, lines_of, sealed, spelled, verdict_of, with_word
+from interrupts import interrupter
 from limit_oracle import limits_of, margins, robot_of
 from region_oracle import random_poses
 from sizes import size
@@ -264,3 +265,29 @@ def test_what_is_proved_of_a_changed_file_is_true(lines, verdict):
         assert holds(forged, rng), forged[n]
     assert proved > 5
     assert refused > 5
+
+
+@pytest.fixture(scope="module")
+def machine_lines(tmp_path_factory):
+    """A machine in millimetres whose condition number is proved over a region."""
+    sizes = {"a1": 0.0, "a2": 600.0, "b1": 280.0, "b2": 0.0, "zp": 480.0, "zs": 300.0, "theta_z": 0.0}
+    objective = {"region": {"box": (40.0, 50.0, 40.0), "tilt": 0.1}, "condition_limit": 6.0}
+    result = nd.optimize(nd.Study(variables=sizes, objective=objective, characteristic_length=150.0))
+    path = tmp_path_factory.mktemp("machine") / "machine.certificate"
+    return lines_of(result.save_certificate(result.certify(gap=0.1), path).read_bytes())
+
+
+def test_a_machine_that_breaks_its_bound_in_a_corner_is_refused_soon(machine_lines, verdict):
+    """With a smaller base the condition number is 7 % above what the file says: refused in a second, not in minutes."""
+    n = line_of(machine_lines, "variable a2 ")
+    found = verdict(with_word(with_word(machine_lines, n, 2, spelled(480.0)), n, 3, spelled(480.0)))
+    assert not found.proved
+    assert "the machine is called inside, and its design in the middle breaks condition_number" in found.words
+
+
+def test_ctrl_c_ends_the_check_of_a_machine(machine_lines, tmp_path):
+    n = line_of(machine_lines, "limit condition_number ")
+    path = tmp_path / "close.certificate"
+    path.write_bytes(sealed(with_word(machine_lines, n, 3, spelled(4.7718))))  # a hair above the worst: minutes
+    with interrupter() as interrupt, pytest.raises(KeyboardInterrupt):
+        nd.check_certificate(path, progress=interrupt)

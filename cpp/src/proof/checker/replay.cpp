@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <numeric>
 
 namespace ninedof::checker::sets {
@@ -9,6 +10,7 @@ namespace {
 
 constexpr int most_depth = 1000, most_halvings = 10, deepest_outside = 48;
 constexpr long cuts_of_outside = 4000;
+constexpr long large_first = 4096, between_reports = 4096;
 constexpr long spots_of_node = 2000, spots_of_leaf = 300'000, spots_of_machine = 20'000'000;
 /// Poses are divided until they move a leg by less than this part of what the designs do.
 constexpr double part_of_designs = 0.5;
@@ -48,6 +50,9 @@ class DesignsReplay {
 
  private:
   std::size_t dimensions() const { return file_.varied.size(); }
+  void report() const {
+    if (reading_) reading_(static_cast<std::size_t>(out_.leaves), file_.boxes.size());
+  }
 
   /// Legs that may meet share a joint in every design.
   void check_exempt() const {
@@ -135,7 +140,7 @@ class DesignsReplay {
   }
 
   void leaf(const BoxLine& box, std::size_t number, std::vector<Pending> pending) {
-    if (reading_ && out_.leaves % 16 == 0) reading_(static_cast<std::size_t>(out_.leaves), file_.boxes.size());
+    if (out_.leaves % 16 == 0) report();
     ++out_.leaves;
     const std::string name = dimensions() == 0 ? "the machine" : "box " + digits(number + 1);
     left_ = dimensions() == 0 ? spots_of_machine : spots_of_leaf;
@@ -163,12 +168,16 @@ class DesignsReplay {
   void narrow(const Cube& cube, std::vector<Pending>& pending, long most, const std::string& name = "") {
     const Weigher weigher(file_, cube);
     for (Pending& one : pending) {
-      std::vector<Spot> ahead, left;
-      ahead.swap(one.spots);
+      std::deque<Spot> ahead(one.spots.begin(), one.spots.end());
+      std::vector<Spot> left;
       one.moves = {};
       for (long count = 0; !ahead.empty(); ++count) {
-        const Spot spot = ahead.back();
-        ahead.pop_back();
+        // Small ones first, as fewer have to be kept. Of a machine that is called inside, large ones before them: small
+        // ones where a limit is just kept do not show that it is broken elsewhere.
+        const bool large = dimensions() == 0 && count < large_first;
+        const Spot spot = large ? ahead.front() : ahead.back();
+        large ? ahead.pop_front() : ahead.pop_back();
+        if (count % between_reports == between_reports - 1) report();
         if (beside(file_, spot.at) || beside(file_, spot.other)) continue;
         --left_;
         const Weighed found = weigher.weigh(*one.want, spot);
