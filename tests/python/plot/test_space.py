@@ -267,9 +267,10 @@ def test_the_drawing_has_the_twist_and_the_tool_on_the_plates_as_they_are_made()
     without = plot.drawing(G, turned, "mm").axes
     with_tool = plot.drawing(*tool.robot(G, turned), "mm", tool).axes
     words = [[{text.get_text() for text in axes.texts} for axes in figure] for figure in (without, with_tool)]
-    assert "theta_z = 17.189°" in words[0][2]
+    assert "theta_z = 17.189°\neach view at its own scale" in words[0][2]
     assert words[1][:2] == words[0][:2]
-    assert "theta_z = 17.189°\ntool at (0.2, 0, -1) mm\ntool turned (0, 0, 28.648)°" in words[1][2]
+    of_tool = "tool at (0.2, 0, -1) mm\ntool turned (0, 0, 28.648)°"
+    assert f"theta_z = 17.189°\n{of_tool}\neach view at its own scale" in words[1][2]
     assert {"zp = 3.9828 mm", "tool"} <= words[1][2]
     (mark,) = [line for line in with_tool[2].lines if line.get_marker() == "v"]
     at = turned.position + turned.rotation @ np.array(tool.position)
