@@ -11,6 +11,18 @@
 using namespace ninedof;
 using namespace support;
 
+namespace {
+
+const std::pair hexagonal{Geometry::hexagonal(0.0, 5.8, 2.9, 0.0), neutral(4.0, 2.4)};  // and its home
+
+Region cube() {
+  Region out;
+  out.size = Vec3::Constant(0.3);
+  return out;
+}
+
+}  // namespace
+
 TEST_SUITE("region_share") {
   TEST_CASE("a leg whose base joint is in the middle of a held region keeps a ball of it") {
     Random random(31);
@@ -34,10 +46,8 @@ TEST_SUITE("region_share") {
   }
 
   TEST_CASE("limits of the table, the condition number, the side of home") {
-    const Geometry g = Geometry::hexagonal(0.0, 5.8, 2.9, 0.0);
-    const Configuration home = neutral(4.0, 2.4);
-    Region region;
-    region.size = Vec3(0.3, 0.3, 0.3);
+    const auto& [g, home] = hexagonal;
+    Region region = cube();
     WorkspaceCriteria criteria;
     criteria.limits = {
         {.name = "base_cone", .high = 1e-3}, {.name = "leg_clearance", .low = 9.0}, {.name = "singularity_free"}};
@@ -55,10 +65,8 @@ TEST_SUITE("region_share") {
   }
 
   TEST_CASE("a limit of the condition number has the characteristic length of the criteria") {
-    const Geometry g = Geometry::hexagonal(0.0, 5.8, 2.9, 0.0);
-    const Configuration home = neutral(4.0, 2.4);
-    Region region;
-    region.size = Vec3(0.3, 0.3, 0.3);
+    const auto& [g, home] = hexagonal;
+    Region region = cube();
     WorkspaceCriteria criteria;
     criteria.limits = {{.name = "fault_tolerant", .high = 20.0}};
     CHECK(region_share(g, home, criteria, region, 200).share == 1.0);
