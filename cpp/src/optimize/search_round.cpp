@@ -124,6 +124,10 @@ void run_all(const PreparedProblem& p, const std::vector<Eigen::VectorXd>& start
   run_all(p, static_cast<int>(starts.size()), at, from_start, run_settings, s, control, progress, round);
 }
 
+/// Violation of every short run, as the logarithm of a ratio, beyond which there is probably no design within the limits:
+/// the runs to the end then take one attempt each, and what excludes what is asked of a search for the least violation.
+constexpr double far_from_all = 1e-2;
+
 /// How many of `starts` are run to their end after a short run of each.
 int full_run_count(int starts) {
   return std::min(starts, std::max(least_full_runs, starts / 8));
@@ -131,7 +135,7 @@ int full_run_count(int starts) {
 
 /// The most promising starts of a batch, by a short run of each.
 std::vector<Eigen::VectorXd> promising_starts(const Batch& batch, double size_limit, const Control& control,
-                                              Progress& progress, SearchRound& round) {
+                                              Progress& progress, SearchRound& round, bool& none_near) {
   const PreparedProblem& p = batch.p;
   const PreparedProblem scout(with_stated_internal_points(p.problem), size_limit);
   const int warm = batch.warm();
@@ -147,6 +151,8 @@ std::vector<Eigen::VectorXd> promising_starts(const Batch& batch, double size_li
   std::vector<Eigen::VectorXd> out;
   for (int k = 0; k < warm; ++k) out.push_back(batch.start(k));
   int done = warm;
+  if (const auto order = ranked(short_runs); !order.empty())
+    none_near = short_runs.runs[order.front()]->end.constraint_violation > far_from_all;
   const auto full_runs = at_index(full_run_count(batch.count() - warm) + warm);
   for (const std::size_t k : ranked(short_runs)) {
     round.evaluations += short_runs.runs[k]->evaluations;
@@ -229,7 +235,9 @@ void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Ei
   // Starts are expensive with many poses, or if the index has kinks that are smoothed.
   if ((p.objective_poses > 1 || p.has_kinks()) && p.coordinates.size() > 0) {
     progress.expect(full_run_count(batch.count() - batch.warm()));
-    std::vector<Eigen::VectorXd> chosen = promising_starts(batch, size_limit, control, progress, round);
+    bool none_near = false;
+    std::vector<Eigen::VectorXd> chosen = promising_starts(batch, size_limit, control, progress, round, none_near);
+    if (none_near) full_run.restarts = 0;
     if (quick) {
       const std::vector<Eigen::VectorXd> cold(chosen.begin() + batch.warm(), chosen.end());
       std::ranges::copy(placed(p, cold, s, control), chosen.begin() + batch.warm());

@@ -196,9 +196,17 @@ void explain_failure(const PreparedProblem& p, const SearchRound& round, const S
   }
   Candidate allowed = candidate_at(p, p.coordinates.coordinates(conflict.allowed));
   if (allowed.regular() && allowed.feasible()) {
-    allowed.reached = 0;
-    result.candidates.push_back(std::move(allowed));
-    result.reason = "no start ended within the limits, though designs are: this one is no optimum; raise starts";
+    const LocalRun run = run_from_start(p, p.coordinates.coordinates(conflict.allowed), Formulation::minimax,
+                                        {s.max_evaluations}, control.stop);
+    result.evaluations += run.evaluations;
+    const bool solved = run.end.feasible() && run.end.regular() && run.end.stationary() &&
+                        !round_best(p, infinity, run.end).at_size_limit;
+    result.candidates.push_back(solved ? run.end : std::move(allowed));
+    result.candidates.front().reached = 0;
+    if (solved) result.status = Status::optimal;
+    result.reason = solved
+                        ? "feasible and stationary by our own checks"
+                        : "no start ended within the limits, though designs are: this one is no optimum; raise starts";
     return;
   }
   result.status = Status::infeasible;

@@ -70,6 +70,16 @@ void fill_rows(const PreparedProblem& p, int pose, DesignEvaluation& out) {
   else fill_index(index, s, row, out.objective_rows, out.row_gradient);
 }
 
+/// The margins of a selection, with their derivatives.
+void evaluate_alone(const PreparedProblem& p, const RowSelection& selection, DesignEvaluation& out) {
+  for (int k = 0; k < p.evaluated_spectra(); ++k)
+    if (selection.spectra[at_index(k)]) evaluate_spectrum(p, k, true, out);
+  for (const int k : selection.margins) {
+    out.margins[k] = margin_of(p, out, k);
+    differentiate_margin(p, k, out);
+  }
+}
+
 }  // namespace
 
 RowSelection selection_of(const PreparedProblem& p, std::vector<int> row_levels, std::vector<int> margins) {
@@ -99,6 +109,7 @@ void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSel
   };
   fit(out.row_gradient, p.rows);
   fit(out.margin_gradient, margins);
+  if (selection != nullptr && selection->alone) return evaluate_alone(p, *selection, out);
   for (int k = 0; k < p.evaluated_spectra(); ++k) {
     evaluate_spectrum(p, k, selection == nullptr || selection->spectra[at_index(k)], out);
     if (k < p.evaluated_poses()) fill_rows(p, k, out);

@@ -21,6 +21,7 @@ struct DesignEvaluation {
 struct RowSelection {
   std::vector<int> row_levels, margins;  ///< indices into those of PreparedProblem, ascending
   std::vector<bool> spectra;  ///< whether a selected row needs the singular values
+  bool alone = false;  ///< whether nothing else is evaluated: other margins, levels and the objective are stale
 };
 
 /// These rows; without any, values alone.

@@ -195,21 +195,24 @@ LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, 
       if (settled()) return run;
     }
   }
-  Eigen::VectorXd from = y;
+  Eigen::VectorXd from = y, smoothed_from = Eigen::VectorXd::Constant(y.size(), std::nan(""));
   for (int attempt = 0; attempt <= run_settings.restarts && !stop.stop_requested(); ++attempt) {
     bool better = take(solve(from, 0.0, attempt == 0 && minimax && run_settings.polish ? loose : tight));
     if (subproblem.best_seen() != y) better |= take(subproblem.best_seen());
     if (!minimax || stop.stop_requested()) return run;
     if (run_settings.polish && run.end.feasible()) take(polished(p, y));
     if (settled()) break;
-    if (run_settings.polish && p.has_kinks() && run.end.feasible()) {
+    if (run_settings.polish && p.has_kinks() && run.end.feasible() && smoothed_from != y) {
       // Where singular values meet off the axis, the index has a kink that no row describes. Solve with decreasing
-      // smoothing, then polish with the singular values that coincide held equal.
+      // smoothing, then polish with the singular values that coincide held equal. Where the first of them moves nothing,
+      // it is no kink that stops SLSQP.
+      smoothed_from = y;
       Eigen::VectorXd smoothed = y;
       for (const double epsilon : smoothings) {
         if (stop.stop_requested()) break;
         smoothed = solve(smoothed, epsilon, tight);
         take(smoothed);
+        if (smoothed == smoothed_from) break;
       }
       take(polished_smoothed(p, smoothed, smoothings.back()));
       if (settled()) break;
