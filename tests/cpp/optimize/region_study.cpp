@@ -360,6 +360,37 @@ TEST_SUITE("region_study") {
     }
   }
 
+  TEST_CASE("an end while O is being placed returns the best design with O placed so far") {
+    if (sanitized) return;
+    const Problem p = paper_study();
+    Region region = box(Vec3(0.3, 0.0, 0.0), 0.0);
+    const double shifted = optimize_region(p, region, few(2)).result.candidates.front().objective;
+    region.shifted = false;
+    region.placed = true;
+    const double best = optimize_region(p, region, few(2)).region.objective;
+    for (const bool by_time : {false, true}) {
+      std::stop_source source;
+      RegionStudySettings settings = few(2);
+      if (by_time) settings.time_limit = 3.0;
+      settings.phase = [&](const std::string& words) {
+        if (!words.starts_with("O placed, round 2")) return;
+        if (by_time) std::this_thread::sleep_for(std::chrono::seconds(3));
+        else source.request_stop();
+      };
+      const RegionResult found = optimize_region(p, region, settings, {source.get_token(), {}});
+      CAPTURE(by_time);
+      CHECK(found.result.status == Status::stopped);
+      CHECK(found.result.interrupted == !by_time);
+      CHECK(has(found.result.reason, "of placing O"));
+      REQUIRE(found.result.candidates.size() == 1);
+      CHECK((found.region.looked_at >= dense) == by_time);
+      CHECK(std::isfinite(found.region.gain));
+      CHECK(found.region.margin >= -passed);
+      CHECK(found.region.objective < shifted * (1.0 - 1e-3));
+      CHECK(found.region.objective >= best * (1.0 - passed));
+    }
+  }
+
   TEST_CASE("what no design can keep is infeasible") {
     Problem p = paper_study();
     p.limits.push_back({.name = "leg_ratio", .high = 1.01});

@@ -136,12 +136,13 @@ double Exchange::distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) co
   return (c.coordinates(a) - c.coordinates(b)).norm();
 }
 
-void Exchange::tell(const Settled& here, const Imposed& at) const {
+void Exchange::tell(const Settled& here, const Imposed& at) {
+  clock_.begin();
   if (!settings_.phase) return;
   const std::size_t poses = at.nodes.size() + at.at.size();
   std::string text = "round " + std::to_string(rounds_) + ", at " + std::to_string(poses) + " poses";
   if (const double excess = here.look.excess; here.rounds > 1 && excess > passed)
-    text += so_far(here.best.objective, excess, here.rounds - 1, passed);
+    text += so_far(here.best.objective, excess, here.rounds - 1, passed, clock_);
   settings_.phase(text);
 }
 

@@ -68,12 +68,13 @@ class Exchange {
   /// Of two designs, in coordinates of the solver.
   double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
   bool hopeless(const Settled& here, const Settled* known) const;
-  void tell(const Settled& here, const Imposed& at) const;
+  void tell(const Settled& here, const Imposed& at);
 
   const Problem& problem_;
   const Region& region_;
   const RegionStudySettings& settings_;
   const Control& control_;
+  RoundClock clock_;
   int rounds_ = 0;
   long evaluations_ = 0;
 };

@@ -148,12 +148,13 @@ Look look_over(const Problem& problem, const Region& region, const Imposed& impo
   return out;
 }
 
-std::string so_far(double objective, double excess, int rounds, double passed) {
+std::string so_far(double objective, double excess, int rounds, double passed, const RoundClock& clock) {
   const double rate = std::clamp(std::pow(excess, 1.0 / rounds), 0.05, 0.7);
   const double ahead = std::max(1.0, std::ceil(std::log(passed / excess) / std::log(rate)));
-  std::array<char, 120> text{};
-  std::snprintf(text.data(), text.size(), ": %.7g so far, passed by %.1e between them, about %.0f round%s more",
-                objective, excess, ahead, ahead > 1.0 ? "s" : "");
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(),
+                ": %.7g so far, passed by %.1e between them, about %.0f round%s or %.0f s more", objective, excess,
+                ahead, ahead > 1.0 ? "s" : "", std::ceil(ahead * clock.seconds()));
   return text.data();
 }
 

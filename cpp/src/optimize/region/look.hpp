@@ -1,6 +1,7 @@
 #pragma once
 /// One design looked at over a region, and at poses of it.
 
+#include <chrono>
 #include <map>
 #include <string>
 
@@ -36,9 +37,24 @@ Look look_over(const Problem& problem, const Region& region, const Imposed& impo
 /// The largest logarithm of the index at poses of the problem and at imposed ones; infinity where none is bounded.
 double imposed_index(const Problem& problem, const Region& region, const Imposed& imposed, const Eigen::VectorXd& x);
 
+/// How long the last round of an exchange took.
+class RoundClock {
+ public:
+  void begin() {
+    const auto now = std::chrono::steady_clock::now();
+    last_ = now - begun_;
+    begun_ = now;
+  }
+  double seconds() const { return std::chrono::duration<double>(last_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::duration last_{};
+};
+
 /// How far an exchange is, in words: its design after so many rounds, by how much that passes between the poses, and a
-/// guess, from the rate of all rounds so far, how many more it takes until no more than `passed` is.
-std::string so_far(double objective, double excess, int rounds, double passed);
+/// guess, from the rate of all rounds so far and the time of the last, how long it takes until no more than `passed` is.
+std::string so_far(double objective, double excess, int rounds, double passed, const RoundClock& clock);
 
 /// Which of the poses have an index within `near` of the largest over all of them, a margin below it, or a leg that is
 /// nearly as long or short as at any: what decides a design is among them.

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
 
 #include "limits/table.hpp"
 #include "math/numbers.hpp"
+#include "optimize/minimax/local_run.hpp"
 #include "optimize/polish/active_set.hpp"
 #include "optimize/region/conflict_poses.hpp"
 #include "optimize/region/exchange.hpp"
@@ -40,13 +44,15 @@ LegLimits allowed_lengths(const Problem& problem, double zp) {
 
 class PlacedStudy {
  public:
+  /// `control` has the end of the time too, `caller` has not.
   PlacedStudy(const Problem& problem, const Region& region, const RegionStudySettings& settings, const Control& control,
-              RegionResult shifted)
+              const Control& caller, RegionResult shifted)
       : problem_(problem),
         region_(region),
         poses_(problem, region),
         settings_(settings),
         control_(control),
+        caller_(caller),
         shifted_(std::move(shifted)) {}
 
   RegionResult solve() {
@@ -71,11 +77,13 @@ class PlacedStudy {
   /// Begins a round; `settling`: how many designs before it passed between the poses, the last as `look_` has it.
   void next_round(int settling = 0) {
     ++rounds_;
+    clock_.begin();
     if (!settings_.phase) return;
     std::string text =
         "O placed, round " + std::to_string(rounds_) + ", at " + std::to_string(state_.ruling.size()) + " poses";
     if (settling > 0)
-      text += so_far(std::exp(state_.design.log_objective), look_.worse.front().excess, settling, passed_placed);
+      text +=
+          so_far(std::exp(state_.design.log_objective), look_.worse.front().excess, settling, passed_placed, clock_);
     settings_.phase(text);
   }
 
@@ -137,10 +145,35 @@ class PlacedStudy {
     for (const Placed& placed : state_.ruling) state_.design.shifts.push_back(placed.shift);
   }
 
+  /// Looks at the design, and remembers the best one that keeps its limits: all there is if a stop comes.
+  void look_over(long samples) {
+    look_ = poses_.look(state_, how(samples), passed_placed, control_);
+    const double best = seen_ ? seen_->second.worst.log_index : std::log(shifted_objective());
+    if (look_.margin >= -passed_placed && look_.worst.log_index < best) seen_ = {state_, look_};
+  }
+
+  double shifted_objective() const { return shifted_.result.candidates.empty() ? infinity : shifted_.region.objective; }
+
+  /// Takes the design remembered, where the time ended looked at densely: how good it is has to be known.
+  bool take_seen() {
+    if (!seen_) return false;
+    std::tie(state_, look_) = *seen_;
+    try {
+      look_ = poses_.look(state_, how(dense_samples), passed_placed, caller_);
+    } catch (const Stopped&) {
+    }
+    if (look_.margin < -passed_placed || !(std::exp(look_.worst.log_index) < shifted_objective())) return false;
+    const Problem there = poses_.posed(state_.ruling);
+    const PreparedProblem p(there, size_limits(there).back());
+    found_ = {};
+    found_.candidates = {candidate_at(p, p.coordinates.coordinates(poses_.variables(state_)))};
+    return true;
+  }
+
   /// Rounds with a quick solver, to which O is no variable.
   bool settle() {
     for (int round = 0; round < most_exchanges; ++round) {
-      look_ = poses_.look(state_, how(quick_samples), passed_placed, control_);
+      look_over(quick_samples);
       if (poses_.nothing_new(state_, look_) || round + 1 == most_exchanges) return true;
       state_.ruling = poses_.joined(round < settles ? poses_.kept(state_, look_, ample) : state_.ruling, look_);
       follow_ruling();
@@ -165,8 +198,8 @@ class PlacedStudy {
       if (found_.candidates.empty()) return false;
       const Candidate& best = found_.candidates.front();
       state_ = poses_.state(best.variables, state_.ruling, std::log(best.objective));
-      look_ = poses_.look(state_, how(quick_samples), passed_placed, control_);
-      if (poses_.nothing_new(state_, look_)) look_ = poses_.look(state_, how(dense_samples), passed_placed, control_);
+      look_over(quick_samples);
+      if (poses_.nothing_new(state_, look_)) look_over(dense_samples);
       if (poses_.nothing_new(state_, look_) || round + 1 == most_exchanges) return true;
       state_.ruling = poses_.replaced(state_, look_);
       follow_ruling();
@@ -235,9 +268,16 @@ class PlacedStudy {
     return out;
   }
 
-  /// The optimum with O shifted, or why there is no design.
+  /// The best design seen with O placed, the optimum with O shifted, or why there is no design.
   RegionResult unfinished() {
     const bool stopped = control_.stop.stop_requested();
+    if (stopped && take_seen()) {
+      RegionResult out = finished();
+      out.result.status = Status::stopped;
+      out.result.reason = "ended in round " + std::to_string(rounds_) +
+                          " of placing O; the best design so far, not an optimum of the region";
+      return out;
+    }
     RegionResult out = std::move(shifted_);
     if (out.result.candidates.empty() && !stopped) {
       const Problem there = poses_.posed(state_.ruling);
@@ -268,19 +308,23 @@ class PlacedStudy {
   PlacedPoses poses_;
   const RegionStudySettings& settings_;
   const Control& control_;
+  const Control& caller_;
   RegionResult shifted_, out_;
   PlacedState state_;
   PlacedLook look_;
+  std::optional<std::pair<PlacedState, PlacedLook>>
+      seen_;  // the best design that keeps its limits, as it was looked at
   Result found_;
   bool known_ = false;  // whether the state has a design
   int rounds_ = 0, tried_ = 0, reached_ = 0;
+  RoundClock clock_;
 };
 
 }  // namespace
 
 RegionResult optimize_region_placed(const Problem& problem, const Region& region, const RegionStudySettings& settings,
-                                    const Control& control, RegionResult shifted) {
-  return PlacedStudy(problem, region, settings, control, std::move(shifted)).solve();
+                                    const Control& control, const Control& caller, RegionResult shifted) {
+  return PlacedStudy(problem, region, settings, control, caller, std::move(shifted)).solve();
 }
 
 }  // namespace ninedof

@@ -253,7 +253,7 @@ RegionResult optimize_region(const Problem& problem, const Region& region, const
     out.region.gain = infinity;  // with O placed it may be better by any amount
   } else if (region.placed && out.result.status != Status::unbounded) {
     with_rule.shifted = false;
-    out = optimize_region_placed(problem, with_rule, settings, limited, std::move(out));
+    out = optimize_region_placed(problem, with_rule, settings, limited, control, std::move(out));
   }
   out.result.interrupted = control.stop.stop_requested();
   return out;
