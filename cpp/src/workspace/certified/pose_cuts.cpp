@@ -12,10 +12,6 @@
 namespace ninedof::certified {
 namespace {
 
-constexpr Criteria bit(int k) {
-  return Criteria{1} << k;
-}
-
 /// What u has to keep for a number to be in a range; a limit of 0 needs no form.
 std::vector<Edge> edges_of(const PoseRow& row, const Interval& range) {
   std::vector<Edge> out;
@@ -72,8 +68,7 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
 }
 
 int PoseCuts::add_bit() {
-  if (bits_ == 64) throw InvalidArgument("criteria", "more than 64 numbers with a limit", "fewer limits");
-  all_ |= bit(bits_);
+  all_.set(at_index(bits_));
   return bits_++;
 }
 
@@ -143,13 +138,13 @@ void PoseCuts::look_at(const RowCuts& cuts, const FormPose& pose, Found& found) 
   const FormLook look(machine, pose, cuts.home);
   for (int item = 0; item < cuts.row->items && !found.violated; ++item) {
     const auto& [place, low, edges] = cuts.items[at_index(item)];
-    if (place < 0 || !(found.open & bit(place))) continue;
+    if (place < 0 || !found.open[at_index(place)]) continue;
     bool all = !cuts.row->pairs || look_at_pair(leg_pair_forms(look, item), low, found);
     if (!edges.empty()) {
       const PoseForm u = u_of(cuts, look, item);
       for (const Edge& edge : edges) all = decided(kept(edge, u), found) && all;
     }
-    if (all && !found.violated) found.open &= ~bit(place);
+    if (all && !found.violated) found.open.reset(at_index(place));
   }
 }
 
@@ -192,12 +187,12 @@ bool PoseCuts::all_apart(const LegPairForms& legs, double distance, Cut& apart) 
 }
 
 void PoseCuts::look_at(const ConditionLimit& limit, const FormPose& pose, Found& found) const {
-  if (!(found.open & bit(limit.bit))) return;
+  if (!found.open[at_index(limit.bit)]) return;
   Moves unused;
   const forms::ConditionSplit split = forms::split_by_condition(
       forms::split_gram(AsBuilt{geometry_}, criteria_.characteristic_length, pose, unused, limit.locked), limit.high);
   if (split.everywhere) {
-    found.open &= ~bit(limit.bit);
+    found.open.reset(at_index(limit.bit));
     return;
   }
   if (!is_known(split.excess)) {

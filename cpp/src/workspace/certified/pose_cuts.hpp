@@ -2,7 +2,7 @@
 /// The criteria of a workspace over a box of positions, each as cuts: planes beyond which it is proved to hold, or to be
 /// violated.
 
-#include <cstdint>
+#include <bitset>
 
 #include "conditioning/forms/gram.hpp"
 #include "limits/leg_clearance.hpp"
@@ -27,7 +27,7 @@ struct Edge {
 };
 
 /// One bit for each number with a limit that is not proved to be kept yet.
-using Criteria = std::uint64_t;
+using Criteria = std::bitset<128>;  // all limits at once have at most 124
 
 struct PositionBox {
   Vec3 low, high;
@@ -44,7 +44,7 @@ class PoseCuts {
   FormPose pose(const PositionBox& box, std::size_t rotation) const;
 
   struct Found {
-    Criteria open = 0;      ///< not proved to hold in all of the box
+    Criteria open;      ///< not proved to hold in all of the box
     bool violated = false;  ///< one is violated in all of it
     std::vector<Cut> cuts;  ///< of the open ones
   };
@@ -96,7 +96,7 @@ class PoseCuts {
   std::vector<RowCuts> rows_;  // the cheap ones first
   std::vector<ConditionLimit> conditions_;
   int bits_ = 0;
-  Criteria all_ = 0;
+  Criteria all_;
 };
 
 }  // namespace ninedof::certified

@@ -68,7 +68,7 @@ Seen seen_of(const PoseCuts& cuts, const PositionBox& box, const std::vector<See
       if (some) continue;
       return {true, 0.0, 0.0, {}, {}};
     }
-    if (found.open == 0) {
+    if (found.open.none()) {
       if (!some) continue;
       return {true, 1.0, 1.0, {}, {}};
     }

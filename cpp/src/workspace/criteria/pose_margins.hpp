@@ -14,8 +14,9 @@
 
 namespace ninedof {
 
-/// Room for the margins of a pose and of the region: of each item of a criterion, and one for all pairs of legs.
-constexpr int most_groups = 32;
+/// Room for the margins of a pose and of the region: of each item of a criterion, and one for all pairs of legs. All
+/// limits at once have 54.
+constexpr int most_groups = 56;
 
 /// The margins of one point. It is allowed if every margin is at least zero.
 struct PointMargins {
