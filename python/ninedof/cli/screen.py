@@ -146,9 +146,19 @@ BETWEEN_LOOKS = 1.0  # seconds, at the clock while nothing is reported
 FIRST_LINE, LONGEST_SILENCE = 10.0, 300.0  # seconds: in a log lines at 10, 20, 40 ... s, then every five minutes
 NARROW = partial(BarColumn, bar_width=12)
 VALUE, TO_GO = "{task.fields[value]}", (TimeRemainingColumn, "to go")
+
+
+class _StartsToGo(TimeRemainingColumn):
+    """The time that is left of the starts; nothing before it is known and when they are done: rounds may follow."""
+
+    def render(self, task: Task) -> Text:
+        known = not task.finished and task.time_remaining is not None
+        return Text.assemble(super().render(task), " to go") if known else Text("")
+
+
 # What a bar shows behind its title, the words for the value of a report, and whether it is shown at once.
 BARS: dict[str, tuple[Sequence[Callable[[], ProgressColumn] | str], Callable[[float | None], str], bool]] = {
-    "starts": ((NARROW, MofNCompleteColumn, VALUE, TimeElapsedColumn), best_words, True),
+    "starts": ((NARROW, MofNCompleteColumn, VALUE, TimeElapsedColumn, _StartsToGo), best_words, True),
     "limits": (
         (NARROW, MofNCompleteColumn, VALUE, *TO_GO),
         lambda last: "no design" if last is None else f"{last:.6f}",

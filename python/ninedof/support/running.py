@@ -52,6 +52,7 @@ class _Command:
     words: list[str]
     again: list[str] | None = None
     why: str = ""
+    kept: bool = False
 
 
 _RUNNING: ContextVar[_Command | None] = ContextVar("command", default=None)
@@ -74,10 +75,20 @@ def command_line() -> str:
 
 
 def goes_on(out: Path | None = None) -> None:
-    """Note that the command goes on with its run when it is typed again, with `--out` if it has such a folder."""
+    """Note that the command goes on with its run when it is typed again, with `--out` if it has such a folder.
+
+    In a folder it goes on once something is kept there; what has none keeps what it has by itself.
+    """
     if (command := _RUNNING.get()) is not None:
         has_out = out is None or any(word == "--out" or word.startswith("--out=") for word in command.words)
+        command.kept = out is None
         command.again = command.words if has_out else [*command.words, "--out", str(out)]
+
+
+def has_kept() -> None:
+    """Note that a part of the work is kept: typed again, the command goes on from there."""
+    if (command := _RUNNING.get()) is not None:
+        command.kept = True
 
 
 def ended_by_time(without: str = "") -> None:
@@ -94,7 +105,8 @@ def how_to_go_on(interrupted: bool) -> str:
     """Return how a command ended, and the line to type to go on with its run; "" where it came to its end."""
     command = _RUNNING.get() or _Command([])
     why = "interrupted" if interrupted else command.why
-    return f"{why}; to go on, type: {_typed(command.again)}" if why and command.again else why
+    aim = "to go on" if command.kept else "to begin anew"
+    return f"{why}; {aim}, type: {_typed(command.again)}" if why and command.again else why
 
 
 def _typed(words: Sequence[str]) -> str:

@@ -21,6 +21,7 @@ from ninedof.support.files import (
     write_npz,
     write_whole,
 )
+from ninedof.support.running import has_kept
 from ninedof.support.text import decode, encode
 
 FORMAT = "ninedof-question-2"
@@ -80,6 +81,8 @@ class Store:
     def __exit__(self, kind: object, error: BaseException | None, *_: object) -> None:
         """Name what is kept where an error ends the run; remove the folder where that is nothing."""
         self.close()
+        if self.kept():
+            has_kept()
         if not isinstance(error, Exception):
             return
         with suppress(OSError):

@@ -79,7 +79,8 @@ def test_what_a_signal_ended_goes_on_to_the_same_record(monkeypatch, tmp_path, c
     assert run(f"{line} --no-figures --out whole") == 0
     capsys.readouterr()
     assert interrupted(monkeypatch, f"{line} --no-figures", piece) == 143
-    _, again = capsys.readouterr().err.strip().split("ninedof: interrupted; to go on, type: ninedof ")
+    aim = "to go on" if piece else "to begin anew"
+    _, again = capsys.readouterr().err.strip().split(f"ninedof: interrupted; {aim}, type: ninedof ")
     (folder,) = (tmp_path / "runs").iterdir()
     assert again == f"{line} --no-figures --out runs/{folder.name}"
     kept = {file: file.stat().st_mtime_ns for file in (folder / "pieces").iterdir()}
@@ -128,7 +129,7 @@ def test_a_folder_of_something_else_is_refused_before_the_work(tmp_path, capsys,
 def test_the_end_of_the_time_is_followed_by_the_line_without_it(tmp_path, capsys, time):
     (tmp_path / "study.toml").write_text(STUDY)
     assert run(f"optimize study.toml --no-figures {time} --out run") in (0, 3)
-    line = "ninedof: the time is over; to go on, type: ninedof optimize study.toml --no-figures --out run\n"
+    line = "ninedof: the time is over; to begin anew, type: ninedof optimize study.toml --no-figures --out run\n"
     assert capsys.readouterr().err.endswith(line)
 
 

@@ -1,5 +1,6 @@
 """Progress where standard error is a pipe or a log: a plain line now and then; on a terminal none."""
 
+import re
 from threading import Event
 
 import pytest
@@ -23,10 +24,11 @@ def lines_of(capsys, kind, reports, terminal=False):
 
 def test_lines_come_at_growing_spacing_and_then_every_five_minutes(capsys):
     lines = lines_of(capsys, "starts", [(float(t), t // 10, 5.0) for t in range(1500)])
-    assert [line.split()[-1] for line in lines] == [
+    assert [re.findall(r"\d:\d\d:\d\d", line)[0] for line in lines] == [
         "0:00:10", "0:00:20", "0:00:40", "0:01:20", "0:02:40", "0:05:20", "0:10:20", "0:15:20", "0:20:20",
     ]  # fmt: skip
     assert lines[0] == "study.toml  1/500  best 5.000000  0:00:10"
+    assert re.fullmatch(r"study.toml  8/500  best 5.000000  0:01:20  \d:\d\d:\d\d to go", lines[3])
 
 
 @pytest.mark.parametrize(
