@@ -1,12 +1,13 @@
 """Region studies as designers have them: does each come to an end, how soon, and is a better design known.
 
-    python bench/python/regions.py                           # the twenty named studies
+    python bench/python/regions.py                           # the 26 named studies
     python bench/python/regions.py --only issue requirement  # some of them
     python bench/python/regions.py --random 50 --seed 7      # fifty drawn ones, with --only beside the named
 
 Each study runs in a process of its own, which is killed after --limit seconds: "no end". A line says how far the
-objective is from the best known value, and the least margin of the limits and of the index at random poses (--poses),
-drawn and evaluated in numpy, by the definitions. With O best 1000 poses are drawn: placing O at each takes a search.
+objective is from the best known value, what is left to gain near it by the study's own account, and the least margin of
+the limits and of the index at random poses (--poses), drawn and evaluated in numpy, by the definitions. With O best 1000
+poses are drawn: placing O at each takes a search.
 """
 
 import argparse
@@ -128,6 +129,43 @@ design = { unit = "in", family = "symmetric", characteristic_length = [4, 8] }
 variables = { base_radius = [4, 20], platform_radius = [2, 9], zp = [12, 28], zs = [2, 26] }
 constraints = { leg_length = [6, 30], stroke = 8, leg_clearance = 0.4, joint_spacing = 2 }
 objective.region = { ball = 2, tilt_deg = 12, internal_point = "best" }
+[lift] # a load that hangs aside
+like = "requirement"
+loads.wrenches = [[0, 0, 0, 0, 0, -500], [0, 0, 0, 200, 0, -500]]
+constraints = [
+  { force = { max = 480 }, external_force = { max = 250 }, upper_force = { max = 380 }, lower_force = { max = 470 } },
+]
+[haste] # a tool that moves and turns fast
+like = "issue"
+speeds = { linear = 200, angular = 0.4 }
+constraints = [
+  { rate = { max = 290 }, external_rate = { max = 280 }, upper_rate = { max = 120 }, lower_rate = { max = 240 } },
+]
+[crane] # forces, rates and their product, O held
+like = "scope"
+loads.wrenches = [[0, 0, 0, 0, 0, -500]]
+speeds = { linear = 8, angular = 0.2 }
+constraints = [
+  { external_force = { max = 80 }, upper_force = { max = 250 }, lower_force = { max = 320 }, power = { max = 2500 } },
+  { external_rate = { max = 9 }, upper_rate = { max = 9 }, lower_rate = { max = 1 } },
+]
+[torch] # the seam, with drives that can be bought
+like = "weld"
+loads.wrenches = [[0, 0, 0, 0, 0, -100]]
+speeds = { linear = 0.2, angular = 0.3 }
+constraints = [{ force = { max = 80 }, rate = { max = 0.3 }, power = { max = 20 }, fault_tolerant = { max = 6 } }]
+[sockets] # joints that tilt little, each kind its own; any internal leg may be locked
+like = "requirement"
+constraints = [
+  { base_cone_external = { max_deg = 11 }, base_cone_internal = { max_deg = 8.5 }, fault_tolerant = { max = 4.5 } },
+  { platform_cone_external = { max_deg = 20 }, platform_cone_internal = { max_deg = 9 } },
+]
+[pivots] # the same, O held
+like = "issue_held"
+constraints = [
+  { base_cone_external = { max_deg = 8 }, base_cone_internal = { max_deg = 1 } },
+  { platform_cone_external = { max_deg = 18 }, platform_cone_internal = { max_deg = 18 } },
+]
 [short]
 requirement = { file = "18_requirement.toml" }
 requirement_best = { like = "requirement", objective.region.internal_point = "best" }
@@ -260,7 +298,7 @@ def solved(name, starts, poses):
     out |= {"reason": result.reason, "objective": math.nan, "rounds": 0, "poses": 0, "margin": math.nan}
     region, best = result.region, result.best
     if best is not None:
-        out |= {"objective": best.objective, "rounds": region.rounds, "poses": len(region.poses)}
+        out |= {"objective": best.objective, "rounds": region.rounds, "poses": len(region.poses), "gain": region.gain}
         out["variables"] = dict(best.variables)
     print(json.dumps(out), flush=True)
     if best is not None:
@@ -297,7 +335,7 @@ def line(name, found):
     if math.isfinite(found.get("objective", math.nan)):
         text += f"{found['rounds']:4} rounds{found['poses']:5} poses  {found['objective']:.9f}"
         text += f", {found['objective'] / BEST[name] - 1.0:+.1e} of the best" if name in BEST else ""
-        text += f", margin {found['margin']:+.1e}"
+        text += f", gain left {found['gain']:.0e}, margin {found['margin']:+.1e}"
     return f"{text}  {study.objective.region.worded(study.unit)}"
 
 
