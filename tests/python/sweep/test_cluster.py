@@ -322,14 +322,17 @@ def test_a_missing_scheduler_is_reported_in_one_line(run, tmp_path, monkeypatch,
     pytest.importorskip("distributed", reason="dask[distributed] is not installed: the extra `cluster`")
     monkeypatch.setattr(schedulers, "TIMEOUT", 0.2)
     out = tmp_path / "run"
-    said = {"BANNER": b"HTTP/1.1 400 Bad Request\r\n", "BYTES": bytes(100), "CLOSING": None}
+    words_of = {"BANNER": b"HTTP/1.1 400 Bad Request\r\n", "BYTES": bytes(100), "CLOSING": None}
+    connections = []
     with socket.create_server(("127.0.0.1", 0)) as server:
         where, _, port = address.rpartition(":")
         if port.isupper():
             address = f"{where}:{server.getsockname()[1]}"
-        if port in said:  # the other one accepts connections and sends nothing
-            threading.Thread(target=_answer, args=(server, said[port]), daemon=True).start()
+        if port in words_of:  # the other one accepts connections and sends nothing
+            threading.Thread(target=_answer, args=(server, words_of[port], connections), daemon=True).start()
         status, _, err = run(f"sweep --over x_p=0:1:3 --scheduler {address} --out {out}")
+    for connection in connections:
+        connection.close()
     gc.collect()  # a client that was not closed would warn now
     assert status == 2
     assert err.startswith(f"ninedof: --scheduler: got '{address}', where no scheduler answers (")
@@ -338,17 +341,14 @@ def test_a_missing_scheduler_is_reported_in_one_line(run, tmp_path, monkeypatch,
     assert not out.exists()
 
 
-def _answer(server, words):
+def _answer(server, words, connections):
     """Take one connection, send what another program sends, or close it at once."""
-    line, _ = server.accept()
+    connection, _ = server.accept()
+    connections.append(connection)
     if words is None:
-        line.close()
-        return
-    line.sendall(words)
-    _open.append(line)
-
-
-_open = []
+        connection.close()
+    else:
+        connection.sendall(words)
 
 
 def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(run, tmp_path, monkeypatch):
