@@ -40,13 +40,13 @@ def run(line):
     return ended.value.code or 0
 
 
-def interrupted(monkeypatch, line, piece=0):
+def interrupted(monkeypatch, line, piece, ending_signal):
     """Run a command that a signal ends as it keeps a piece; the piece is lost."""
     keep = Store.keep
 
     def ending(store, k, arrays):
         if k == piece:
-            signal.raise_signal(signal.SIGTERM)
+            signal.raise_signal(ending_signal)
         keep(store, k, arrays)
 
     with monkeypatch.context() as patch:
@@ -66,28 +66,29 @@ def test_killed_at_random_moments(kind, tmp_path):
 
 @pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize(
-    ("line", "piece"),
+    ("line", "piece", "number"),
     [
-        ("pareto --against radius_ratio --value 2 --value 3 --starts 4", 1),
-        ("optimize study.toml", 0),  # a study over a region is one piece
-        ("optimize --starts 4 --certify", 1),
-        ("workspace --legs 2.5 6.5 --tolerance 0.1 --certify --gap 0.5", 1),
+        ("pareto --against radius_ratio --value 2 --value 3 --starts 4", 1, signal.SIGTERM),
+        ("optimize study.toml", 0, signal.SIGTERM),  # a study over a region is one piece
+        ("optimize --starts 4 --certify", 1, signal.SIGTERM),
+        ("workspace --legs 2.5 6.5 --tolerance 0.1 --certify --gap 0.5", 1, signal.SIGTERM),
+        ("sweep figure-7 --points 5", 3, signal.SIGINT),
     ],
 )
-def test_what_a_signal_ended_goes_on_to_the_same_record(monkeypatch, tmp_path, capsys, line, piece):
+def test_what_a_signal_ended_goes_on_to_the_same_record(monkeypatch, tmp_path, capsys, line, piece, number):
     (tmp_path / "study.toml").write_text(STUDY)
     assert run(f"{line} --no-figures --out whole") == 0
     capsys.readouterr()
-    assert interrupted(monkeypatch, f"{line} --no-figures", piece) == 143
+    assert interrupted(monkeypatch, f"{line} --no-figures", piece, number) == 128 + number
     aim = "to go on" if piece else "to begin anew"
     _, again = capsys.readouterr().err.strip().split(f"ninedof: interrupted; {aim}, type: ninedof ")
     (folder,) = (tmp_path / "runs").iterdir()
     assert again == f"{line} --no-figures --out runs/{folder.name}"
-    kept = {file: file.stat().st_mtime_ns for file in (folder / "pieces").iterdir()}
-    assert len(kept) == piece
+    files = {file: file.stat().st_mtime_ns for file in (folder / "pieces").iterdir()}
+    assert len(files) == piece
     for _ in range(2):
         assert run(again) == 0
-    assert kept.items() <= {file: file.stat().st_mtime_ns for file in kept}.items()
+    assert files.items() <= {file: file.stat().st_mtime_ns for file in files}.items()
     records = [json.loads((place / "record.json").read_text()) for place in (tmp_path / "whole", folder)]
     assert untimed(records[0]) == untimed(records[1])
     assert "type" not in capsys.readouterr().err
@@ -112,8 +113,8 @@ def test_another_question_is_refused_with_both_named_before_the_work(tmp_path, c
         ("paper --figures", "kind is 'optimize' there and 'paper' here; "),
     ):
         assert run(f"{line} --out run") == 2
-        said = f"which holds the run of another question: {words}expected a new folder or the question there\n"
-        assert capsys.readouterr().err.splitlines(keepends=True)[-1] == f"ninedof: --out: got run, {said}"
+        message = f"which holds the run of another question: {words}expected a new folder or the question there\n"
+        assert capsys.readouterr().err.splitlines(keepends=True)[-1] == f"ninedof: --out: got run, {message}"
     assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
 
 
@@ -229,18 +230,18 @@ def test_a_full_disk_loses_no_result(tmp_path, monkeypatch, capsys, line):
     with monkeypatch.context() as patch:
         patch.setattr(os, "replace", full)
         assert run(f"{line} --out run") == 1
-    said = capsys.readouterr()
-    assert KEPT[line] in said.out
-    (words,) = [one for one in said.err.splitlines() if one.startswith("ninedof: ")]
+    message = capsys.readouterr()
+    assert KEPT[line] in message.out
+    (words,) = [one for one in message.err.splitlines() if one.startswith("ninedof: ")]
     assert words.startswith("ninedof: run/")
     assert words.endswith(": No space left on device")
     assert not list(tmp_path.rglob(".part-*"))
     assert run(f"{line} --out run") == 0
 
 
-@pytest.mark.parametrize("asked", [lambda out: nd.sweep_figure("6", 5, out=out), lambda out: nd.atlas(1000, out=out)])
-def test_pieces_that_cannot_be_kept_lose_no_result(tmp_path, monkeypatch, caplog, asked):
-    expected, real = asked(None), os.replace
+@pytest.mark.parametrize("call", [lambda out: nd.sweep_figure("6", 5, out=out), lambda out: nd.atlas(1000, out=out)])
+def test_pieces_that_cannot_be_kept_lose_no_result(tmp_path, monkeypatch, caplog, call):
+    expected, real = call(None), os.replace
 
     def full(part, path):
         if "/pieces/" in str(path) and path.suffix == ".npz":
@@ -248,8 +249,8 @@ def test_pieces_that_cannot_be_kept_lose_no_result(tmp_path, monkeypatch, caplog
         real(part, path)
 
     monkeypatch.setattr(os, "replace", full)
-    found = asked(tmp_path)
+    result = call(tmp_path)
     (record,) = caplog.records
     assert "00000000.npz" in record.getMessage()
     assert record.getMessage().endswith("; the run goes on, but what cannot be written is lost if it ends early")
-    assert all(found[name].tobytes() == expected[name].tobytes() for name in expected)
+    assert all(result[name].tobytes() == expected[name].tobytes() for name in expected)

@@ -69,8 +69,8 @@ def test_each_limit_is_as_good_as_solved_alone(front):
 
 def test_points_of_a_front_pass_the_check(front):
     for result in front.results:
-        found = check(result, perturbations=200)
-        assert found.passed, found.report()
+        curve = check(result, perturbations=200)
+        assert curve.passed, curve.report()
 
 
 def test_prices_are_the_slope(front):
@@ -103,38 +103,38 @@ def test_rows_have_all_fields(front):
 
 
 def test_a_limit_that_does_not_bind_is_marked():
-    found = pareto(PAPER, "leg_ratio", values=[2.0, 3.0, 4.0])  # the best design has 2.32
-    assert found.dominated == (False, False, True)
-    assert found.objectives[1] == pytest.approx(found.objectives[2], rel=1e-12)
+    curve = pareto(PAPER, "leg_ratio", values=[2.0, 3.0, 4.0])  # the best design has 2.32
+    assert curve.dominated == (False, False, True)
+    assert curve.objectives[1] == pytest.approx(curve.objectives[2], rel=1e-12)
 
 
 def test_a_limit_at_price_0_is_not_reached():
     """The loosest limit that is selected is the value of the design without the limit."""
-    found = pareto(PAPER, "radius_ratio", points=2)
-    last = found.table()[-1]
+    curve = pareto(PAPER, "radius_ratio", points=2)
+    last = curve.table()[-1]
     assert last["price"] == 0.0
-    assert found.limits[-1] == pytest.approx(value_of(PAPER, "radius_ratio", found.results[-1]), rel=1e-6)
+    assert curve.limits[-1] == pytest.approx(value_of(PAPER, "radius_ratio", curve.results[-1]), rel=1e-6)
     assert "radius_ratio" not in last["active"]
-    assert "radius_ratio" in found.table()[0]["active"]
-    shown = [row[-1] for row in front_table(found).rows]
+    assert "radius_ratio" in curve.table()[0]["active"]
+    shown = [row[-1] for row in front_table(curve).rows]
     assert "(radius_ratio without effect)" in shown[-1]
     assert "without effect" not in shown[0]
-    first, last = (f"{limit:.5g}" for limit in found.limits)
-    words = range_words(found)
+    first, last = (f"{limit:.5g}" for limit in curve.limits)
+    words = range_words(curve)
     assert words.startswith(f"Limits below {first} may have designs too: the rows end, roughly, where no design")
     assert f"From {last} on nothing changes" in words
-    assert "From" not in range_words(replace(found, limits=(found.limits[0], WIDE * 2.0)))  # of a study without an end
-    assert range_words(replace(found, limits=(), results=())) == ""
+    assert "From" not in range_words(replace(curve, limits=(curve.limits[0], WIDE * 2.0)))  # of a study without an end
+    assert range_words(replace(curve, limits=(), results=())) == ""
 
 
 def test_impossible_limits_are_rows_too():
-    found = pareto(nd.Study(starts=size(16, 64)), "leg_ratio", values=[0.5, 0.9, 2.0])
-    assert [row["status"] for row in found.table()] == ["infeasible", "infeasible", "optimal"]
-    assert math.isnan(found.objectives[0])
-    assert found.prices[0] is None
-    assert found.table()[0]["objective"] is None
-    assert found.table()[0]["reason"]
-    assert found.dominated == (False, False, False)
+    curve = pareto(nd.Study(starts=size(16, 64)), "leg_ratio", values=[0.5, 0.9, 2.0])
+    assert [row["status"] for row in curve.table()] == ["infeasible", "infeasible", "optimal"]
+    assert math.isnan(curve.objectives[0])
+    assert curve.prices[0] is None
+    assert curve.table()[0]["objective"] is None
+    assert curve.table()[0]["reason"]
+    assert curve.dominated == (False, False, False)
 
 
 def test_other_options_of_the_limit_are_kept():
@@ -158,19 +158,19 @@ def test_a_limit_at_the_neutral_pose_is_swept_beside_that_at_the_poses():
     assert with_limit(study, "leg_ratio at neutral", None).constraints["leg_ratio"] == (None, 3.0)
     assert with_limit(study, "leg_ratio", None).constraints["leg_ratio"] == {"max": 2.5, "at": "neutral"}
     assert with_limit(MOVING, "leg_ratio at neutral", 2.0) == high
-    found = pareto(replace(study, starts=4), "leg_ratio at neutral", values=[1.9, 2.1])
-    assert is_monotone(found)
-    assert found.table()[0]["active"].count("leg_ratio at neutral") == 1
-    assert all(price > 0.0 for price in found.prices)
-    value, best = value_of(study, "leg_ratio at neutral", found.results[0]), found.results[0].best
+    curve = pareto(replace(study, starts=4), "leg_ratio at neutral", values=[1.9, 2.1])
+    assert is_monotone(curve)
+    assert curve.table()[0]["active"].count("leg_ratio at neutral") == 1
+    assert all(price > 0.0 for price in curve.prices)
+    value, best = value_of(study, "leg_ratio at neutral", curve.results[0]), curve.results[0].best
     legs = nd.leg_lengths(best.geometry, best.configuration)
     assert value == pytest.approx(legs.max() / legs.min(), rel=1e-9) == pytest.approx(1.9, rel=1e-6)
 
 
 def test_two_indices():
     speed = nd.Study(objective={"index": "speed"})
-    for given, against in ((speed, "condition_limit"), (speed, "condition_number"), (nd.Study(), "speed")):
-        study, limit = resolve(given, against)
+    for own, against in ((speed, "condition_limit"), (speed, "condition_number"), (nd.Study(), "speed")):
+        study, limit = resolve(own, against)
         assert limit == "condition_limit"
         assert study.objective.index == "speed"
         assert with_limit(study, limit, 4.0).objective.condition_limit == 4.0
@@ -184,33 +184,33 @@ def test_a_found_front_is_monotone_and_spans_the_range(name):
     study, against = TRADED[name]
     points = size(4, 9)
     study = study.with_solver(size(2, study.starts))
-    found = pareto(study, against, points=points)
-    assert len(objectives(found)) == points
-    assert is_monotone(found)
-    assert list(found.limits) == sorted(found.limits)
+    curve = pareto(study, against, points=points)
+    assert len(objectives(curve)) == points
+    assert is_monotone(curve)
+    assert list(curve.limits) == sorted(curve.limits)
     without = nd.optimize(with_limit(study, against, None))
-    assert found.objectives[-1] == pytest.approx(without.objective, rel=1e-6)
-    assert max(objectives(found)) <= 3.0 * without.objective * (1.0 + 1e-9)
-    assert not any(found.dominated[:-1])
+    assert curve.objectives[-1] == pytest.approx(without.objective, rel=1e-6)
+    assert max(objectives(curve)) <= 3.0 * without.objective * (1.0 + 1e-9)
+    assert not any(curve.dominated[:-1])
 
 
 def test_a_front_of_two_indices_spans_both_optima():
-    found = pareto(PAPER, "speed", points=7)
-    assert found.against == "condition_limit"
-    assert found.study.objective.index == "speed"
-    assert len(objectives(found)) == 7
-    assert is_monotone(found)
-    assert found.limits[0] == pytest.approx(3.762659, rel=0.01)
-    for limit, result in zip(found.limits, found.results, strict=True):
+    curve = pareto(PAPER, "speed", points=7)
+    assert curve.against == "condition_limit"
+    assert curve.study.objective.index == "speed"
+    assert len(objectives(curve)) == 7
+    assert is_monotone(curve)
+    assert curve.limits[0] == pytest.approx(3.762659, rel=0.01)
+    for limit, result in zip(curve.limits, curve.results, strict=True):
         assert max(result.conditions) <= limit * (1.0 + 1e-8)
 
 
 def test_steep_parts_get_more_points():
     points, study = size(9, 13), replace(PAPER, starts=size(16, 64))
-    found = pareto(study, "radius_ratio", points=points)
-    values = objectives(found)
+    curve = pareto(study, "radius_ratio", points=points)
+    values = objectives(curve)
     steps = [before - after for before, after in pairwise(values)]
-    evenly = pareto(study, "radius_ratio", values=_geometric(found.limits[0], found.limits[-1], points))
+    evenly = pareto(study, "radius_ratio", values=_geometric(curve.limits[0], curve.limits[-1], points))
     coarse = objectives(evenly)
     assert max(steps) < max(before - after for before, after in pairwise(coarse))
 
@@ -220,9 +220,9 @@ def _geometric(low, high, count):
 
 
 def test_an_infeasible_study_has_one_row():
-    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}, starts=size(16, 64)), "radius_ratio")
-    assert [row["status"] for row in found.table()] == ["infeasible"]
-    assert found.limits == (math.inf,)
+    curve = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}, starts=size(16, 64)), "radius_ratio")
+    assert [row["status"] for row in curve.table()] == ["infeasible"]
+    assert curve.limits == (math.inf,)
 
 
 def test_without_a_scale_limits_must_be_given():
@@ -258,30 +258,30 @@ def test_missed_optima_are_repaired(monkeypatch, bad_calls):
         return result
 
     monkeypatch.setattr(sweeping, "optimize", unlucky)
-    found = pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0])
-    assert is_monotone(found)
+    curve = pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0])
+    assert is_monotone(curve)
     if bad_calls < 3:
-        assert found.objectives[1] == pytest.approx(3.762659078596, rel=1e-9)
+        assert curve.objectives[1] == pytest.approx(3.762659078596, rel=1e-9)
     else:  # the design of the tighter limit is shown, and no optimum is claimed
-        assert found.objectives[1] == found.objectives[0]
-        assert found.results[1].status == "stopped"
-        assert "limit 1.5 is better" in found.results[1].reason
-        assert found.prices[1] is None
-        assert found.results[1].study.constraints["radius_ratio"] == (None, 2.0)
+        assert curve.objectives[1] == curve.objectives[0]
+        assert curve.results[1].status == "stopped"
+        assert "limit 1.5 is better" in curve.results[1].reason
+        assert curve.prices[1] is None
+        assert curve.results[1].study.constraints["radius_ratio"] == (None, 2.0)
 
 
 def test_neighbours_are_passed_on(monkeypatch):
-    given = []
+    calls = []
 
     def watched(study, **options):
-        given.append((study.constraints["radius_ratio"][1], options["warm"]))
+        calls.append((study.constraints["radius_ratio"][1], options["warm"]))
         return nd.optimize(study, **options)
 
     monkeypatch.setattr(sweeping, "optimize", watched)
     pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0])
-    assert [limit for limit, _ in given] == [3.0, 2.0, 1.5, 1.5, 2.0, 3.0]
-    assert given[0][1] is None
-    ratios = [[r.study.constraints["radius_ratio"][1] for r in warm] for _, warm in given[1:]]
+    assert [limit for limit, _ in calls] == [3.0, 2.0, 1.5, 1.5, 2.0, 3.0]
+    assert calls[0][1] is None
+    ratios = [[r.study.constraints["radius_ratio"][1] for r in warm] for _, warm in calls[1:]]
     assert ratios == [[3.0], [2.0], [2.0, 1.5], [1.5, 3.0, 2.0], [2.0, 3.0]]
 
 
@@ -301,22 +301,11 @@ def test_interrupted_between_limits(solved):
         if done == solved:
             raise KeyboardInterrupt
 
-    found = pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0], progress=stop)
-    assert found.interrupted
-    assert len(found) <= 3
-    assert list(found.limits) == [1.5, 2.0, 3.0][max(0, 4 - solved) :] or solved >= 3
-    assert is_monotone(found)
-
-
-def test_interrupted_inside_the_solver_keeps_the_solved_limits(monkeypatch):
-    def slow(study, **options):
-        result = nd.optimize(study, **options)
-        return replace(result, interrupted=study.constraints["radius_ratio"][1] == 1.5)
-
-    monkeypatch.setattr(sweeping, "optimize", slow)
-    found = pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0])
-    assert found.interrupted
-    assert found.limits == (2.0, 3.0)
+    curve = pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0], progress=stop)
+    assert curve.interrupted
+    assert len(curve) <= 3
+    assert list(curve.limits) == [1.5, 2.0, 3.0][max(0, 4 - solved) :] or solved >= 3
+    assert is_monotone(curve)
 
 
 def test_ctrl_c(monkeypatch):
@@ -330,55 +319,11 @@ def test_ctrl_c(monkeypatch):
         return solved[-1]
 
     monkeypatch.setattr(sweeping, "optimize", interrupted)
-    found = pareto(PAPER, "radius_ratio", values=_geometric(1.0, 5.0, 400), threads=1)
-    assert found.interrupted
+    curve = pareto(PAPER, "radius_ratio", values=_geometric(1.0, 5.0, 400), threads=1)
+    assert curve.interrupted
     assert [result.interrupted for result in solved] == [False, False, True]
     assert solved[-1].starts_done < most
-    assert [result.objective for result in found] == [solved[1].objective, solved[0].objective]
-
-
-@pytest.mark.parametrize(
-    ("values", "solved"), [([1.5, 2.0, 3.0], 1), ([1.5, 2.0, 3.0], 5), (None, 3)], ids=["first", "back", "derived"]
-)
-def test_an_interrupted_front_continues_in_its_folder(tmp_path, monkeypatch, solved, values):
-    """The same front as in one go, and nothing is solved twice."""
-    options = {"study": replace(PAPER, starts=8), "against": "radius_ratio", "values": values, "points": 3}
-    calls = []
-
-    def counted(study, **given):
-        calls.append(study)
-        return nd.optimize(study, **given)
-
-    def stop(done, total, value):
-        if done == solved:
-            raise KeyboardInterrupt
-
-    monkeypatch.setattr(sweeping, "optimize", counted)
-    whole = pareto(**options)
-    needed = len(calls)
-    calls.clear()
-    assert pareto(**options, out=tmp_path / "kept", progress=stop).interrupted
-    assert len(calls) == solved
-    again = pareto(**options, out=tmp_path / "kept")
-    assert len(calls) == needed
-    assert not again.interrupted
-    assert again.table() == whole.table()
-    assert [dict(r.to_dict(), seconds=0) for r in again] == [dict(r.to_dict(), seconds=0) for r in whole]
-    assert pareto(**options, out=tmp_path / "kept").table() == whole.table()
-    assert len(calls) == needed
-    with pytest.raises(ValueError, match=r"^out: .* another question"):
-        pareto(PAPER, "leg_ratio", values=[2.0], out=tmp_path / "kept")
-
-
-@pytest.mark.skipif(size(True, False), reason="two seconds")
-def test_a_front_over_a_region_continues(tmp_path):
-    def stop(done, total, value):
-        raise KeyboardInterrupt
-
-    study = replace(PAPER, objective={"region": {"box": [0.2, 0.0, 0.0]}}, starts=1)
-    options = {"against": "radius_ratio", "values": [2.0]}
-    assert pareto(study, **options, out=tmp_path / "kept", progress=stop).interrupted
-    assert pareto(study, **options, out=tmp_path / "kept").table() == pareto(study, **options).table()
+    assert [result.objective for result in curve] == [solved[1].objective, solved[0].objective]
 
 
 def test_same_front_for_any_number_of_threads():
@@ -409,12 +354,12 @@ def test_the_loosest_limit_is_the_value_over_the_region(against, options):
     """The best design without the limit is allowed by it; a few poses that rule the design do not say by which."""
     name = without_degrees(against)[0]
     study = replace(CUBE, constraints={name: {"max": 1.0, **options}})
-    found = pareto(study, against, points=2)
+    curve = pareto(study, against, points=2)
     free = nd.optimize(with_limit(study, name, None))
-    assert found.objectives[-1] == pytest.approx(free.objective, rel=1e-6)
-    assert found.results[-1].status == "optimal"
+    assert curve.objectives[-1] == pytest.approx(free.objective, rel=1e-6)
+    assert curve.results[-1].status == "optimal"
     value = value_of(study, name, free)
-    assert own_value(found.results[-1].study, name) == pytest.approx(value, rel=1e-6)
+    assert own_value(curve.results[-1].study, name) == pytest.approx(value, rel=1e-6)
     # Random poses come near the worst.
     within, beyond = (with_limit(study, name, value * factor) for factor in (1.0 + 1e-6, 0.98))
     x = free.variables
@@ -426,9 +371,9 @@ def test_the_loosest_limit_is_the_value_over_the_region(against, options):
 def test_a_limit_may_have_a_least_value(own):
     """A min above 1 without a max, and rows that end at the min: the study has no designs below."""
     ((name, (low, _)),) = own.items()
-    found = pareto(replace(PAPER, constraints=own, starts=4), name, points=2)
-    assert found.limits[0] >= low
-    assert ("Limits below" in range_words(found)) == (found.limits[0] > low * (1.0 + 1e-9))
+    curve = pareto(replace(PAPER, constraints=own, starts=4), name, points=2)
+    assert curve.limits[0] >= low
+    assert ("Limits below" in range_words(curve)) == (curve.limits[0] > low * (1.0 + 1e-9))
 
 
 @pytest.mark.slow(sanitized=True)

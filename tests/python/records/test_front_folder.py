@@ -39,10 +39,10 @@ def test_a_front_is_read_back_as_it_was(front, tmp_path):
 
 
 def test_a_front_without_designs_is_read_back(tmp_path):
-    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}, starts=16), "radius_ratio")
-    write_run(found, tmp_path)
+    front = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}, starts=16), "radius_ratio")
+    write_run(front, tmp_path)
     assert load(tmp_path).limits == (math.inf,)
-    assert load(tmp_path).table() == found.table()
+    assert load(tmp_path).table() == front.table()
 
 
 # --- The command ------------------------------------------------------------------------------------------------------

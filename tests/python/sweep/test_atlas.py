@@ -1,18 +1,12 @@
 """The atlas: its sequence, its histogram, its best designs; none of them is better than the proved optimum."""
 
-import os
-import signal
-import subprocess
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
-from pathlib import Path
 
 import design_oracle as designs
 import numpy as np
 import numpy_model as model
 import pytest
-from sweep_work import finished
 
 import ninedof as nd
 from ninedof.conditioning.hexagonal import HEXAGONAL
@@ -47,7 +41,7 @@ def oracle(x):
 
 
 @pytest.fixture(scope="module")
-def found():
+def survey():
     return nd.atlas(40_000, seed=3)
 
 
@@ -66,27 +60,27 @@ def test_the_closed_form_against_lapack(all_designs, kappas):
     np.testing.assert_allclose(closed_form(all_designs) / kappas, 1.0, rtol=0.0, atol=1e-8)
 
 
-def test_every_design_is_counted_in_its_bin(found, all_designs, kappas):
+def test_every_design_is_counted_in_its_bin(survey, all_designs, kappas):
     ratio = np.sqrt(squared_radius_ratio(all_designs))
     rows = np.searchsorted(RATIO_EDGES, ratio, side="right") - 1
     columns = np.searchsorted(CONDITION_EDGES, kappas, side="right") - 1
-    counts = np.zeros_like(found["histogram"])
+    counts = np.zeros_like(survey["histogram"])
     np.add.at(counts, (rows, columns), 1)
     # Rounding moves a design across an edge that it is on to the last digits; none of these is.
     assert np.abs(ratio[:, None] / RATIO_EDGES[1:] - 1.0).min() > 1e-12
     assert np.abs(kappas[:, None] / CONDITION_EDGES - 1.0).min() > 1e-12
-    np.testing.assert_array_equal(found["histogram"], counts)
+    np.testing.assert_array_equal(survey["histogram"], counts)
     for row in range(len(RATIO_EDGES)):
         mine = np.flatnonzero(rows == row)
         if not mine.size:
-            assert np.isnan(found["best"][row])
-            assert found["number"][row] == -1
-            assert np.isnan(found["design"][row]).all()
+            assert np.isnan(survey["best"][row])
+            assert survey["number"][row] == -1
+            assert np.isnan(survey["design"][row]).all()
             continue
         best = mine[np.argmin(kappas[mine])]
-        assert found["number"][row] == best
-        assert found["best"][row] == pytest.approx(kappas[best], rel=1e-9)
-        assert found["design"][row].tolist() == all_designs[best].tolist()
+        assert survey["number"][row] == best
+        assert survey["best"][row] == pytest.approx(kappas[best], rel=1e-9)
+        assert survey["design"][row].tolist() == all_designs[best].tolist()
 
 
 def test_the_radius_ratio_is_that_of_the_studies(all_designs):
@@ -99,8 +93,8 @@ def test_the_radius_ratio_is_that_of_the_studies(all_designs):
 
 
 def test_no_design_is_better_than_the_proved_optimum():
-    found = nd.atlas(2_000_000, seed=1)
-    up_to_two = found["best"][: int(np.searchsorted(RATIO_EDGES, 2.0))]
+    survey = nd.atlas(2_000_000, seed=1)
+    up_to_two = survey["best"][: int(np.searchsorted(RATIO_EDGES, 2.0))]
     assert OPTIMUM < np.nanmin(up_to_two) < 1.1 * OPTIMUM
     narrow = {"a1": (0.0, 0.01), "a2": (5.9, 6.1), "b1": (2.95, 3.05), "b2": (0.0, 0.01), "zp": (4.9, 5.0)}
     near = nd.atlas(200_000, bounds={**narrow, "zs_fraction": (0.63, 0.65)})
@@ -161,13 +155,13 @@ def same(one, other):
 
 
 @pytest.mark.parametrize("options", [{"chunk": 999}, {"chunk": 7000}, {"chunk": 10**7}])
-def test_chunks_change_nothing(found, options):
-    same(nd.atlas(40_000, seed=3, **options), found)
+def test_chunks_change_nothing(survey, options):
+    same(nd.atlas(40_000, seed=3, **options), survey)
 
 
-def test_an_executor_changes_nothing(found):
+def test_an_executor_changes_nothing(survey):
     with ThreadPoolExecutor(3) as pool:
-        same(nd.atlas(40_000, seed=3, chunk=1000, executor=pool), found)
+        same(nd.atlas(40_000, seed=3, chunk=1000, executor=pool), survey)
 
 
 def test_tallies_add_up_in_any_order_and_ties_go_to_the_first():
@@ -197,57 +191,6 @@ def test_values_out_of_range_are_counted_in_the_outermost_bins():
     assert tally.number[64 + 1] == -1, "nothing singular is best"
 
 
-def test_a_killed_atlas_is_resumed(tmp_path, found, monkeypatch):
-    """SIGKILL in the middle of a write; finished chunks are not computed again."""
-    out = tmp_path / "out"
-    code = f"""
-import os, signal, stat, ninedof as nd
-real, calls = os.fsync, []
-def fsync(file):
-    if not stat.S_ISDIR(os.fstat(file).st_mode):
-        calls.append(file)
-    if len(calls) == 5:
-        os.kill(os.getpid(), signal.SIGKILL)
-    real(file)
-os.fsync = fsync
-nd.atlas(40_000, seed=3, chunk=4000, out={str(out)!r})
-"""
-    path = os.pathsep.join([str(Path(nd.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
-    ended = subprocess.run([sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": path}, timeout=60, check=False)
-    assert ended.returncode == -signal.SIGKILL
-    assert finished(out) == {0, 1, 2}
-    calls, original = [], AtlasWork.values
-
-    def counted(self, first, last):
-        calls.append(first)
-        return original(self, first, last)
-
-    monkeypatch.setattr(AtlasWork, "values", counted)
-    same(nd.atlas(40_000, seed=3, out=out), found)
-    assert calls == list(range(12_000, 40_000, 4000))
-    with pytest.raises(ValueError, match=r"another question: seed is 3 there and 4 here"):
-        nd.atlas(40_000, seed=4, out=out)
-
-
-@pytest.mark.parametrize("after", [0, 12_000])
-def test_an_interrupted_atlas_is_resumed(tmp_path, found, monkeypatch, after):
-    """In the middle of adding a chunk up, which the folder has by then."""
-    plus, calls = Tally.plus, []
-
-    def interrupted(self, other):
-        calls.append(other)
-        if len(calls) == after // 4000 + 1:
-            raise KeyboardInterrupt
-        return plus(self, other)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(Tally, "plus", interrupted)
-        with pytest.raises(KeyboardInterrupt):
-            nd.atlas(40_000, seed=3, chunk=4000, out=tmp_path)
-    assert finished(tmp_path) == set(range(after // 4000 + 1))
-    same(nd.atlas(40_000, seed=3, out=tmp_path), found)
-
-
 def test_fewer_designs_than_asked_are_an_error(monkeypatch):
     real = AtlasWork.values
     monkeypatch.setattr(AtlasWork, "values", lambda self, first, last: real(self, first, last - 1))
@@ -269,11 +212,11 @@ def test_memory_does_not_grow_with_the_number(monkeypatch):
     assert peaks[1] < 64e6
 
 
-def test_saved_and_read_back(found, tmp_path):
-    again = nd.SweepResult.load(found.save(tmp_path / "atlas"))
-    same(again, found)
+def test_saved_and_read_back(survey, tmp_path):
+    again = nd.SweepResult.load(survey.save(tmp_path / "atlas"))
+    same(again, survey)
     assert again.attributes["bounds"]["zp"] == [0.05, 10.0]
-    assert again.least("best")[0] == np.nanmin(found["best"])
+    assert again.least("best")[0] == np.nanmin(survey["best"])
 
 
 @pytest.mark.parametrize(
@@ -296,8 +239,8 @@ def test_bad_input_is_named(options, words):
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("flat", ["a1 a2", "b1 b2", "a1 a2 b1 b2", "zp", "a1 a2 b1 b2 zp"])
 def test_plates_of_size_0_are_counted_without_a_warning(flat):
-    found = nd.atlas(1000, bounds=dict.fromkeys(flat.split(), (0.0, 0.0)))
-    assert found["histogram"].sum() == 1000
+    survey = nd.atlas(1000, bounds=dict.fromkeys(flat.split(), (0.0, 0.0)))
+    assert survey["histogram"].sum() == 1000
 
 
 @pytest.mark.filterwarnings("error")

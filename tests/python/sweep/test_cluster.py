@@ -24,13 +24,13 @@ from ninedof.sweep.grid import GridWork
 from ninedof.sweep.points import COORDINATES, Poses
 
 
-def asked(index="condition_number", **options):
+def sweep(index="condition_number", **options):
     return nd.sweep(G, HOME, GRID, index, chunk=20, **options)
 
 
 @pytest.fixture(scope="module")
 def expected():
-    return asked()["condition_number"].tobytes()
+    return sweep()["condition_number"].tobytes()
 
 
 @pytest.fixture(autouse=True)
@@ -40,7 +40,7 @@ def _notes(tmp_path, monkeypatch):
 
 def test_threads(expected):
     with ThreadPoolExecutor(3) as pool:
-        assert asked(executor=pool)["condition_number"].tobytes() == expected
+        assert sweep(executor=pool)["condition_number"].tobytes() == expected
 
 
 @pytest.fixture(scope="module")
@@ -50,9 +50,9 @@ def processes(forks):
 
 
 def test_processes(processes, expected):
-    found = asked(["condition_number", "leg_lengths", work.slow], executor=processes)
-    assert found["condition_number"].tobytes() == found["slow"].tobytes() == expected
-    assert found["leg_lengths"].tobytes() == asked("leg_lengths")["leg_lengths"].tobytes()
+    result = sweep(["condition_number", "leg_lengths", work.slow], executor=processes)
+    assert result["condition_number"].tobytes() == result["slow"].tobytes() == expected
+    assert result["leg_lengths"].tobytes() == sweep("leg_lengths")["leg_lengths"].tobytes()
 
 
 def test_designs_and_figures_by_processes(processes):
@@ -76,12 +76,12 @@ def admissible(executor):
     return nd.admissible(study, ("a2", "b1"), resolution=0.05, executor=executor)
 
 
-def assert_same_designs(found):
+def assert_same_designs(result):
     with ThreadPoolExecutor(1) as pool:
         expected = admissible(pool)
-    assert found.low.tobytes() == expected.low.tobytes()
-    assert found.state.tobytes() == expected.state.tobytes()
-    assert found.shares == expected.shares
+    assert result.low.tobytes() == expected.low.tobytes()
+    assert result.state.tobytes() == expected.state.tobytes()
+    assert result.shares == expected.shares
 
 
 def test_admissible_designs_by_processes(processes):
@@ -139,31 +139,31 @@ LOSSES = {
 def test_an_error_of_the_executor_is_raised_and_the_next_call_goes_on(outcome, error, expected, tmp_path, monkeypatch):
     monkeypatch.setattr(chunks, "IN_FLIGHT", 8)
     with pytest.raises(error) as raised:
-        asked(executor=Broken(15, outcome), out=tmp_path)
+        sweep(executor=Broken(15, outcome), out=tmp_path)
     assert raised.value.__notes__ == [f"Finished pieces are kept in {tmp_path}: the same call goes on from there."]
-    kept = len(finished(tmp_path))
-    assert kept >= 7
+    pieces = len(finished(tmp_path))
+    assert pieces >= 7
     rest = Broken(-1, None)
-    assert asked(executor=rest, out=tmp_path)["condition_number"].tobytes() == expected
-    assert rest.submitted == 20 - kept
+    assert sweep(executor=rest, out=tmp_path)["condition_number"].tobytes() == expected
+    assert rest.submitted == 20 - pieces
 
 
 def test_a_broken_pool_ends_the_run_and_another_goes_on(forks, expected, tmp_path):
     index = work.FatalOnce(tmp_path)
     with ProcessPoolExecutor(1, mp_context=forks) as pool:
         with pytest.raises(BrokenExecutor, match="terminated abruptly"):
-            asked(index, executor=pool, out=tmp_path / "out")
+            sweep(index, executor=pool, out=tmp_path / "out")
         with pytest.raises(BrokenExecutor):
-            asked(index, executor=pool, out=tmp_path / "out")
+            sweep(index, executor=pool, out=tmp_path / "out")
     with ProcessPoolExecutor(1, mp_context=forks) as pool:
-        assert asked(index, executor=pool, out=tmp_path / "out")["FatalOnce"].tobytes() == expected
+        assert sweep(index, executor=pool, out=tmp_path / "out")["FatalOnce"].tobytes() == expected
 
 
 def test_an_error_of_the_index_is_raised(tmp_path):
     with ThreadPoolExecutor(1) as pool, pytest.raises(ZeroDivisionError, match="of the index itself"):
-        asked(work.faulty, executor=pool, out=tmp_path)
+        sweep(work.faulty, executor=pool, out=tmp_path)
     with pytest.raises(ValueError, match=r"index wrong_shape: got shape \(3,\), expected \(20,\)"):
-        asked(work.wrong_shape)
+        sweep(work.wrong_shape)
 
 
 @pytest.mark.slow(sanitized=True)
@@ -212,7 +212,7 @@ def test_an_interruption_cancels_what_waits():
 
     with Watched(1) as pool:
         with pytest.raises(KeyboardInterrupt):
-            asked(gated, executor=pool, progress=stop)
+            sweep(gated, executor=pool, progress=stop)
         interrupted.set()
     assert len(submitted) >= 8
     assert len(calls) <= 2
@@ -222,7 +222,7 @@ def test_an_interruption_cancels_what_waits():
 @pytest.mark.parametrize("executor", [3, "dask", object(), [ThreadPoolExecutor], ThreadPoolExecutor, lambda: 3])
 def test_what_is_no_executor_is_refused(executor, tmp_path):
     with pytest.raises(ValueError, match=r"executor: got .*, expected a concurrent.futures.Executor"):
-        asked(executor=executor, out=tmp_path / "out")
+        sweep(executor=executor, out=tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 
@@ -249,32 +249,32 @@ def cluster(forks):
             memory_limit=None,
             dashboard_address=None,
             host="127.0.0.1",
-        ) as found,
-        distributed.Client(found) as client,
+        ) as local,
+        distributed.Client(local) as client,
     ):
         yield client
 
 
 def test_dask_gives_the_same_bits(cluster, expected):
-    found = asked(["condition_number", "singular_values", work.slow], executor=cluster.get_executor())
-    assert found["condition_number"].tobytes() == found["slow"].tobytes() == expected
-    assert found["singular_values"].tobytes() == asked("singular_values")["singular_values"].tobytes()
+    result = sweep(["condition_number", "singular_values", work.slow], executor=cluster.get_executor())
+    assert result["condition_number"].tobytes() == result["slow"].tobytes() == expected
+    assert result["singular_values"].tobytes() == sweep("singular_values")["singular_values"].tobytes()
 
 
 def test_dask_computes_an_atlas(cluster):
-    found, expected = (nd.atlas(60_000, chunk=9000, executor=e) for e in (cluster.get_executor(), None))
+    result, expected = (nd.atlas(60_000, chunk=9000, executor=e) for e in (cluster.get_executor(), None))
     for name in expected:
-        assert found[name].tobytes() == expected[name].tobytes()
+        assert result[name].tobytes() == expected[name].tobytes()
 
 
 def test_dask_finds_admissible_designs(cluster, run, tmp_path):
-    found = admissible(cluster.get_executor())
-    assert_same_designs(found)
+    result = admissible(cluster.get_executor())
+    assert_same_designs(result)
     file, address = tmp_path / "study.toml", cluster.scheduler_info()["address"]
-    found.study.save(file)
+    result.study.save(file)
     status, out, _ = run(f"admissible {file} --vary a2 --vary b1 --resolution 0.05 --json --scheduler {address}")
     assert status == 0
-    assert json.loads(out)["shares"] == pytest.approx(found.shares)
+    assert json.loads(out)["shares"] == pytest.approx(result.shares)
 
 
 def test_a_chunk_that_dask_gives_up_ends_the_run_and_the_next_call_goes_on(cluster, expected, tmp_path):
@@ -284,8 +284,8 @@ def test_a_chunk_that_dask_gives_up_ends_the_run_and_the_next_call_goes_on(clust
     before, executor = cluster.run_on_scheduler(allow_failures, 0), cluster.get_executor()
     try:
         with pytest.raises(killed):
-            asked(index, executor=executor, out=tmp_path / "out")
-        assert asked(index, executor=executor, out=tmp_path / "out")["FatalOnce"].tobytes() == expected
+            sweep(index, executor=executor, out=tmp_path / "out")
+        assert sweep(index, executor=executor, out=tmp_path / "out")["FatalOnce"].tobytes() == expected
     finally:
         cluster.run_on_scheduler(allow_failures, before)
     assert (tmp_path / "killed").exists()
@@ -301,8 +301,8 @@ def test_the_command_line_uses_a_scheduler(cluster, run, tmp_path):
     out = tmp_path / "run"
     address = cluster.scheduler_info()["address"]
     assert run(f"sweep --over x_p=-1:1:23 --scheduler {address} --out {out} --no-figures")[0] == 0
-    found = nd.SweepResult.load(out / "sweep.npz")
-    assert found["condition_number"].shape == (23,)
+    result = nd.SweepResult.load(out / "sweep.npz")
+    assert result["condition_number"].shape == (23,)
 
 
 @pytest.mark.parametrize(
@@ -376,8 +376,8 @@ def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(run, tmp_pat
     line = "sweep --over x_p=-1:1:23 --chunk 5 --no-figures --out 'my run'"
     status, _, err = run(f"{line} --scheduler tcp://127.0.0.1:8786")
     assert status == 4
-    (said,) = (said for said in err.splitlines() if said.startswith("ninedof: "))
-    assert said.startswith(
+    (last,) = (words for words in err.splitlines() if words.startswith("ninedof: "))
+    assert last.startswith(
         "ninedof: --scheduler: lost tcp://127.0.0.1:8786 (CancelledError). Finished pieces are kept in"
     )
     assert finished(tmp_path / "my run") == {0, 1}

