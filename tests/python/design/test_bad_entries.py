@@ -1,9 +1,11 @@
 """Every kind of entry refuses what it cannot be, and names itself, what came and what was expected.
 
-One table of values a kind, one of places a kind; whole files with their errors; entries that do not go together.
+One table of kinds; whole files with their errors; entries that do not go together.
 """
 
 import math
+import operator
+import re
 
 import numpy as np
 import pytest
@@ -12,151 +14,100 @@ import ninedof as nd
 from ninedof import poses
 
 NAN, INF = math.nan, math.inf
-HUGE = {"huge whole number": 10**400, "longer than Python spells": 10**5000}
-NO_NUMBERS = {"text": "1", "bool": True, "numpy bool": np.bool_(True), "complex": 1j, "table": {"x": 0.0}} | HUGE
-NO_LISTS = {"empty": (), "nested": [[0.0, 1.0], [2.0, 3.0]], "no dimension": np.array(3.0), "letters": "ab"}
-
-VALUES = {
-    "number": NO_NUMBERS | {"list": [1.0], "nan": NAN, "minus infinity": -INF, "negative": -1.0},
-    "bound": NO_NUMBERS
-    | NO_LISTS
-    | {
-        "none": None,
-        "nan": NAN,
-        "infinite": INF,
-        "both infinite": (INF, INF),
-        "nan in it": (0.0, NAN),
-        "reversed": (2.0, 1.0),
-        "negative": -1.0,
-        "negative in it": (-1.0, 1.0),
-        "text in it": ("0", "1"),
-        "bools in it": (False, True),
-        "none in it": (None, 1.0),
-        "one": (1.0,),
-        "three": (0.0, 1.0, 2.0),
-        "huge in it": (0, 10**400),
-    },
-    "limit": NO_LISTS
-    | {
-        "number": 2.0,
-        "none": None,
-        "set": {1.0, 2.0},
-        "reversed": (2.0, 1.0),
-        "nan": (None, NAN),
-        "negative": (-3.0, -1.0),
-        "zero": (None, 0.0),
-        "infinite low": (INF, None),
-        "text": (None, "2"),
-        "bool": (None, True),
-        "numpy bool": (None, np.bool_(True)),
-        "huge": (None, 10**400),
-        "three": (None, 1.0, 2.0),
-        "text in a table": {"max": "2"},
-        "list in a table": {"max": [1.0]},
-        "a limit and a number": [{"max": 1.0}, 3],
-    },
-    "length": NO_NUMBERS
-    | {repr(bad): bad for bad in (0.0, -1.0, NAN, INF, None, [1.0], ())}
-    | {
-        "other kind": "longest",
-        "reversed": (2.0, 1.0),
-        "from zero": (0.0, 1.0),
-        "open": (1.0, INF),
-        "nan in it": (1.0, NAN),
-        "bools": (False, True),
-        "kinds": ("natural", "optimal"),
-        "three": (1.0, 2.0, 3.0),
-    },
-    "vector": NO_LISTS
-    | {
-        "number": 1.0,
-        "two": (0.0, 1.0),
-        "four": (0.0, 1.0, 2.0, 3.0),
-        "nan": (0.0, NAN, 0.0),
-        "infinite": (INF, 0.0, 0.0),
-        "bool": (True, 0.0, 0.0),
-        "numpy bools": np.array([True, False, False]),
-        "texts": ("0", "0", "0"),
-        "none": (None, 0.0, 0.0),
-        "complex": (1j, 0.0, 0.0),
-        "mapping": {"x": 0.0},
-        "huge": (10**400, 0, 0),
-        "longer than Python spells": (10**5000, 0, 0),
-    },
-    "whole number": {repr(bad): bad for bad in (-1, 1.0, 1.5, "1", True, None, 2**63, NAN)},
-    "word": {repr(bad): bad for bad in ("hexagonl", "", None, 1, 0.5, True, ["worst"])},
-    "table": {repr(bad): bad for bad in (None, 3, "a1", [{}])},
-    "list of poses": {repr(bad): bad for bad in (None, 3, "held", {"position": [0, 0, 0]}, iter(()))},
-    "pose": {repr(bad): [bad] for bad in (3, None, "held", (0.1, 0, 0), {"positon": (0, 0, 0)})},
+NO_NUMBERS = ["1", True, np.bool_(True), 1j, {"x": 0.0}, 10**400, 10**5000]  # the last one longer than Python spells
+NO_LISTS = [(), [[0.0, 1.0], [2.0, 3.0]], np.array(3.0), "ab"]
+NO_BOUNDS = [None, NAN, INF, (INF, INF), (0.0, NAN), (2.0, 1.0), -1.0, (-1.0, 1.0), ("0", "1"), (False, True)]
+NO_LIMITS = [2.0, None, {1.0, 2.0}, (2.0, 1.0), (None, NAN), (-3.0, -1.0), (None, 0.0), (INF, None), (None, "2")]
+NO_LIMITS += [{"max": "2"}, {"max": [1.0]}, [{"max": 1.0}, 3]]
+NO_LENGTHS = [0.0, -1.0, NAN, INF, None, [1.0], (), "longest", (2.0, 1.0), (0.0, 1.0), (1.0, INF), (1.0, NAN)]
+NO_VECTORS = [
+    1.0,
+    (0.0, 1.0),
+    (0.0, 1.0, 2.0, 3.0),
+    (0.0, NAN, 0.0),
+    (INF, 0.0, 0.0),
+    (True, 0.0, 0.0),
+    ("0", "0", "0"),
+]
+NO_VECTORS += [np.array([True, False, False]), (None, 0.0, 0.0), (1j, 0.0, 0.0), {"x": 0.0}, (10**400, 0, 0)]
+KINDS = {  # what is refused; places, each a call and the way to the entry among its arguments
+    "number": (
+        [*NO_NUMBERS, [1.0], NAN, -INF, -1.0],
+        "Pose weight, Region ball, Region tilt, Region.from_dict data.tilt_deg, Region cylinder.0: cylinder, "
+        "poses.ball radius, Objective condition_limit, Objective neutral_condition_limit, "
+        "Study constraints.leg_clearance.radius: constraints.leg_clearance",
+    ),
+    "bound": (
+        [*NO_NUMBERS, *NO_LISTS, *NO_BOUNDS, (None, 1.0), (1.0,), (0.0, 1.0, 2.0), (0, 10**400)],
+        "Study variables.a2, Study variables.zs",
+    ),
+    "limit": (
+        [*NO_LISTS, *NO_LIMITS, (None, True), (None, np.bool_(True)), (None, 10**400), (None, 1.0, 2.0)],
+        "Study constraints.radius_ratio, Study constraints.leg_ratio, Study constraints.zs_fraction",
+    ),
+    "length": (
+        [*NO_NUMBERS, *NO_LENGTHS, (False, True), ("natural", "optimal"), (1.0, 2.0, 3.0)],
+        "Study characteristic_length",
+    ),
+    "vector": (
+        [*NO_LISTS, *NO_VECTORS, (10**5000, 0, 0)],
+        "Pose position, Pose rotation, Pose.from_dict data.rotation_deg, Region box, poses.box half, "
+        "poses.ball tilt_deg, poses.path positions.1, poses.path rotations.1, Study constraints.base_cone.axis",
+    ),
+    "whole number": (
+        [-1, 1.0, 1.5, "1", True, None, 2**63, NAN],
+        "Study starts, Study seed, poses.box points, Study constraints.singularity_free.steps",
+    ),
+    "word": (
+        ["hexagonl", "", None, 1, 0.5, True, ["worst"]],
+        "Study family, Pose unit, Region internal_point, Objective index, Objective aggregate, "
+        "Study constraints.height.at, Study constraints.stroke.of",
+    ),
+    "table": (
+        [None, 3, "a1", [{}]],
+        "Study variables, Study constraints, Study objective, Study.from_dict data.design, Objective region",
+    ),
+    "list of poses": ([None, 3, "held", {"position": [0, 0, 0]}, iter(())], "Objective poses"),
+    "pose": ([3, None, "held", (0.1, 0, 0), {"positon": (0, 0, 0)}], "Objective poses.0"),
 }
-
-
-def in_study(name, key=None):
-    return lambda bad: nd.Study(**{name: bad if key is None else {key: bad}})
-
-
-def of(kind, name):
-    return lambda bad: kind(**{name: bad})
-
-
-PLACES = {
-    "number": {
-        "weight": of(nd.Pose, "weight"),
-        "ball": of(nd.Region, "ball"),
-        "tilt": of(nd.Region, "tilt"),
-        "tilt_deg": lambda bad: nd.Region.from_dict({"tilt_deg": bad}),
-        "cylinder": lambda bad: nd.Region(cylinder=(bad, 1.0)),
-        "radius": of(poses.ball, "radius"),
-        "condition_limit": of(nd.Objective, "condition_limit"),
-        "neutral_condition_limit": of(nd.Objective, "neutral_condition_limit"),
-        r"constraints\.leg_clearance": lambda bad: nd.Study(constraints={"leg_clearance": {"radius": bad}}),
-    },
-    "bound": {"a2": in_study("variables", "a2"), "zs": in_study("variables", "zs")},
-    "limit": {
-        rf"constraints\.{name}": in_study("constraints", name) for name in ("radius_ratio", "leg_ratio", "zs_fraction")
-    },
-    "length": {"characteristic_length": in_study("characteristic_length")},
-    "vector": {
-        "position": of(nd.Pose, "position"),
-        "rotation": of(nd.Pose, "rotation"),
-        "rotation_deg": lambda bad: nd.Pose.from_dict({"rotation_deg": bad}),
-        "box": of(nd.Region, "box"),
-        "half": of(poses.box, "half"),
-        "tilt_deg": lambda bad: poses.ball(1.0, tilt_deg=bad),
-        r"positions\[1\]": lambda bad: poses.path([[0, 0, 0], bad]),
-        r"rotations\[1\]": lambda bad: poses.path([[0, 0, 0], [1, 0, 0]], rotations=[[0, 0, 0], bad]),
-        r"constraints\.base_cone\.axis": lambda bad: nd.Study(constraints={"base_cone": {"max": 1, "axis": bad}}),
-    },
-    "whole number": {
-        "starts": in_study("starts"),
-        "seed": in_study("seed"),
-        "points": lambda bad: poses.box((1, 1, 1), points=bad),
-        r"constraints\.singularity_free\.steps": lambda bad: nd.Study(
-            constraints={"singularity_free": {"steps": -1 if bad is None else bad}}
-        ),
-    },
-    "word": {
-        "family": in_study("family"),
-        "unit": of(nd.Pose, "unit"),
-        "internal_point": of(nd.Region, "internal_point"),
-        "index": of(nd.Objective, "index"),
-        "aggregate": of(nd.Objective, "aggregate"),
-        r"constraints\.height\.at": lambda bad: nd.Study(constraints={"height": {"max": 1, "at": bad or "home"}}),
-        r"constraints\.stroke\.of": lambda bad: nd.Study(constraints={"stroke": {"max": 1, "of": bad or "zs"}}),
-    },
-    "table": {name: in_study(name) for name in ("variables", "constraints", "objective")}
-    | {"design": lambda bad: nd.Study.from_dict({"design": bad}), "region": of(nd.Objective, "region")},
-    "list of poses": {"poses": of(nd.Objective, "poses")},
-    "pose": {r"poses\[0\]": of(nd.Objective, "poses")},
+BESIDE = {  # what a place needs beside the entry: further arguments, entries of its table, values before and after it
+    "poses.box": {"half": (1, 1, 1)},
+    "poses.ball": {"radius": 1.0},
+    "poses.path": {"positions": [[0, 0, 0], [1, 0, 0]]},
+    "base_cone": {"max": 1},
+    "height": {"max": 1},
+    "stroke": {"max": 1},
+    "cylinder": ([], [1.0]),
+    "positions": ([[0, 0, 0]], []),
+    "rotations": ([[0, 0, 0]], []),
+    "poses": ([], []),
 }
+OPTIONAL = ("Objective region", "Study constraints.singularity_free.steps", "Study constraints.height.at")
+OPTIONAL += ("Study constraints.stroke.of",)
 
 
-@pytest.mark.parametrize(("kind", "place"), [(kind, place) for kind, places in PLACES.items() for place in places])
+def arguments(call, way, bad):
+    """The arguments of a call with the entry at the end of the way."""
+    for place, step in reversed(list(zip([call, *way], way, strict=False))):
+        if step.isdigit():
+            before, after = BESIDE[place]
+            bad = [*before, bad, *after]
+        else:
+            bad = {**BESIDE.get(place, {}), step: bad}
+    return bad
+
+
+@pytest.mark.parametrize(
+    ("kind", "place"), [(kind, at) for kind, (_, places) in KINDS.items() for at in places.split(", ")]
+)
 def test_a_kind_of_entry(kind, place):
-    for name, bad in VALUES[kind].items():
-        if (place, name) != ("region", "None"):  # it may have no value
-            with pytest.raises(ValueError, match=rf"(?s)^{place}[.\w\[\]]*: got .+, expected .+"):
-                PLACES[kind][place](bad)
+    place, _, name = place.partition(": ")
+    call, _, way = place.partition(" ")
+    name = re.sub(r"\.(\d)", r"[\1]", name or re.sub("^(data|variables)[.]", "", way))
+    for bad in KINDS[kind][0]:
+        if bad is not None or place not in OPTIONAL:
+            with pytest.raises(ValueError, match=rf"(?s)^{re.escape(name)}[.\w\[\]]*: got .+, expected .+"):
+                operator.attrgetter(call)(nd)(**arguments(call, way.split("."), bad))
 
 
 HINTS = {

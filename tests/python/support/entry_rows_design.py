@@ -70,15 +70,12 @@ for name, kind in DUTIES.items():
     row(f"{kind.__name__}.from_dict", kind.from_dict, words={"data": (name,)})(
         lambda kind=kind, name=name: {"data": kind(**DUTY[name]).to_dict()}
     )
-    row(f"{kind.__name__}.to_dict", kind(**DUTY[name]).to_dict)(dict)
 row("Actuator")(ACTUATOR.copy)
 row("Actuator.from_dict", nd.Actuator.from_dict, words={"data": ("actuator",)})(lambda: {"data": dict(ACTUATOR)})
-row("Actuator.to_dict", nd.Actuator(**ACTUATOR).to_dict)(dict)
 row("Actuator.is_as_good_as", nd.Actuator(**ACTUATOR).is_as_good_as)(lambda: {"other": nd.Actuator(**ACTUATOR)})
 row("Study.with_actuators", lambda **a: it.study().with_actuators(**a))(
     lambda: {"rows": {"external": nd.Actuator(**ACTUATOR)}}
 )
-row("Study.require_no_choice", lambda: it.study().require_no_choice())(dict)
 row("Tool.seen", nd.Tool(**DUTY["tool"]).seen)(lambda: {"point": (1.0, 2.0, 3.0)})
 ROBOT = {"geometry": it.g(), "configuration": it.c()}
 row("Tool.turned", nd.Tool(**DUTY["tool"]).turned)(lambda: {"direction": (1.0, 2.0, 3.0)})
@@ -94,7 +91,6 @@ row("Study.zp", lambda **a: it.study().zp(**a))(lambda: {"neutral": it.c()})
 row("Masses.seen_from", nd.Masses(**DUTY["masses"]).seen_from)(lambda: {"tool": nd.Tool(**DUTY["tool"])})
 row("Study.paper", nd.Study.paper)(dict)
 row("Study.from_dict", nd.Study.from_dict, words={"data": ("study", *OF_ROBOT)})(lambda: {"data": it.study().to_dict()})
-row("Study.to_dict", lambda: it.study().to_dict())(dict)
 row("Study.problem", lambda **how: it.study().problem(**how))(lambda: {"over_region": False})
 row("Study.limit_for_core", lambda **a: it.study().limit_for_core(**a))(lambda: {"limit": Limit("leg_ratio", high=3.0)})
 DESIGN = {"a2": 5.0, "b1": 3.0, "zp": 4.0, "zs": 2.0, "theta_z": 0.0}
@@ -121,8 +117,6 @@ row("Pose")(
 row("Pose.from_dict", nd.Pose.from_dict, words={"data": ("pose",)})(
     lambda: {"data": {"position": [0.1, 0.0, 0.0], "unit": "zp"}}
 )
-row("Pose.to_dict", lambda: nd.Pose((0.1, 0.0, 0.0)).to_dict())(dict)
-row("Pose.for_core", lambda: nd.Pose((0.1, 0.0, 0.0)).for_core())(dict)
 row("Region")(
     lambda: {
         "box": (0.1, 0.1, 0.1),
@@ -140,8 +134,6 @@ row("Region.from_dict", nd.Region.from_dict, words={"data": ("region",)})(
     lambda: {"data": {"box": [0.1, 0.1, 0.1], "tilt_deg": 5.0}}
 )
 REGION = nd.Region(cylinder=(0.1, 0.1))
-row("Region.to_dict", REGION.to_dict)(dict)
-row("Region.for_core", REGION.for_core)(dict)
 row("Region.size_at", nd.Region(ball=0.1, unit="zp").size_at)(lambda: {"home": it.c()})
 row("Region.worded", REGION.worded)(lambda: {"unit": "mm"})
 row("Objective", words={"region": ("box",), "poses": ("pose",)})(
@@ -164,7 +156,6 @@ row("Objective.from_dict", nd.Objective.from_dict, words={"data": ("objective",)
         }
     }
 )
-row("Objective.to_dict", nd.Objective().to_dict)(dict)
 row("Objective.for_core", nd.Objective().for_core)(lambda: {"over_region": False})
 row("Objective.worded", nd.Objective(region=REGION).worded)(lambda: {"unit": "mm", "imposed": 3})
 row("poses.box", poses.box)(lambda: {"half": (0.1, 0.1, 0.1), "tilt": None, "tilt_deg": [5.0, 0.0, 0.0], **OF_A_SET})
@@ -242,13 +233,7 @@ row("Result.is_certified_by", lambda **a: it.region_result().is_certified_by(**a
     lambda: {"certificate": it.certificate()}
 )
 row("Result.sheet", lambda **a: it.result().sheet(**a))(lambda: {"poses": it.stack(), "linear_speed": 1.0})
-row("Result.summary", lambda: it.region_result().summary())(dict)
-row("Result.to_dict", lambda: it.region_result().to_dict())(dict)
-row("Candidate.to_dict", lambda: it.result().best.to_dict())(dict)
-row("Front.table", lambda: it.front().table())(dict)
-row("Front.to_dict", lambda: it.front().to_dict())(dict)
 row("OptimumProof.gap", lambda **a: it.proof().gap(**a))(lambda: {"condition_number": 4.0})
-row("OptimumProof.to_dict", lambda: it.proof().to_dict())(dict)
 row("OptimumProof.from_dict", nd.OptimumProof.from_dict, words={"data": ("proof",)}, loose=("data",))(
     lambda: {"data": it.proof().to_dict()}
 )
@@ -258,9 +243,6 @@ row(
     words={"data": ("certificate", "mark", "rule")},
     loose=("data",),
 )(lambda: {"data": it.certificate().to_dict()})
-row("MachineCertificate.to_dict", lambda: it.certificate().to_dict())(dict)
-row("MachineCertificate.leg_table", lambda: it.certificate().leg_table())(dict)
-row("MachineCertificate.sentences", lambda: it.certificate().sentences())(dict)
 row("LimitProof.shown", lambda **a: it.certificate().limits[0].shown(**a))(lambda: {"value": 1.0})
 row("LimitProof.unit", lambda **a: it.certificate().limits[0].unit(**a))(lambda: {"length": "mm"})
 row("LimitProof.worded", lambda **a: it.certificate().limits[0].worded(**a))(lambda: {"digits": 6})
@@ -335,10 +317,8 @@ row(
         "gravity": [0.0, 0.0, -9.81],
     }
 )
-row("Followed.to_dict", lambda: it.followed().to_dict())(dict)
 row("region_map")(lambda: {"result": it.region_result()})
 row("path_limits")(lambda: {"study": it.study(), "followed": it.followed(), "home": it.c()})
-row("PathLimits.worst", lambda: nd.path_limits(it.study(), it.followed(), it.c()).worst())(dict)
 row("tolerances_for", words={"position": ("position", "rotation")})(
     lambda: {"design": it.design(), "position": 0.1, "rotation": 0.01, "weights": (1.0, 1.0)}
 )
@@ -373,9 +353,6 @@ row("largest_payload", few=3, huge=("samples",))(
         "samples": 10,
     }
 )
-row("Payload.to_dict", lambda: nd.largest_payload(it.design(), 100.0).to_dict())(dict)
-for name in ("joints", "forces", "summary", "to_csv", "to_dict"):
-    row(f"Sheet.{name}", lambda name=name: getattr(it.result().sheet(it.stack()), name)())(dict)
 row("failure", few=3, huge=("samples",))(
     lambda: {
         "design": it.design(),
@@ -387,8 +364,6 @@ row("failure", few=3, huge=("samples",))(
         "samples": 10,
     }
 )
-for name in ("summary", "to_dict"):
-    row(f"Failure.{name}", lambda name=name: getattr(nd.failure(it.design(), it.stack()), name)())(dict)
 row("admissible", few=3, words={"vary": ("vary",)})(
     lambda: {
         "of": it.study(),
@@ -414,13 +389,10 @@ row("admissible_actuators", few=3, words={"vary": ("vary",)})(
         "progress": None,
     }
 )
-row("AdmissibleRow.to_dict", lambda: it.admissible_rows().rows[0].to_dict())(dict)
 row("AdmissibleSet.state_of", lambda **a: it.admissible_set().state_of(**a))(lambda: {"designs": [[5.0, 3.0]]})
 row("AdmissibleSet.around", lambda **a: it.admissible_set().around(**a), few=3)(
     lambda: {"design": {"a2": 5.0, "b1": 3.0}, "proportions": {"a2": 2.0, "b1": 1.0}}
 )
-row("AdmissibleSet.sentences", lambda: it.admissible_set().sentences())(dict)
-row("AdmissibleSet.for_core", lambda: it.admissible_set().for_core())(dict)
 row("sweep", dear=("out",), huge=("over",), words={"over": ("x_p",)})(
     lambda: {
         "geometry": it.g(),
@@ -464,7 +436,6 @@ row("SweepResult.at", lambda **a: it.swept().at(**a), loose=("position",))(
     lambda: {"name": "condition_number", "position": (2,)}
 )
 row("SweepResult.least", lambda **a: it.swept().least(**a))(lambda: {"name": "condition_number"})
-row("SweepResult.to_xarray", lambda: it.swept().to_xarray())(dict)
 row("atlas", huge=("designs",), words={"bounds": ("a2",)})(
     lambda: {
         "designs": 100,
@@ -523,9 +494,7 @@ row("certified_workspace", few=10, huge=("most_boxes", "time_limit"))(
 row("CertifiedWorkspace.section", lambda **a: it.certified().section(**a), words={"axis": ("at",)})(
     lambda: {"axis": "z", "at": 4.0, "pixels": 8}
 )
-row("CertifiedWorkspace.sentences", lambda: list(it.certified().sentences()))(dict)
 row("CertifiedWorkspace.state", lambda **a: it.certified().state(**a))(lambda: {"points": [[0.0, 0.0, 4.0]]})
-row("CertifiedWorkspace.to_dict", lambda: it.certified().to_dict())(dict)
 row("CertifiedWorkspace.with_estimate", lambda **a: it.certified().with_estimate(**a))(
     lambda: {"volume": 0.5, "error": 0.1, "unit": "mm"}
 )
@@ -534,9 +503,31 @@ row("WorkspaceMap.slice", lambda **a: it.workspace().slice(**a), words={"axis": 
     lambda: {"axis": "z", "at": 4.0, "pixels": 8, "smooth": False}
 )
 row("WorkspaceMap.surface", lambda **a: it.workspace().surface(**a))(lambda: {"most": 1000})
-row("WorkspaceMap.to_dict", lambda: it.workspace().to_dict())(dict)
 row("spread_rotations", huge=("count",))(lambda: {"count": 3, "angle": 1.0})
 row("compare", lambda **a: nd.compare(it.result(), it.result(), **a))(lambda: {"names": ["one", "other"]})
-row("Comparison.parts", lambda: nd.compare(it.result(), it.result()).parts())(dict)
-row("Comparison.to_dict", lambda: nd.compare(it.result(), it.result()).to_dict())(dict)
 row("Result.with_changes", lambda **a: it.result().with_changes(**a))(lambda: {"a2": 5.0})
+
+THINGS = {  # one of each class whose methods without arguments are called
+    **{kind.__name__: lambda kind=kind, name=name: kind(**DUTY[name]) for name, kind in DUTIES.items()},
+    "Actuator": lambda: nd.Actuator(**ACTUATOR),
+    "AdmissibleRow": lambda: it.admissible_rows().rows[0],
+    "AdmissibleSet": it.admissible_set,
+    "Candidate": lambda: it.result().best,
+    "CertifiedWorkspace": it.certified,
+    "Comparison": lambda: nd.compare(it.result(), it.result()),
+    "Failure": lambda: nd.failure(it.design(), it.stack()),
+    "Followed": it.followed,
+    "Front": it.front,
+    "MachineCertificate": it.certificate,
+    "Objective": nd.Objective,
+    "OptimumProof": it.proof,
+    "PathLimits": lambda: nd.path_limits(it.study(), it.followed(), it.c()),
+    "Payload": lambda: nd.largest_payload(it.design(), 100.0),
+    "Pose": lambda: nd.Pose((0.1, 0.0, 0.0)),
+    "Region": lambda: nd.Region(cylinder=(0.1, 0.1)),
+    "Result": it.region_result,
+    "Sheet": lambda: it.result().sheet(it.stack()),
+    "Study": it.study,
+    "SweepResult": it.swept,
+    "WorkspaceMap": it.workspace,
+}
