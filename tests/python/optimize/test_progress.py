@@ -6,32 +6,15 @@ import os
 import signal
 import sys
 import threading
-from time import perf_counter
 
 import pytest
 from interrupts import interrupter
-from sizes import size
 
 import ninedof as nd
 from ninedof.cli.screen import best_words
 
 LEAST = 3.762659078596047
 HUGE = 10**6  # starts: minutes of work
-
-
-def test_reports_rise_to_the_total():
-    seen, starts = [], size(1500, 4000)
-    result = nd.optimize(nd.Study.paper(), starts=starts, progress=lambda *arguments: seen.append(arguments))
-    assert result.status == "optimal"
-    assert len(seen) > 1
-    done, total, best = zip(*seen, strict=True)
-    assert set(total) == {starts}
-    assert all(a < b for a, b in itertools.pairwise(done))
-    assert done[-1] == starts
-    assert all(a >= b for a, b in itertools.pairwise(best))
-    assert best[-1] == pytest.approx(result.condition_number, rel=1e-9)
-    assert min(best) >= LEAST * (1.0 - 1e-9)  # an end that uses up the tolerance of a constraint is no record
-    assert all(type(x) is int for x in (*done, *total))
 
 
 def test_short_run_reports_its_end():
@@ -80,37 +63,6 @@ def test_fixed_study_reports_a_total_it_reaches():
     nd.optimize(nd.Study(variables=fixed), progress=lambda *arguments: seen.append(arguments))
     assert seen
     assert seen[-1][0] == seen[-1][1]
-
-
-@pytest.mark.parametrize("error", [RuntimeError("mine"), SystemExit(3), GeneratorExit()], ids=repr)
-def test_exception_of_the_callback_stops_the_run_and_is_passed_on(error):
-    calls = []
-
-    def report(*arguments):
-        calls.append(arguments)
-        raise error
-
-    with pytest.raises(type(error)) as caught:
-        nd.optimize(nd.Study.paper(), starts=HUGE, progress=report)
-    assert caught.value is error
-    assert len(calls) == 1
-    assert calls[0][0] < HUGE
-
-
-def test_callback_with_the_wrong_signature_is_an_error():
-    with pytest.raises(TypeError, match="positional argument"):
-        nd.optimize(nd.Study.paper(), starts=HUGE, progress=lambda done: None)
-
-
-def test_keyboard_interrupt_of_the_callback_returns_the_best_so_far():
-    def report(done, total, best):
-        raise KeyboardInterrupt
-
-    result = nd.optimize(nd.Study.paper(), starts=HUGE, progress=report)
-    assert result.status is nd.Status.STOPPED
-    assert 0 < result.starts_done < HUGE
-    assert result.condition_number == pytest.approx(LEAST, rel=1e-9)
-    assert "interrupted" in result.reason
 
 
 def test_callback_may_call_the_library():
@@ -171,34 +123,6 @@ def test_other_threads_run_meanwhile(no_forced_switch):
     assert result.starts_done < HUGE // 10
 
 
-UNBOUNDED = nd.Study(variables=dict.fromkeys(["a1", "a2", "b1", "b2", "zp", "zs"], (1e-3, math.inf)))
-
-
-@pytest.mark.parametrize("study", [nd.Study.paper(), UNBOUNDED], ids=["paper", "unbounded"])
-def test_interrupt_returns_the_best_so_far(study):
-    with interrupter() as progress:
-        result = nd.optimize(study, starts=HUGE, progress=progress)
-    assert progress.sent is not None
-    assert result.status == "stopped"
-    assert result.interrupted
-    assert 0 < result.starts_done < HUGE
-    assert 2.5 < result.condition_number < LEAST * (1.0 + 1e-9)
-    assert len(result.candidates) >= 1
-
-
-@pytest.mark.timing
-@pytest.mark.parametrize("threads", [1, 2])
-def test_interrupt_within_half_a_second(threads):
-    """The aim is 0.2 s; the rest is room for a busy machine."""
-    seconds = []
-    for _ in range(2):
-        with interrupter() as progress:
-            result = nd.optimize(nd.Study.paper(), starts=HUGE, threads=threads, progress=progress)
-            seconds.append(perf_counter() - progress.sent)
-        assert result.interrupted
-    assert min(seconds) < 0.5
-
-
 def test_own_signal_handler_is_called_and_decides():
     """A program with a SIGINT handler of its own, which raises nothing, is not stopped behind its back."""
     calls = []
@@ -210,21 +134,6 @@ def test_own_signal_handler_is_called_and_decides():
         signal.signal(signal.SIGINT, handler)
     assert calls == [1]
     assert (result.status, result.starts_done) == ("optimal", 2000)
-
-
-def test_an_interruption_at_the_very_end_is_reported():
-    """Of a run that has nothing left to do: its result is whole, so that only the exception can tell."""
-
-    def stop(done, total, best):
-        if done == total:
-            raise KeyboardInterrupt
-
-    for _ in range(20):
-        try:
-            heard = nd.optimize(nd.Study.paper(), starts=4, progress=stop).interrupted
-        except KeyboardInterrupt:
-            heard = True
-        assert heard
 
 
 def test_the_runs_that_place_o_are_counted():

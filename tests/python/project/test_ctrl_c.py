@@ -69,7 +69,7 @@ for line in LINES:
 @pytest.fixture(scope="module")
 def heard():
     """How each call ended in one program, and how long after its SIGINT."""
-    found, pipe = {}, subprocess.PIPE
+    ends, pipe = {}, subprocess.PIPE
     program = f"LINES = {list(LONG.values())!r}\n{HEAD}{CALLS}"
     with subprocess.Popen([sys.executable, "-c", program], stdin=pipe, stdout=pipe, text=True, bufsize=1) as child:
         for name in LONG:
@@ -77,11 +77,11 @@ def heard():
             time.sleep(0.4)
             sent = time.monotonic()
             child.send_signal(signal.SIGINT)
-            found[name] = child.stdout.readline().strip(), time.monotonic() - sent
+            ends[name] = child.stdout.readline().strip(), time.monotonic() - sent
             if child.poll() is not None:
                 break
             child.stdin.write("next\n")
-    return found
+    return ends
 
 
 @pytest.mark.slow

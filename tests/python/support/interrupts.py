@@ -40,32 +40,32 @@ class Interrupter:
 @contextmanager
 def interrupter():
     """An `Interrupter` for the one call in the block."""
-    found = Interrupter()
-    found.start()
+    sender = Interrupter()
+    sender.start()
     try:
-        yield found
+        yield sender
     finally:
-        found.stop()
+        sender.stop()
 
 
 @contextmanager
 def interrupted_on_entry(name):
     """Send SIGINT as soon as the core's function `name` gives the GIL away: before it has found anything."""
-    core, interval, found = getattr(_core, name), sys.getswitchinterval(), Interrupter()
+    core, interval, sender = getattr(_core, name), sys.getswitchinterval(), Interrupter()
 
     def watched(*arguments, **options):
         sys.setswitchinterval(1000.0)  # the other thread does not run before
-        found()
+        sender()
         return core(*arguments, **options)
 
-    found.start()
+    sender.start()
     setattr(_core, name, watched)
     try:
         yield
     finally:
         setattr(_core, name, core)
         sys.setswitchinterval(interval)
-        found.stop()
+        sender.stop()
 
 
 class InterruptedPhase:

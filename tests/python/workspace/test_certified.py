@@ -8,7 +8,6 @@ import numpy as np
 import numpy_model as model
 import pytest
 import workspace_oracle as oracle
-from interrupts import interrupter
 from scipy.spatial.transform import Rotation
 from sizes import size
 
@@ -30,8 +29,8 @@ def margins(g, m, criteria, home):
         if name in criteria:
             limit = criteria[name]
             angle, axis = (limit["max"], limit["axis"]) if isinstance(limit, dict) else (limit, None)
-            found = oracle.angles(m, bool(platform), axis, model.robot(g, home))
-            least = np.minimum(least, (angle - found).min(axis=1))
+            reached = oracle.angles(m, bool(platform), axis, model.robot(g, home))
+            least = np.minimum(least, (angle - reached).min(axis=1))
     if "condition_number" in criteria:
         with np.errstate(all="ignore"):
             least = np.minimum(least, criteria["condition_number"] / model.condition_number(m) - 1.0)
@@ -138,14 +137,14 @@ def test_the_volume_of_a_shell(published, low, high):
 def test_bounds_of_more_boxes_lie_within_those_of_fewer(published):
     criteria, before = LEGS | {"condition_number": 5.0}, (0.0, np.inf)
     for gap in (0.5, 0.2, 0.1, size(0.06, 0.005)):
-        found = nd.certified_workspace(published, BOX, criteria=criteria, gap=gap).volume
-        assert before[0] * (1.0 - 1e-12) <= found[1]
-        assert found[0] <= before[1]
-        assert found[1] - found[0] <= gap * found[1] * (1.0 + 1e-12)
-        before = found
+        volume = nd.certified_workspace(published, BOX, criteria=criteria, gap=gap).volume
+        assert before[0] * (1.0 - 1e-12) <= volume[1]
+        assert volume[0] <= before[1]
+        assert volume[1] - volume[0] <= gap * volume[1] * (1.0 + 1e-12)
+        before = volume
     estimate = nd.workspace(published, BOX, criteria=criteria)
-    assert found[0] <= estimate.volume + estimate.error
-    assert found[1] >= estimate.volume - estimate.error
+    assert volume[0] <= estimate.volume + estimate.error
+    assert volume[1] >= estimate.volume - estimate.error
 
 
 def test_a_tiny_forbidden_ball_is_never_proved_to_be_allowed(published):
@@ -302,8 +301,8 @@ def test_sets_of_rotations(published, archetype):
 
 
 def test_threads_change_nothing(published):
-    asked = {"criteria": LEGS | {"condition_number": 5.0}, "gap": 0.1}
-    one, two = (nd.certified_workspace(published, BOX, threads=threads, **asked) for threads in (1, 3))
+    options = {"criteria": LEGS | {"condition_number": 5.0}, "gap": 0.1}
+    one, two = (nd.certified_workspace(published, BOX, threads=threads, **options) for threads in (1, 3))
     assert one.volume == two.volume
     assert np.array_equal(one.open_low, two.open_low)
     assert np.array_equal(one.cuts, two.cuts)
@@ -320,18 +319,6 @@ def test_boxes_fill_no_more_than_the_box(published):
     assert (proved.state(middle) == 1).all()
 
 
-def test_an_interruption_returns_what_is_proved(published):
-    with interrupter() as progress:
-        proved = nd.certified_workspace(
-            published, BOX, criteria=LEGS | {"condition_number": 5.0}, gap=1e-6, time_limit=None, progress=progress
-        )
-    assert proved.interrupted
-    assert proved.end == "stopped"
-    estimate = nd.workspace(published, BOX, criteria=LEGS | {"condition_number": 5.0}, tolerance=0.01)
-    assert proved.volume[0] <= estimate.volume + estimate.error
-    assert proved.volume[1] >= estimate.volume - estimate.error
-
-
 def test_no_time_is_a_wide_answer(published):
     proved = nd.certified_workspace(published, BOX, criteria=LEGS, time_limit=0.0)
     assert proved.end == "time"
@@ -344,8 +331,8 @@ def test_saved_and_loaded(published, tmp_path):
     again = nd.CertifiedWorkspace.load(proved.save(tmp_path / "proved"))
     assert str(again) == str(proved)
     assert again.to_dict() == proved.to_dict()
-    said = float(str(proved).split("(gap ")[1].split(" %")[0])
-    assert 100.0 * proved.gap <= said <= 105.0 * proved.gap
+    percent = float(str(proved).split("(gap ")[1].split(" %")[0])
+    assert 100.0 * proved.gap <= percent <= 105.0 * proved.gap
     assert np.array_equal(again.cuts, proved.cuts)
     assert "mm³" in str(again)
     with pytest.raises(ValueError, match="got no 'ninedof-certified-workspace-1' file"):
@@ -356,7 +343,7 @@ def test_saved_and_loaded(published, tmp_path):
 def test_a_rotation_of_few_digits_stands_for_the_rotation_next_to_it(published, defect):
     """Where the leg is at its limit by the matrix given or by that rotation, and in or out by the other."""
     exact = Rotation.from_rotvec([0.3, -0.2, 0.1]).as_matrix()
-    given = (1.0 + defect) * exact
+    matrix = (1.0 + defect) * exact
     legs = np.zeros(9), FREE.copy()
     legs[1][0] = 3.0
     arm, joint = exact @ published.platform_external[0], published.base_external[0]
@@ -364,7 +351,7 @@ def test_a_rotation_of_few_digits_stands_for_the_rotation_next_to_it(published, 
     between = joint - arm + (3.0 - 0.5 * defect * np.linalg.norm(arm)) * along
     box = (between - 1e-8, between + 1e-8)
     proved = nd.certified_workspace(
-        published, box, criteria={"leg_limits": legs}, rotation=given, gap=1e-3, most_boxes=2_000
+        published, box, criteria={"leg_limits": legs}, rotation=matrix, gap=1e-3, most_boxes=2_000
     )
     assert proved.state(between[None]) == [0]
     far = 1e-8 * np.array([[-0.9], [0.9]]) * along
@@ -390,12 +377,12 @@ def test_what_is_connected_outside_the_box_is_not_counted_nor_said_to_be(publish
     home = nd.Configuration(at, np.eye(3), 0.5 * at)
     proved = nd.certified_workspace(published, beam, criteria=criteria, home=home)
     assert proved.home_volume[1] < 0.6 * proved.volume[0]
-    said = str(proved).splitlines()
-    assert "connected with home within the box searched has a volume" in said[0]
-    assert said[1].endswith("within the box searched.")
+    words = str(proved).splitlines()
+    assert "connected with home within the box searched has a volume" in words[0]
+    assert words[1].endswith("within the box searched.")
 
 
 def test_what_lies_beyond_takes_no_time_that_there_is_not(published):
-    asked = {"criteria": LEGS | {"condition_number": 5.0}, "archetype": "reachable", "orientations": 20}
-    proved = nd.certified_workspace(published, BOX, time_limit=0.0, **asked)
+    options = {"criteria": LEGS | {"condition_number": 5.0}, "archetype": "reachable", "orientations": 20}
+    proved = nd.certified_workspace(published, BOX, time_limit=0.0, **options)
     assert (proved.end, proved.beyond) == ("time", "unknown")

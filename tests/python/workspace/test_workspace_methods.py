@@ -158,3 +158,16 @@ def test_an_audit_finds_a_workspace_that_corners_miss(published):
     for points in (1, 60_000):
         found = nd.workspace(published, box, criteria=narrow, resolution=8, points=points, most_evaluations=300_000)
         assert found.volume + found.error >= near.volume - near.error
+
+
+def test_the_poses_announced_are_about_those_evaluated(published):
+    """The error of the first level is a bound: taken for an estimate it announced ten times as many poses."""
+    totals = []
+    result = nd.workspace(
+        published,
+        ([-4, -4, 0], [4, 4, 8]),
+        criteria={"leg_limits": (1.5, 6.5), "condition_number": 5.0},
+        progress=lambda done, total, volume: totals.append(total),
+    )
+    assert result.status == "converged"
+    assert max(totals) < 1.5 * result.evaluations
