@@ -7,14 +7,11 @@ import math
 
 import numpy as np
 import pytest
-from forged import line_of, lines_of, sealed, spelled, verdict_of, with_word
+from forged import assert_refused_or_true, line_of, lines_of, no_limit_breaks, sealed, spelled, verdict_of, with_word
 from interrupts import interrupter
-from limit_oracle import limits_of, margins, robot_of
-from region_oracle import random_poses
 from sizes import size
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
 
 STUDY = nd.Study(
     variables={"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0, "theta_z": 0.0},
@@ -57,14 +54,14 @@ def in_state(lines, n, state):
 
 
 def test_a_genuine_file_is_proved_and_says_what_it_is_about(designs, lines, verdict):
-    found = verdict(lines)
-    assert found.proved
-    assert not found.incomplete
-    assert found.boxes == len(designs.state)
-    assert "a2 from 2 to 10" in found.study
+    check = verdict(lines)
+    assert check.proved
+    assert not check.incomplete
+    assert check.boxes == len(designs.state)
+    assert "a2 from 2 to 10" in check.study
     angles = "tilts up to 0.1 rad (5.72958 deg), yaw up to 0 rad (0 deg)"
-    assert f"at every pose of a box of 0.3, 0.2, 0.2, {angles}, O shifted" in found.study
-    assert "stroke_ratio at most 1.22" in found.study
+    assert f"at every pose of a box of 0.3, 0.2, 0.2, {angles}, O shifted" in check.study
+    assert "stroke_ratio at most 1.22" in check.study
     assert min(len(boxes(lines, state)) for state in ("inside", "outside", "undecided")) > 5
 
 
@@ -72,10 +69,10 @@ def test_a_genuine_file_is_proved_and_says_what_it_is_about(designs, lines, verd
 def test_a_box_called_inside_that_is_not_is_refused(lines, verdict):
     rng, named = np.random.default_rng(1), 0
     for n in rng.choice(boxes(lines, "outside"), 15, replace=False):
-        found = verdict(in_state(lines, n, "inside"))
-        assert not found.proved
-        named += "called inside" in found.words
-        assert found.incomplete or "called inside" in found.words
+        check = verdict(in_state(lines, n, "inside"))
+        assert not check.proved
+        named += "called inside" in check.words
+        assert check.incomplete or "called inside" in check.words
     assert named > 10
 
 
@@ -85,10 +82,10 @@ def test_an_undecided_box_called_inside_is_refused_not_confirmed_or_true(lines, 
     refused = 0
     for n in rng.choice(boxes(lines, "undecided"), 15, replace=False):
         forged = in_state(lines, n, "inside")
-        found = verdict(forged)
-        assert not found.proved or holds(forged, rng, [n] * 4)
-        refused += "called inside" in found.words
-        assert found.proved or found.incomplete or "called inside" in found.words
+        check = verdict(forged)
+        assert not check.proved or holds(forged, rng, [n] * 4)
+        refused += "called inside" in check.words
+        assert check.proved or check.incomplete or "called inside" in check.words
     assert refused > 5
 
 
@@ -96,9 +93,9 @@ def test_a_box_called_outside_that_is_not_is_refused(lines, verdict):
     reason = lines[boxes(lines, "outside")[0]].split(" outside")[1]
     rng = np.random.default_rng(2)
     for n in rng.choice(boxes(lines, "inside"), 15, replace=False):
-        found = verdict(in_state(lines, n, "outside" + reason))
-        assert not found.proved
-        assert "called outside" in found.words
+        check = verdict(in_state(lines, n, "outside" + reason))
+        assert not check.proved
+        assert "called outside" in check.words
 
 
 @pytest.mark.slow
@@ -138,16 +135,16 @@ def test_boxes_that_are_no_division_are_refused(lines, verdict):
         with_word(lines, line_of(lines, "variable a2"), 3, spelled(10.5)),
         lines[:-1],
     ):
-        found = verdict(forged)
-        assert not found.proved
-        assert "division" in found.words
+        check = verdict(forged)
+        assert not check.proved
+        assert "division" in check.words
 
 
 def test_other_shares_are_refused(lines, verdict):
     n = line_of(lines, "shares")
     for place in (1, 2, 3):
-        found = verdict(with_word(lines, n, place, spelled(float.fromhex(lines[n].split(" ")[place]) + 1e-6)))
-        assert found.words == "the shares are not those of the boxes"
+        check = verdict(with_word(lines, n, place, spelled(float.fromhex(lines[n].split(" ")[place]) + 1e-6)))
+        assert check.words == "the shares are not those of the boxes"
 
 
 @pytest.mark.parametrize(
@@ -179,11 +176,11 @@ def test_other_shares_are_refused(lines, verdict):
 def test_a_file_that_is_none_is_refused(old, new, words, lines, verdict):
     text = "\n".join(lines)
     assert old in text
-    found = verdict(text.replace(old, new, 1).split("\n"))
-    assert not found.proved
-    assert not found.incomplete
-    assert words in found.words
-    assert found.study == ()
+    check = verdict(text.replace(old, new, 1).split("\n"))
+    assert not check.proved
+    assert not check.incomplete
+    assert words in check.words
+    assert check.study == ()
 
 
 def test_a_limit_that_the_checker_does_not_know_leaves_it_incomplete(lines, verdict):
@@ -194,10 +191,10 @@ def test_a_limit_that_the_checker_does_not_know_leaves_it_incomplete(lines, verd
         (f"limit hope 0x0p+0 0x1p+3 length poses {zero}", "hope"),
         (f"limit base_cone 0x0p+0 0x1p+1 zp poses {zero}", "base_cone"),
     ):
-        found = verdict([*lines[:n], line, *lines[n:]])
-        assert found.incomplete
-        assert not found.proved
-        assert f"not checked: {name}" in found.words
+        check = verdict([*lines[:n], line, *lines[n:]])
+        assert check.incomplete
+        assert not check.proved
+        assert f"not checked: {name}" in check.words
 
 
 def test_damage_anywhere_is_refused(designs, tmp_path):
@@ -229,40 +226,24 @@ def holds(lines, rng, which=None):
         },
         objective={"region": {"box": shape[:3], "tilt": shape[3], "yaw": shape[4]}},
     )
-    for n in rng.choice(boxes(lines, "inside"), 4) if which is None else which:
-        ends = [float.fromhex(x) for x in lines[n].split(" ")[1:5]]
-        design = fixed | {"a2": rng.uniform(*ends[:2]), "b1": rng.uniform(*ends[2:])}
-        there = posed(study, random_poses(study.objective.region, 40, rng))
-        robot = robot_of(there, design)
-        if any(np.min(margins(limit, robot)) < -1e-9 for limit in limits_of(there)):
-            return False
-    return True
+    chosen = rng.choice(boxes(lines, "inside"), 4) if which is None else which
+    return no_limit_breaks(study, fixed, [lines[n] for n in chosen], 40, rng)
 
 
 @pytest.mark.slow(sanitized=True)
 def test_what_is_proved_of_a_changed_file_is_true(lines, verdict):
     """Numbers before the boxes, moved by up to some percent."""
     rng = np.random.default_rng(7)
-    first = boxes(lines, "")[0]
-    places = [
-        (n, k)
-        for n in range(first)
-        if lines[n].split(" ")[0] in ("variable", "region", "limit")
-        for k, word in enumerate(lines[n].split(" "))
-        if word.lstrip("-").startswith("0x") and float.fromhex(word) != 0.0
-    ]
-    proved = refused = 0
-    for _ in range(size(60, 600)):
-        n, k = places[rng.integers(len(places))]
-        value = float.fromhex(lines[n].split(" ")[k]) * math.exp(0.03 * rng.normal())
-        forged = with_word(lines, n, k, spelled(value))
+
+    def change(n, k, value):
+        word = spelled(value * math.exp(0.03 * rng.normal()))
+        forged = with_word(lines, n, k, word)
         if lines[n].startswith("variable") and lines[n].split(" ")[2] == lines[n].split(" ")[3]:
-            forged = with_word(forged, n, 5 - k, spelled(value))  # both ends of a variable that is fixed
-        if not verdict(forged).proved:
-            refused += 1
-            continue
-        proved += 1
-        assert holds(forged, rng), forged[n]
+            forged = with_word(forged, n, 5 - k, word)  # both ends of a variable that is fixed
+        return forged
+
+    kinds = ("variable", "region", "limit")
+    proved, refused = assert_refused_or_true(lines, kinds, change, verdict, holds, rng, size(60, 600))
     assert proved > 5
     assert refused > 5
 
@@ -280,9 +261,9 @@ def machine_lines(tmp_path_factory):
 def test_a_machine_that_breaks_its_bound_in_a_corner_is_refused_soon(machine_lines, verdict):
     """With a smaller base the condition number is 7 % above what the file says: refused in a second, not in minutes."""
     n = line_of(machine_lines, "variable a2 ")
-    found = verdict(with_word(with_word(machine_lines, n, 2, spelled(480.0)), n, 3, spelled(480.0)))
-    assert not found.proved
-    assert "the machine is called inside, and its design in the middle breaks condition_number" in found.words
+    check = verdict(with_word(with_word(machine_lines, n, 2, spelled(480.0)), n, 3, spelled(480.0)))
+    assert not check.proved
+    assert "the machine is called inside, and its design in the middle breaks condition_number" in check.words
 
 
 def test_ctrl_c_ends_the_check_of_a_machine(machine_lines, tmp_path):

@@ -9,13 +9,10 @@ import numpy as np
 import pytest
 import set_in_balls
 from duty_oracle import DUTY
-from forged import line_of, lines_of, sealed, spelled, verdict_of, with_word
-from limit_oracle import limits_of, margins, robot_of
-from region_oracle import random_poses
+from forged import assert_refused_or_true, line_of, lines_of, no_limit_breaks, sealed, spelled, verdict_of, with_word
 from sizes import size
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
 
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0, "theta_z": 0.0}
 LIMITS = {"force": (None, 85.0), "rate": (None, 1.6), "power": (None, 112.0), "lower_force": (None, 83.0)}
@@ -35,12 +32,12 @@ def verdict(tmp_path):
 
 
 def test_a_set_with_limits_of_forces_and_rates_is_replayed(lines, verdict):
-    found = verdict(lines)
-    assert found.proved, found.words
-    assert "force at most 85" in found.study
-    assert "gravity 0.4, 0, -9.81, mass of the platform 3 at 0.1, -0.2, 0.3, of O 0.1" in found.study
-    assert "load of the moment 30, -20, 5, the force 20, 10, -20, the force on O 0, 0, 0" in found.study
-    assert "speeds up to 0.7 and 0.4 rad (22.9183 deg) per time, O carried" in found.study
+    check = verdict(lines)
+    assert check.proved, check.words
+    assert "force at most 85" in check.study
+    assert "gravity 0.4, 0, -9.81, mass of the platform 3 at 0.1, -0.2, 0.3, of O 0.1" in check.study
+    assert "load of the moment 30, -20, 5, the force 20, 10, -20, the force on O 0, 0, 0" in check.study
+    assert "speeds up to 0.7 and 0.4 rad (22.9183 deg) per time, O carried" in check.study
     for state in ("inside", "outside"):
         assert sum(f" {state}" in line for line in lines) > 20
 
@@ -81,15 +78,15 @@ def test_a_duty_that_is_none_is_refused(start, new, lines, verdict):
     first = line_of(lines, start)
     last = first + (new is not None or sum(line.startswith(f"{start} ") for line in lines))
     forged = [*lines[:first], *[new] * (new is not None), *lines[last:]]
-    found = verdict(forged)
-    assert not found.proved
-    assert not found.incomplete
+    check = verdict(forged)
+    assert not check.proved
+    assert not check.incomplete
     assert set_in_balls.check(sealed(forged)).startswith("refused")
 
 
 def test_no_duty_at_all_is_refused(lines, verdict):
-    found = verdict([line for line in lines if line.split(" ")[0] not in ("weights", "leg", "load", "speeds")])
-    assert "force is a limit of a duty, and the file has none" in found.words
+    check = verdict([line for line in lines if line.split(" ")[0] not in ("weights", "leg", "load", "speeds")])
+    assert "force is a limit of a duty, and the file has none" in check.words
 
 
 def machine(lines, rule):
@@ -141,9 +138,9 @@ def test_a_changed_duty_that_a_machine_does_not_bear_is_proved_by_neither(start,
 def test_a_tighter_limit_is_refused(name, lines, verdict):
     n = line_of(lines, f"limit {name} ")
     bound = float.fromhex(lines[n].split(" ")[3])
-    found = verdict(with_word(lines, n, 3, spelled(0.9 * bound)))
-    assert not found.proved
-    assert f"breaks {name}" in found.words
+    check = verdict(with_word(lines, n, 3, spelled(0.9 * bound)))
+    assert not check.proved
+    assert f"breaks {name}" in check.words
 
 
 def numbers(lines, start):
@@ -168,40 +165,23 @@ def holds(lines, rng):
         speeds={"linear": linear, "angular": angular},
         objective={"region": {"box": numbers(lines, "region ")[0][:3]}},
     )
-    inside = [line.split(" ") for line in lines if line.endswith(" inside")]
-    for words in (inside[k] for k in rng.integers(0, len(inside), 4)):
-        ends = [float.fromhex(x) for x in words[1:5]]
-        design = fixed | {"a2": rng.uniform(*ends[:2]), "b1": rng.uniform(*ends[2:])}
-        there = posed(study, random_poses(study.objective.region, 12, rng))
-        robot = robot_of(there, design)
-        if any(np.min(margins(limit, robot)) < -1e-9 for limit in limits_of(there)):
-            return False
-    return True
+    inside = [line for line in lines if line.endswith(" inside")]
+    return no_limit_breaks(study, fixed, [inside[k] for k in rng.integers(0, len(inside), 4)], 12, rng)
 
 
 @pytest.mark.slow
 def test_what_is_proved_of_changed_loads_masses_speeds_and_limits_is_true(lines, verdict):
     """A number before the boxes, moved by a fifth; of the legs, all nine."""
     rng = np.random.default_rng(17)
-    places = [
-        (n, k)
-        for n, line in enumerate(lines)
-        if line.split(" ")[0] in ("weights", "leg", "load", "speeds", "limit", "region")
-        for k, word in enumerate(line.split(" "))
-        if word.lstrip("-").startswith("0x") and float.fromhex(word) != 0.0
-    ]
-    proved = refused = 0
-    for _ in range(size(25, 400)):
-        n, k = places[rng.integers(len(places))]
-        word = spelled(float.fromhex(lines[n].split(" ")[k]) * math.exp(0.2 * rng.normal()))
-        forged = lines
+
+    def change(n, k, value):
+        word, forged = spelled(value * math.exp(0.2 * rng.normal())), lines
         for m in range(len(lines)):
             if m == n or (lines[n].startswith("leg ") and lines[m].startswith("leg ")):
                 forged = with_word(forged, m, k, word)
-        if not verdict(forged).proved:
-            refused += 1
-            continue
-        proved += 1
-        assert holds(forged, rng), forged[n]
+        return forged
+
+    kinds = ("weights", "leg", "load", "speeds", "limit", "region")
+    proved, refused = assert_refused_or_true(lines, kinds, change, verdict, holds, rng, size(25, 400))
     assert proved > 2
     assert refused > 2

@@ -4,11 +4,11 @@ import json
 import re
 from itertools import combinations
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from region_oracle import random_poses
+from unsolved import unsolved
 
 import ninedof as nd
 from ninedof import _core
@@ -56,11 +56,11 @@ def robot(seed):
 def test_relative_manipulability(seed):
     g, c = robot(seed)
     j = columns_of(g, c[0], 0.7)
-    found = nd.failure(g, c, pairs=False).relative_manipulability[0]
+    value = nd.failure(g, c, pairs=False).relative_manipulability[0]
     inverse = np.linalg.inv(j @ j.T)
     expected = np.sqrt(np.maximum(1.0 - np.einsum("ik,ij,jk->k", j, inverse, j), 0.0))
-    assert found == pytest.approx(expected, abs=1e-5)
-    assert (found**2).sum() == pytest.approx(3.0, abs=1e-12)  # nine rates, six freedoms
+    assert value == pytest.approx(expected, abs=1e-5)
+    assert (value**2).sum() == pytest.approx(3.0, abs=1e-12)  # nine rates, six freedoms
     left = [np.delete(j, pair, axis=1) for pair in combinations(range(9), 2)]
     shares = [np.linalg.det(m @ m.T) for m in left] / np.linalg.det(j @ j.T)
     assert shares.sum() == pytest.approx(3.0, rel=1e-6)  # (3 over 2)
@@ -94,13 +94,7 @@ def test_loads_that_the_other_eight_legs_bear():
 
 
 def region_result(region):
-    study = nd.Study(family="symmetric", objective={"region": nd.Region(**region)}, characteristic_length=1.5)
-    sizes = {"base_external_radius": 5.0, "base_internal_radius": 3.0, "zp": 4.0, "zs": 2.2}
-    sizes |= {"platform_external_radius": 2.0, "platform_internal_radius": 1.2}
-    angles = {"base_internal_angle": 0.6, "platform_external_angle": 0.9, "platform_internal_angle": 1.1}
-    point = posed(study, (nd.Pose(),)).evaluate(sizes | angles)
-    names = ("geometry", "configuration", "configurations", "characteristic_length")
-    return SimpleNamespace(study=study, variables=sizes | angles, **{name: getattr(point, name) for name in names})
+    return unsolved({"objective": {"region": nd.Region(**region)}}, (0.6, 0.9, 1.1))
 
 
 @pytest.mark.slow(sanitized=True)
@@ -227,4 +221,4 @@ def test_numbers_of_a_column_have_the_same_decimals():
         rows = [row for group in table.texts() for row in group]
         for column in list(zip(*rows, strict=True))[1:]:
             numbers = [re.search(r"\.(\d+)", cell) for cell in column]
-            assert len({len(found[1]) for found in numbers if found}) <= 1, column
+            assert len({len(value[1]) for value in numbers if value}) <= 1, column

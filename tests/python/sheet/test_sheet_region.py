@@ -1,7 +1,6 @@
 """The sheet of a region study: against random poses of the region, and the poses against the core's."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +8,7 @@ from region_oracle import random_poses
 from region_poses import drawn
 from scipy.spatial.transform import Rotation
 from sizes import size
+from unsolved import unsolved
 
 import ninedof as nd
 from ninedof import _core
@@ -23,11 +23,11 @@ def cone_angles(g, c):
     upper = c.internal_point[:, None] - c.position[:, None] - g.platform_internal @ np.swapaxes(c.rotation, 1, 2)
     lower = c.internal_point[:, None] - g.base_internal
     legs = np.concatenate([external, upper, lower], axis=1)
-    found = []
+    angles = []
     for v in (legs, legs @ c.rotation):
         v = v / np.linalg.norm(v, axis=2, keepdims=True)
-        found.append(2.0 * np.arcsin(np.linalg.norm(v - v[0], axis=2) / 2.0))
-    return found
+        angles.append(2.0 * np.arcsin(np.linalg.norm(v - v[0], axis=2) / 2.0))
+    return angles
 
 
 REGIONS = [
@@ -40,20 +40,8 @@ CONES = {"base_cone": {"max_deg": 50, "axis": [0, 0, 1]}, "platform_cone": {"max
 
 
 def result(region, seed=0):
-    """A design as the result of a region study holds it, without the solving."""
-    study = nd.Study(
-        family="symmetric", constraints=CONES, objective={"region": nd.Region(**region)}, characteristic_length=1.5
-    )
-    angles = ("base_internal_angle", "platform_external_angle", "platform_internal_angle")
-    sizes = {"base_external_radius": 5.0, "base_internal_radius": 3.0, "zp": 4.0, "zs": 2.2}
-    sizes |= {"platform_external_radius": 2.0, "platform_internal_radius": 1.2}
-    given = dict(zip(angles, np.random.default_rng(seed).uniform(0.4, 1.2, 3).tolist(), strict=True))
-    solved = posed(study, (nd.Pose(),))
-    point = solved.evaluate(sizes | given)
-    names = ("geometry", "configuration", "configurations", "characteristic_length")
-    return SimpleNamespace(
-        study=study, solved=solved, variables=sizes | given, **{name: getattr(point, name) for name in names}
-    )
+    angles = np.random.default_rng(seed).uniform(0.4, 1.2, 3).tolist()
+    return unsolved({"constraints": CONES, "objective": {"region": nd.Region(**region)}}, angles)
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +53,7 @@ def boxed():
 @pytest.mark.parametrize("region", size(REGIONS[1:2], REGIONS))
 def test_no_random_pose_is_worse(region):
     design = result(region)
-    found = nd.sheet(design, linear_speed=2.0, loads=[0.1, 0.2, 0.3, 1.0, 2.0, -3.0], samples=2000)
+    sheet = nd.sheet(design, linear_speed=2.0, loads=[0.1, 0.2, 0.3, 1.0, 2.0, -3.0], samples=2000)
     there = posed(
         design.study, random_poses(design.study.objective.region, size(3000, 100_000), np.random.default_rng(1))
     )
@@ -73,74 +61,74 @@ def test_no_random_pose_is_worse(region):
     close = {"rel": 1e-9, "abs": 1e-12}
     lengths, forces = nd.leg_lengths(g, c), nd.leg_forces(g, c, [0.1, 0.2, 0.3], [1.0, 2.0, -3.0]).forces
     base, platform = cone_angles(g, c)
-    for k, leg in enumerate(found.legs):
+    for k, leg in enumerate(sheet.legs):
         assert leg.shortest <= lengths[:, k].min() * (1.0 + 1e-9)
         assert leg.longest >= lengths[:, k].max() * (1.0 - 1e-9)
         assert leg.base_cone is None or leg.base_cone >= base[:, k].max() - 1e-9
         assert leg.platform_cone is None or leg.platform_cone >= platform[:, k].max() - 1e-9
         assert leg.forces[0][0] <= forces[:, k].min() + 1e-9
         assert leg.forces[0][1] >= forces[:, k].max() - 1e-9
-    sample = nd.sheet(g, c, linear_speed=2.0, internal=found.motion.internal, characteristic_length=1.5)
-    for k, leg in enumerate(found.legs):
+    sample = nd.sheet(g, c, linear_speed=2.0, internal=sheet.motion.internal, characteristic_length=1.5)
+    for k, leg in enumerate(sheet.legs):
         assert leg.speed >= sample.legs[k].speed - 1e-9
         assert leg.acceleration >= sample.legs[k].acceleration - 1e-9
-    assert found.condition_number.value >= sample.condition_number.value * (1.0 - 1e-9)
-    assert found.clearance.value <= sample.clearance.value + 1e-9
-    for name, one in found.determinants.items():
+    assert sheet.condition_number.value >= sample.condition_number.value * (1.0 - 1e-9)
+    assert sheet.clearance.value <= sample.clearance.value + 1e-9
+    for name, one in sheet.determinants.items():
         assert one.value <= sample.determinants[name].value + 1e-9
     # and each is met: the extremes are those of poses of the sheet
-    again = nd.sheet(g, found.configurations, internal=found.motion.internal, characteristic_length=1.5)
-    assert again.condition_number == found.condition_number
-    assert [leg.longest for leg in again.legs] == pytest.approx([leg.longest for leg in found.legs], **close)
-    margins = {row.name: row.margin for row in found.limits}
+    again = nd.sheet(g, sheet.configurations, internal=sheet.motion.internal, characteristic_length=1.5)
+    assert again.condition_number == sheet.condition_number
+    assert [leg.longest for leg in again.legs] == pytest.approx([leg.longest for leg in sheet.legs], **close)
+    margins = {row.name: row.margin for row in sheet.limits}
     assert min(there.evaluate(design.variables).margins.values()) >= min(margins.values()) - 1e-9
     for name, margin in there.evaluate(design.variables).margins.items():
         assert margin >= margins[name] - 1e-9
-    assert found.region.looked_at > 4000
+    assert sheet.region.looked_at > 4000
     even = random_poses(design.study.objective.region, 9000, np.random.default_rng(2), share=0.0)
     kappa = nd.condition_number(g, posed(design.study, even).evaluate(design.variables).configurations[1:], 1.5)
-    error = float(kappa.std()) / 9000**0.5 + found.region.mean_error
-    assert found.mean_condition_number == found.region.mean == pytest.approx(kappa.mean(), abs=6.0 * error)
+    error = float(kappa.std()) / 9000**0.5 + sheet.region.mean_error
+    assert sheet.mean_condition_number == sheet.region.mean == pytest.approx(kappa.mean(), abs=6.0 * error)
 
 
 @pytest.mark.slow(sanitized=True)
 def test_a_second_maximum_far_from_the_worst_of_the_sample():
     """The worst four samples led to one of 0.368331; found with 60,000 random poses."""
-    found = nd.sheet(result(REGIONS[2], seed=3))
-    assert found.legs[0].platform_cone >= 0.369397
+    sheet = nd.sheet(result(REGIONS[2], seed=3))
+    assert sheet.legs[0].platform_cone >= 0.369397
 
 
 def test_the_sheet_agrees_with_the_search_of_the_optimizer(boxed):
-    design, found = result(REGIONS[0]), boxed
+    design, sheet = result(REGIONS[0]), boxed
     study, x = design.study, [design.variables[name] for name in design.study.problem(True).names]
     worst = _core.search_region(study.problem(True), study.objective.region.for_core(), x, 4000, 0, 1)
     index = max(logarithm for logarithm, _ in worst["index"])
-    assert found.condition_number.value == pytest.approx(math.exp(index), rel=1e-8)
+    assert sheet.condition_number.value == pytest.approx(math.exp(index), rel=1e-8)
     least = min(margin for name, _, margin, _ in worst["limits"] if name != "leg_ratio")  # that compares poses
-    assert min(row.margin for row in found.limits if row.name != "leg_ratio") == pytest.approx(least, abs=1e-8)
+    assert min(row.margin for row in sheet.limits if row.name != "leg_ratio") == pytest.approx(least, abs=1e-8)
 
 
 @pytest.mark.parametrize("region", REGIONS)
 def test_configurations_are_those_of_the_core(region):
     design = result(region)
-    given = np.random.default_rng(3).uniform(-1.0, 1.0, (40, 6)) * nd.Region(**region).reach
-    c = configurations_at(nd.Region(**region), design.configuration, given)
-    core = posed(design.study, poses_at(nd.Region(**region), given)).evaluate(design.variables).configurations[1:]
+    coordinates = np.random.default_rng(3).uniform(-1.0, 1.0, (40, 6)) * nd.Region(**region).reach
+    c = configurations_at(nd.Region(**region), design.configuration, coordinates)
+    core = posed(design.study, poses_at(nd.Region(**region), coordinates)).evaluate(design.variables).configurations[1:]
     for name in ("position", "rotation", "internal_point"):
         assert np.allclose(getattr(c, name), getattr(core, name), atol=1e-12)
-    outside = _core.region_poses(nd.Region(**region).for_core(), 10.0 * given)[:, :6]
+    outside = _core.region_poses(nd.Region(**region).for_core(), 10.0 * coordinates)[:, :6]
     reach = np.array(nd.Region(**region).reach)
     assert (np.abs(outside) <= reach + 1e-12).all()
 
 
 def test_words_and_plain_values(boxed):
-    found = boxed
-    assert repr(found).startswith("<Sheet over a region, ")
-    assert f"Poses looked at: {found.region.looked_at}" in found.summary().splitlines()[0]
-    plain = found.to_dict()
-    assert plain["region"]["looked_at"] == found.region.looked_at
-    assert len(plain["poses"]) == len(found.configurations)
-    assert plain["singularities"]["turn"]["distance_deg"] == math.degrees(found.singularities["turn"].distance)
+    sheet = boxed
+    assert repr(sheet).startswith("<Sheet over a region, ")
+    assert f"Poses looked at: {sheet.region.looked_at}" in sheet.summary().splitlines()[0]
+    plain = sheet.to_dict()
+    assert plain["region"]["looked_at"] == sheet.region.looked_at
+    assert len(plain["poses"]) == len(sheet.configurations)
+    assert plain["singularities"]["turn"]["distance_deg"] == math.degrees(sheet.singularities["turn"].distance)
     assert nd.sheet(result(REGIONS[0]), nd.Configuration.neutral(4.0, [2.0])).region is None
 
 
@@ -156,27 +144,27 @@ def test_lengths_where_o_is_placed_are_those_of_the_region():
         unit="mm",
     )
     result = nd.optimize(study, starts=1)
-    found = nd.sheet(result)
+    sheet = nd.sheet(result)
     rng, g, home = np.random.default_rng(18), result.geometry, result.configuration
     shift, tilt, _ = drawn(region, 480.0, rng, size(100_000, 2_000_000))
     q = Rotation.from_rotvec(tilt).as_matrix() @ home.rotation
     joints = (home.position + shift)[:, None] + np.einsum("nij,kj->nki", q, g.platform_external)
     external = np.linalg.norm(joints - g.base_external, axis=2)
-    for k, leg in enumerate(found.legs[:3]):
+    for k, leg in enumerate(sheet.legs[:3]):
         assert leg.shortest <= external[:, k].min() <= leg.shortest * 1.01
         assert leg.longest >= external[:, k].max() >= leg.longest * 0.99
     near = np.concatenate([shift, tilt], axis=1)[: size(1000, 20_000)]
     placed, _ = placing_of(result)(near)
     lengths = nd.leg_lengths(g, placed)
-    needed = np.array([(leg.shortest, leg.longest) for leg in found.legs]).T
-    permitted = np.array([leg.permitted for leg in found.legs]).T
+    needed = np.array([(leg.shortest, leg.longest) for leg in sheet.legs]).T
+    permitted = np.array([leg.permitted for leg in sheet.legs]).T
     assert (permitted[0] * (1.0 - 1e-6) <= needed[0]).all()
     assert (needed[1] <= permitted[1] * (1.0 + 1e-6)).all()
     assert (lengths >= permitted[0] * (1.0 - 1e-6)).all()
     # O may jump to another place in a small part of the region.
     assert ((lengths >= needed[0] * (1.0 - 1e-6)) & (lengths <= needed[1] * (1.0 + 1e-6))).mean() > 0.998
     # The two are told apart wherever lengths are listed.
-    assert found.to_csv().splitlines()[0].count("permitted_shortest (mm)") == 1
-    assert found.to_dict()["legs"][0]["permitted_longest"] == found.legs[0].permitted[1]
+    assert sheet.to_csv().splitlines()[0].count("permitted_shortest (mm)") == 1
+    assert sheet.to_dict()["legs"][0]["permitted_longest"] == sheet.legs[0].permitted[1]
     ranges = model_of(result).leg_ranges
-    assert ranges == tuple((leg.shortest, leg.longest) for leg in found.legs)
+    assert ranges == tuple((leg.shortest, leg.longest) for leg in sheet.legs)

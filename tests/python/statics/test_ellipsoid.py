@@ -78,15 +78,11 @@ def test_octahedral_robot_is_a_sphere_in_each_half():
 # --- Singular configurations ------------------------------------------------------------------------------------------
 
 
-def singular_robots(kind):
-    return [robots.flat(kind), *(robots.singular(kind, seed)[0] for seed in range(40))]
-
-
 @KINDS
 @EACH_PART
 def test_the_other_axes_are_those_of_configurations_nearby(kind, part):
     rng = np.random.default_rng(9)
-    for m in singular_robots(kind)[:10]:
+    for m in robots.singular_robots(kind)[:10]:
         result = velocity(m, part).semi_axes[1:]
         near = m._replace(s=m.s + 1e-6 * rng.normal(size=3))
         assert_allclose(np.linalg.svd(model.jacobian(near)[PARTS[part]], compute_uv=False)[1:], result, rtol=1e-2)

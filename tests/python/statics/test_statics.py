@@ -90,14 +90,10 @@ def test_a_missing_row_stays_alone(published):
 # --- Singular configurations ------------------------------------------------------------------------------------------
 
 
-def singular_robots(kind):
-    return [robots.flat(kind), *(robots.singular(kind, seed)[0] for seed in range(40))]
-
-
 @KINDS
 def test_singular_load_that_legs_can_carry_leaves_nothing(kind):
     rng = np.random.default_rng(6)
-    for m in singular_robots(kind):
+    for m in robots.singular_robots(kind):
         pushed = rng.normal(size=9)
         load = -robots.rates(m).T @ pushed
         result, unbalanced = forces(m, load)

@@ -3,7 +3,12 @@
 import math
 import zlib
 
+import numpy as np
+from limit_oracle import limits_of, margins, robot_of
+from region_oracle import random_poses
+
 import ninedof as nd
+from ninedof.design.region_poses import posed
 
 FIRST = "ninedof certificate of designs 1\nchecksum "
 
@@ -42,3 +47,34 @@ def with_word(lines, n, place, word):
 
 def line_of(lines, start):
     return next(n for n, line in enumerate(lines) if line.startswith(start))
+
+
+def assert_refused_or_true(lines, kinds, change, verdict, holds, rng, count):
+    """Change numbers of lines of these kinds, one a trial; return how many changes are proved and how many refused."""
+    places = [
+        (n, k)
+        for n, line in enumerate(lines)
+        if line.split(" ")[0] in kinds
+        for k, word in enumerate(line.split(" "))
+        if word.lstrip("-").startswith("0x") and float.fromhex(word) != 0.0
+    ]
+    proved = 0
+    for _ in range(count):
+        n, k = places[rng.integers(len(places))]
+        forged = change(n, k, float.fromhex(lines[n].split(" ")[k]))
+        if verdict(forged).proved:
+            proved += 1
+            assert holds(forged, rng), forged[n]
+    return proved, count - proved
+
+
+def no_limit_breaks(study, fixed, boxes, poses, rng):
+    """Whether designs drawn from boxes of a2 and b1 keep the limits at poses drawn from the region, by numpy."""
+    for box in boxes:
+        ends = [float.fromhex(x) for x in box.split(" ")[1:5]]
+        design = fixed | {"a2": rng.uniform(*ends[:2]), "b1": rng.uniform(*ends[2:])}
+        there = posed(study, random_poses(study.objective.region, poses, rng))
+        robot = robot_of(there, design)
+        if any(np.min(margins(limit, robot)) < -1e-9 for limit in limits_of(there)):
+            return False
+    return True

@@ -5,7 +5,7 @@ import signal
 import sys
 import threading
 from contextlib import contextmanager
-from time import perf_counter
+from time import perf_counter, sleep
 
 from ninedof import _core
 
@@ -82,3 +82,11 @@ class InterruptedPhase:
         self._left -= words.startswith(self._words)
         if self._left == 0:
             signal.raise_signal(signal.SIGINT)
+
+
+def until(condition, seconds=20.0):
+    """Wait until something is so."""
+    end = perf_counter() + seconds
+    while not condition():
+        assert perf_counter() < end
+        sleep(0.01)

@@ -97,3 +97,8 @@ def robots_at_poses(seed, poses=5):
     turns = Rotation.from_rotvec(np.vstack([np.zeros(3), 0.1 * rng.normal(size=(poses - 1, 3))])).as_matrix()
     shift = np.vstack([np.zeros(6), 0.1 * rng.normal(size=(poses - 1, 6))])
     return m.geometry(), nd.Configuration(m.p + shift[:, :3], turns @ m.Q, m.s + shift[:, 3:]), rng
+
+
+def singular_robots(kind):
+    """A flat one and forty general ones of a kind."""
+    return [flat(kind), *(singular(kind, seed)[0] for seed in range(40))]

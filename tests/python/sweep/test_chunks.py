@@ -7,13 +7,13 @@ import errno
 import os
 import shutil
 import signal
-import time
 from importlib import import_module
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import sweep_work as work
+from interrupts import until
 from sweep_work import GRID, HOME, G, finished
 
 import ninedof as nd
@@ -41,12 +41,6 @@ def child(forks, tmp_path):
     return start
 
 
-def until_a_chunk_is_kept(folder):
-    deadline = time.monotonic() + 60.0
-    while not finished(folder) and time.monotonic() < deadline:
-        time.sleep(0.002)
-
-
 # --- Killed at any moment ---------------------------------------------------------------------------------------------
 
 
@@ -68,7 +62,7 @@ def test_control_c_ends_a_run_at_the_next_chunk(child, tmp_path):
     notes.mkdir()
     process = child(tmp_path / "out", notes)
     try:
-        until_a_chunk_is_kept(tmp_path / "out")
+        until(lambda: finished(tmp_path / "out"), 60.0)
         os.kill(process.pid, signal.SIGINT)
         process.join(30)
         assert process.exitcode == 1

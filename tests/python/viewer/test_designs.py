@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import chromium
 import numpy as np
 import pytest
+from interrupts import until
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
@@ -29,7 +30,7 @@ def result():
 
 
 @pytest.fixture(scope="module", params=VARY)
-def found(result, request):
+def designs(result, request):
     return nd.admissible(result, VARY[request.param], resolution=0.1)
 
 
@@ -41,59 +42,52 @@ def ray_to(picture, mark):
     return tuple(eye), tuple(way / np.linalg.norm(way))
 
 
-def until(condition, seconds=20.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.01)
-
-
-def test_every_place_in_the_picture_is_the_design_there(found):
-    picture = DesignPicture(found)
+def test_every_place_in_the_picture_is_the_design_there(designs):
+    picture = DesignPicture(designs)
     rng = np.random.default_rng(1)
-    ends = np.array(found.of.ranges)
+    ends = np.array(designs.of.ranges)
     pairs = [(i, j) for i in range(len(ends)) for j in range(i + 1, len(ends))]
     for x in rng.uniform(ends[:, 0], ends[:, 1], (20, len(ends))):
-        variables = dict(found.of.at) | dict(zip(found.vary, x.tolist(), strict=True))
+        variables = dict(designs.of.at) | dict(zip(designs.vary, x.tolist(), strict=True))
         marks = picture.marks(variables)
         assert len(marks) == len(pairs)
         for mark, pair in zip(marks, pairs, strict=True):
             there = picture.design_at(*ray_to(picture, mark))
-            varied = {found.vary[k]: variables[found.vary[k]] for k in pair}
-            assert there == pytest.approx(dict(found.of.at) | varied, rel=1e-9, abs=1e-9)
+            varied = {designs.vary[k]: variables[designs.vary[k]] for k in pair}
+            assert there == pytest.approx(dict(designs.of.at) | varied, rel=1e-9, abs=1e-9)
     assert picture.design_at(*ray_to(picture, np.array([*(0.499 * picture.size), 0.0]))) is None  # beside the planes
     assert picture.design_at((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)) is None  # along the picture
 
 
 def test_the_picture_is_over_a_high_machine(result):
     """Seen from the first camera, which looks down, the platform covered its lower side: axis and key."""
-    found = nd.admissible(result, ("a2", "b1"), resolution=0.5)
-    low, high = (DesignPicture(found, top) for top in (0.5, 3.0))
+    designs = nd.admissible(result, ("a2", "b1"), resolution=0.5)
+    low, high = (DesignPicture(designs, top) for top in (0.5, 3.0))
     for picture, bottom in ((low, 1.1), (high, 2.5)):
         assert picture.centre[2] - 0.5 * picture.size[1] == pytest.approx(bottom)
 
 
 def test_the_picture_has_the_colours_of_the_figure_where_marks_say(result):
     """At the middle of the largest box inside the picture has the colour of what is inside."""
-    found = nd.admissible(result, VARY["two"], resolution=0.1)
-    picture = DesignPicture(found)
-    box = found.inside[np.prod(np.ptp(found.inside, axis=2), axis=1).argmax()]
-    variables = dict(found.of.at) | dict(zip(found.vary, box.mean(axis=1).tolist(), strict=True))
+    designs = nd.admissible(result, VARY["two"], resolution=0.1)
+    picture = DesignPicture(designs)
+    box = designs.inside[np.prod(np.ptp(designs.inside, axis=2), axis=1).argmax()]
+    variables = dict(designs.of.at) | dict(zip(designs.vary, box.mean(axis=1).tolist(), strict=True))
     (mark,) = picture.marks(variables)
     column, row = ((mark[:2] / picture.size + 0.5) * picture.pixels.shape[1::-1]).astype(int)
     near = picture.pixels[row - 3 : row + 4, column - 3 : column + 4].reshape(-1, 3)
     assert (near == list(bytes.fromhex(INSIDE[1:]))).all(axis=1).any()
 
 
-def test_a_click_moves_the_design_and_the_numbers(result, found):
+def test_a_click_moves_the_design_and_the_numbers(result, designs):
     pytest.importorskip("viser", reason="the viewer needs viser")
-    with nd.view(result, port=0, designs=found) as viewer:
+    with nd.view(result, port=0, designs=designs) as viewer:
         picture, node = viewer.designs, viewer.scene.nodes["/designs"]
-        wanted = dict(found.of.at) | {
-            name: 0.5 * sum(ends) for name, ends in zip(found.vary[:2], found.of.ranges[:2], strict=True)
+        wanted = dict(designs.of.at) | {
+            name: 0.5 * sum(ends) for name, ends in zip(designs.vary[:2], designs.of.ranges[:2], strict=True)
         }
-        held = next(name for name in ("b1", "zs") if name not in found.vary)
-        viewer.submit("held", lambda: viewer.state.set_variables({held: 1.05 * found.of.at[held]}))
+        held = next(name for name in ("b1", "zs") if name not in designs.vary)
+        viewer.submit("held", lambda: viewer.state.set_variables({held: 1.05 * designs.of.at[held]}))
         words = viewer.panel.widgets["admissible"]
         until(lambda: f"another {held}: the set is at {held} = " in words.content)
         origin, way = ray_to(picture, picture.marks(wanted)[0])
@@ -103,7 +97,7 @@ def test_a_click_moves_the_design_and_the_numbers(result, found):
         expected = STUDY.evaluate(wanted).condition_number
         until(lambda: math.isclose(viewer.panel.numbers.condition_number, expected, rel_tol=1e-6))
         assert np.allclose(viewer.scene.nodes["/designs/0"].position, picture.marks(wanted)[0])
-        state = found.state_of([[wanted[name] for name in found.vary]])[0]
+        state = designs.state_of([[wanted[name] for name in designs.vary]])[0]
         told = {"inside": "keeps every limit", "outside": "breaks a limit", "undecided": "nothing is proved"}
         until(lambda: told[state] in words.content)
         asyncio.run(clicked(SimpleNamespace(ray_origin=origin, ray_direction=(0.0, 0.0, 1.0))))  # past it: nothing
@@ -112,10 +106,10 @@ def test_a_click_moves_the_design_and_the_numbers(result, found):
 
 
 def test_a_design_out_of_the_ranges_has_no_mark(result):
-    found = nd.admissible(result, {"a2": (3.0, 4.0), "b1": (2.0, 3.0)}, resolution=0.5)
-    picture = DesignPicture(found)
-    assert picture.marks(dict(found.of.at) | {"a2": 5.0}) == [None]
-    assert "not in the ranges" in picture.words(dict(found.of.at) | {"a2": 5.0})
+    designs = nd.admissible(result, {"a2": (3.0, 4.0), "b1": (2.0, 3.0)}, resolution=0.5)
+    picture = DesignPicture(designs)
+    assert picture.marks(dict(designs.of.at) | {"a2": 5.0}) == [None]
+    assert "not in the ranges" in picture.words(dict(designs.of.at) | {"a2": 5.0})
 
 
 def test_the_set_written_last_beside_a_run_is_shown(run, result, tmp_path):
@@ -126,10 +120,10 @@ def test_the_set_written_last_beside_a_run_is_shown(run, result, tmp_path):
         assert viewer.designs is None
     assert run(f"admissible {record} --vary a2 --vary zp --resolution 0.2 --condition 9")[0] == 0
     with nd.view(str(folder), port=0) as viewer:
-        found = viewer.designs.found
-        assert found.vary == ("a2", "zp")
-        assert found.of.condition_number == 9.0
-        assert found.of.at == pytest.approx(result.variables)
+        designs = viewer.designs.found
+        assert designs.vary == ("a2", "zp")
+        assert designs.of.condition_number == 9.0
+        assert designs.of.at == pytest.approx(result.variables)
     other = nd.admissible(nd.Study(variables=STUDY.variables), ("a2", "b1"), at=result.variables, resolution=0.5)
     save_admissible(other, admissible_file(folder, other.of))
     assert latest_admissible(folder, result.study).vary == ("a2", "zp")  # the newer one is of another study
@@ -153,13 +147,13 @@ def test_what_is_refused(result):
 @pytest.mark.skipif(chromium.PROGRAM is None, reason="needs the program chromium")
 def test_a_browser_clicks_in_the_picture(result, tmp_path):
     pytest.importorskip("viser", reason="the viewer needs viser")
-    found = nd.admissible(result, ("a2", "b1"), resolution=0.2)
+    designs = nd.admissible(result, ("a2", "b1"), resolution=0.2)
     with (
-        nd.view(result, port=0, designs=found) as viewer,
+        nd.view(result, port=0, designs=designs) as viewer,
         chromium.page(f"{viewer.url}/?fixedDpr=0.5", tmp_path / "profile", 1000, 700) as page,
     ):
         page.wait_for("document.getElementById('ninedof-condition-number')?.textContent")
-        begun, (mark,) = dict(viewer.state.variables), viewer.designs.marks(found.of.at)
+        begun, (mark,) = dict(viewer.state.variables), viewer.designs.marks(designs.of.at)
         place = {"x": 0.0, "y": 0.0}
 
         def click():

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import chromium
 import numpy as np
 import pytest
+from interrupts import until
 
 import ninedof as nd
 from ninedof.design.region import region_lines
@@ -122,10 +123,10 @@ def test_a_search_that_fails_is_told(monkeypatch, capfd, error):
 
 
 def test_a_body_found_as_it_is_given_up_is_not_shown(monkeypatch):
-    found = threading.Event()
+    event = threading.Event()
 
     def body_of(*_):
-        found.set()
+        event.set()
         return Body("Volume about 4.2", shapes.ball())
 
     monkeypatch.setattr("ninedof.viewer.app.body_of", body_of)
@@ -133,9 +134,9 @@ def test_a_body_found_as_it_is_given_up_is_not_shown(monkeypatch):
         viewer.submit("workspace", lambda: viewer.find_body(6.0))
         until(lambda: "/workspace" in viewer.scene.nodes)
         with viewer.lock:  # the thread that works waits
-            found.clear()
+            event.clear()
             viewer.find_body(6.0)
-            assert found.wait(10.0)
+            assert event.wait(10.0)
             viewer.remove_body()
         done = threading.Event()
         viewer.submit("done", done.set)
@@ -204,13 +205,6 @@ def test_the_first_view_fits_a_narrow_window_until_the_user_moves():
         camera.aspect = 0.5
         asyncio.run(updates[0](camera))
         assert camera.position is own
-
-
-def until(condition, seconds=20.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.01)
 
 
 def test_a_path_is_played_and_every_control_works(tmp_path, capfd):
@@ -296,8 +290,8 @@ def test_a_region_is_drawn_about_the_neutral_pose_and_can_be_hidden():
     study = nd.Study(
         family="symmetric", constraints={"stroke_ratio": (None, 1.6)}, objective={"region": {"box": [0.3, 0.2, 0.1]}}
     )
-    found = nd.optimize(study, starts=1, seed=1)
-    with nd.view(found, port=0) as viewer:
+    result = nd.optimize(study, starts=1, seed=1)
+    with nd.view(result, port=0) as viewer:
         until(lambda: "/region" in viewer.scene.nodes)
 
         def box():
@@ -314,7 +308,7 @@ def test_a_region_is_drawn_about_the_neutral_pose_and_can_be_hidden():
             lambda: viewer.state.variant.home.position[2] != home[2] and abs(box()[1][2] - 1.1 * home[2] - 0.1) < 1e-5
         )
         assert not viewer.scene.nodes["/region"].visible
-    assert region_lines(nd.Region(tilt=0.1), found.best.configuration) == []  # of turns alone
+    assert region_lines(nd.Region(tilt=0.1), result.best.configuration) == []  # of turns alone
 
 
 def test_requests_that_are_no_page_print_nothing(capfd, caplog):
