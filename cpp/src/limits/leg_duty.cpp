@@ -7,7 +7,6 @@
 
 #include "limits/duty_at_pose.hpp"
 #include "limits/duty_over_box.hpp"
-#include "limits/pose_row.hpp"
 
 namespace ninedof {
 namespace {
@@ -20,10 +19,17 @@ struct LegDuty {
   static constexpr double width = 5e-3;
 
   static std::string part(int item) { return leg_name(first + item); }
-  static double number(const PointLook& look, int item) {
-    DutyAtPose here(look);
+  static double of(DutyAtPose& here, int item) {
     const int leg = first + item;
     return (of_force ? here.force(leg) : 1.0) * (of_rate ? here.rate(leg) : 1.0);
+  }
+  static double number(const PointLook& look, int item) {
+    DutyAtPose here(look);
+    return of(here, item);
+  }
+  static void numbers(const PointLook& look, double* out) {
+    DutyAtPose here(look);
+    for (int item = 0; item < count; ++item) out[item] = of(here, item);
   }
   static double slopes(const PointLook& look, int item, PointSlopes& out) {
     DutyAtPose here(look);
@@ -34,21 +40,12 @@ struct LegDuty {
     out.length = 0.0;
     const double value = force * rate;
     if (!std::isfinite(value)) return value;
-    DutySlope all;
-    const auto add = [&all](double by, const DutySlope& one) {
-      all.points = all.points + by * one.points;
-      all.turn += by * one.turn;
-    };
-    if (of_force) add(rate, here.force_slope(leg));
-    if (of_rate) add(force, here.rate_slope(leg));
-    for (int point = 0; point < point_count; ++point) {
-      const auto k = at_index(3 * point);
-      const auto& g = all.points.gradient;
-      out.at[at_index(out.points++)] = {point, {g[k], g[k + 1], g[k + 2]}};
-    }
+    for (int point = 0; point < point_count; ++point) out.at[at_index(out.points++)] = {point, Vec3::Zero()};
     out.turns = true;
-    out.turn = all.turn;
+    out.turn.setZero();
     out.home_turn.setZero();
+    if (of_force) here.add_force_slope(leg, rate, out);
+    if (of_rate) here.add_rate_slope(leg, force, out);
     return value;
   }
   template <class Look>

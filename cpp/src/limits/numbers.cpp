@@ -44,6 +44,7 @@ int LimitNumbers::items() const {
 void LimitNumbers::at(const Configuration& pose, double* out) const {
   const PosedPoints here = posed_points(geometry_, pose);
   const PointLook look(here, home_, options_, length_);
+  if (row_.numbers != nullptr) return row_.numbers(look, out);
   for (int item = 0; item < row_.items; ++item)
     out[item] = row_.pairs && exempt_[at_index(item)] ? infinity : row_.number(look, item);
 }

@@ -58,6 +58,9 @@ struct PoseRow {
   /// Of a row of condition numbers with a leg locked: its items are legs from this one on. It has no u: over boxes of
   /// poses it is bounded as the condition number is (conditioning/forms).
   int first_locked = -1;
+
+  /// `number` of all items, at most nine, where one look at a pose gives them with less work; or null.
+  void (*numbers)(const PointLook&, double* out) = nullptr;
 };
 
 extern const PoseRow leg_length_row, external_length_row, upper_length_row, lower_length_row, base_cone_row,
@@ -107,6 +110,7 @@ constexpr PoseRow pose_row_of() {
   if constexpr (requires { Row::width; }) out.width = Row::width;
   out.part = Row::part;
   out.number = [](const PointLook& look, int item) { return Row::number(look, item); };
+  if constexpr (requires(const PointLook& look, double* all) { Row::numbers(look, all); }) out.numbers = Row::numbers;
   out.slopes = Row::slopes;
   if constexpr (requires { Row::read; }) {
     out.form = [](const FormLook& look, int item) { return Row::u(look, item); };

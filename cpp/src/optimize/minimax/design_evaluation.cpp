@@ -37,16 +37,19 @@ const PoseSpectrum& spectrum_alone(const PreparedProblem& p, int k, DesignEvalua
   return out.spectra[at_index(k)];
 }
 
-/// A margin whose singular values, if it has any, are known.
-double margin_of(const PreparedProblem& p, const DesignEvaluation& design, int k) {
-  const auto [constraint, row] = p.margins[at_index(k)];
-  double out;
-  if (constraint < 0) {
-    const PoseSpectrum& s = design.spectra[at_index(-1 - constraint)];
-    const auto [top, bottom] = condition_pair(s, row);
-    out = std::log(p.condition_limit(-1 - constraint)) - (s.log_sigma[top] - s.log_sigma[bottom]);
-  } else out = p.constraints[at_index(constraint)]->margin(design.state, row);
-  return out > worst_margin ? out : worst_margin;
+/// Margins of one constraint, or of one spectrum, whose singular values are known.
+void evaluate_margins(const PreparedProblem& p, const DesignEvaluation& design, std::span<const MarginRow> rows,
+                      double* out) {
+  const int constraint = rows.front().constraint;
+  if (constraint >= 0) p.constraints[at_index(constraint)]->margins(design.state, rows, out);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (constraint < 0) {
+      const PoseSpectrum& s = design.spectra[at_index(-1 - constraint)];
+      const auto [top, bottom] = condition_pair(s, rows[k].row);
+      out[k] = std::log(p.condition_limit(-1 - constraint)) - (s.log_sigma[top] - s.log_sigma[bottom]);
+    }
+    if (!(out[k] > worst_margin)) out[k] = worst_margin;
+  }
 }
 
 void differentiate_margin(const PreparedProblem& p, int k, DesignEvaluation& out) {
@@ -117,7 +120,11 @@ void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSel
   out.levels.setConstant(p.levels, -infinity);
   for (const RowLevel& u : p.row_levels) out.levels[u.level] = std::max(out.levels[u.level], out.objective_rows[u.row]);
   out.log_objective = p.objective(out.levels);
-  for (Eigen::Index k = 0; k < margins; ++k) out.margins[k] = margin_of(p, out, static_cast<int>(k));
+  const std::span<const MarginRow> all = p.margins;
+  for (std::size_t k = 0, next = 0; k < all.size(); k = next) {
+    while (next < all.size() && all[next].constraint == all[k].constraint) ++next;
+    evaluate_margins(p, out, all.subspan(k, next - k), out.margins.data() + k);
+  }
   if (selection == nullptr)
     for (Eigen::Index k = 0; k < margins; ++k) differentiate_margin(p, static_cast<int>(k), out);
   else
@@ -144,7 +151,8 @@ double evaluate_margin(const PreparedProblem& p, DesignEvaluation& out, int k, R
     add_log_sigma(out.state, pose, s, bottom, 1.0, gradient);
     add_log_sigma(out.state, pose, s, top, -1.0, gradient);
   }
-  const double margin = margin_of(p, out, k);
+  double margin;
+  evaluate_margins(p, out, {&p.margins[at_index(k)], 1}, &margin);
   if (constraint >= 0 && margin > worst_margin)
     p.constraints[at_index(constraint)]->add_gradient(out.state, row, gradient);
   if (!gradient.allFinite()) gradient.setZero();  // at a singularity

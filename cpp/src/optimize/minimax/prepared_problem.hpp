@@ -21,12 +21,6 @@ struct RowLevel {
   int row, level;
 };
 
-/// A row of a constraint, or (constraint = -1 - k) a pair of singular values of spectrum k under a limit on the condition
-/// number.
-struct MarginRow {
-  int constraint, row;
-};
-
 /// Coordinates, rows and poses, computed once and shared by all starts.
 struct PreparedProblem {
   /// For the solver. `size_limit`: largest size of a variable without an effective upper bound.

@@ -31,7 +31,11 @@ double Constraint::price_factor(int) const {
 }
 
 double Constraint::item_margin(const DesignState& v, Side side, int item) const {
-  const double now = value(v, side, item), limit = bound(side), sign = side == Side::high ? 1.0 : -1.0;
+  return margin_of(side, value(v, side, item));
+}
+
+double Constraint::margin_of(Side side, double now) const {
+  const double limit = bound(side), sign = side == Side::high ? 1.0 : -1.0;
   switch (form()) {
     case SolverMargin::logarithm: return sign * std::log(limit / now);
     case SolverMargin::linear: return sign * (1.0 - now / limit);
@@ -52,16 +56,20 @@ double Constraint::value_at(Side side, double margin) const {
   return 0.0;
 }
 
-void Constraint::add_item_gradient(const DesignState& v, Side side, int item, Row out) const {
-  const double now = value(v, side, item), limit = bound(side), sign = side == Side::high ? 1.0 : -1.0;
+double Constraint::margin_slope(Side side, double now) const {
+  const double limit = bound(side), sign = side == Side::high ? 1.0 : -1.0;
   switch (form()) {
-    case SolverMargin::logarithm:
-      if (now > 0.0) add_value_gradient(v, side, item, -sign / now, out);
-      return;
-    case SolverMargin::linear: return add_value_gradient(v, side, item, -sign / limit, out);
-    case SolverMargin::plain: return add_value_gradient(v, side, item, 1.0, out);
-    case SolverMargin::mixed: return add_value_gradient(v, side, item, -1.0 / std::max(now, limit), out);
+    case SolverMargin::logarithm: return now > 0.0 ? -sign / now : 0.0;
+    case SolverMargin::linear: return -sign / limit;
+    case SolverMargin::plain: return 1.0;
+    case SolverMargin::mixed: return -1.0 / std::max(now, limit);
   }
+  return 0.0;
+}
+
+void Constraint::add_item_gradient(const DesignState& v, Side side, int item, Row out) const {
+  const double slope = margin_slope(side, value(v, side, item));
+  if (slope != 0.0) add_value_gradient(v, side, item, slope, out);
 }
 
 double Constraint::unit(const DesignState& v, int body) const {

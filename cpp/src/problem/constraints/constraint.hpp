@@ -2,6 +2,7 @@
 /// One limit as margins. A constraint defines the limited value; this base turns it into signed, relative margins.
 
 #include <memory>
+#include <span>
 
 #include "limits/table.hpp"
 #include "math/numbers.hpp"
@@ -18,6 +19,12 @@ struct ShownMargin {
 /// Of a row log(limit / value), or log(value / limit) for a low limit: the share of the limit that is to spare.
 ShownMargin share_of_limit(Side side, double logarithm);
 
+/// A row of a constraint, or (constraint = -1 - k) a pair of singular values of spectrum k under a limit on the condition
+/// number.
+struct MarginRow {
+  int constraint, row;
+};
+
 class Constraint {
  public:
   explicit Constraint(const Limit& limit) : limit_(limit), label_(limit.label()) {}
@@ -27,6 +34,10 @@ class Constraint {
   const std::string& label() const { return label_; }
   int rows() const { return (has_high() ? items(Side::high) : 0) + (has_low() ? items(Side::low) : 0); }
   double margin(const DesignState& v, int row) const;
+  /// The margins of some of its rows, ascending, with less work where one look gives several.
+  virtual void margins(const DesignState& v, std::span<const MarginRow> rows, double* out) const {
+    for (const MarginRow& row : rows) *out++ = margin(v, row.row);
+  }
   void add_gradient(const DesignState& v, int row, Row out) const;
   Side side_of(int row) const { return item_of(row).first; }
   /// The pose that a row looks at besides home, an index of DesignState::poses.
@@ -80,6 +91,9 @@ class Constraint {
   virtual double item_margin(const DesignState& v, Side side, int item) const;
   virtual void add_item_gradient(const DesignState& v, Side side, int item, Row out) const;
 
+  /// The margin of a value, and its derivative by the value.
+  double margin_of(Side side, double now) const;
+  double margin_slope(Side side, double now) const;
   bool has_high() const { return limit_.high < infinity; }
   bool has_low() const { return limit_.low > 0.0; }
   double bound(Side side) const { return side == Side::high ? limit_.high : limit_.low; }

@@ -22,6 +22,20 @@ class PoseLimit : public Constraint {
   /// Which points of two legs are nearest changes from design to design, and so does the load that rules.
   bool analytic() const override { return !row_.pose->pairs && *row_.info.needs == '\0'; }
 
+  void margins(const DesignState& v, std::span<const MarginRow> rows, double* out) const override {
+    if (row_.pose->numbers == nullptr) return Constraint::margins(v, rows, out);
+    std::array<double, 9> numbers;
+    int known = -1;  // the pose that they are of
+    for (const MarginRow& row : rows) {
+      const auto [side, item] = item_of(row.row);
+      if (pose(v, item) != known) {
+        known = pose(v, item);
+        row_.pose->numbers(look(v, item), numbers.data());
+      }
+      *out++ = margin_of(side, in_units(v, numbers[at_index(index(item))]));
+    }
+  }
+
  private:
   SolverMargin form() const override { return row_.solver; }
   int items(Side) const override { return row_.pose->items * poses_; }
@@ -39,12 +53,15 @@ class PoseLimit : public Constraint {
   double value(const DesignState& v, Side, int item) const override {
     // Never the least, in any unit.
     if (exempt(item)) return 1e6 * std::max(limit().low, v.length(v.longest) / unit(v));
-    return std::min(row_.pose->number(look(v, item), index(item)), beyond_all) / unit(v);
+    return in_units(v, row_.pose->number(look(v, item), index(item)));
   }
-  void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
+  double in_units(const DesignState& v, double number) const { return std::min(number, beyond_all) / unit(v); }
+  void add_item_gradient(const DesignState& v, Side side, int item, Row out) const override {
     if (exempt(item)) return;
     PointSlopes slopes;
-    const double number = row_.pose->slopes(look(v, item), index(item), slopes), u = unit(v), by = scale / u;
+    const double number = row_.pose->slopes(look(v, item), index(item), slopes), u = unit(v);
+    const double by = margin_slope(side, in_units(v, number)) / u;
+    if (by == 0.0) return;
     const int k = pose(v, item);
     for (int n = 0; n < slopes.points; ++n)
       v.add_point(k, slopes.at[at_index(n)].point, by * slopes.at[at_index(n)].slope, out);
