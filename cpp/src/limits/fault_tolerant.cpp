@@ -19,6 +19,10 @@ struct FaultTolerant {
     const LockedLegs legs(look.here().at, look.here().legs, look.characteristic_length());
     return legs.condition_number({first_locked + item});
   }
+  static void numbers(const PointLook& look, double* out) {
+    const LockedLegs legs(look.here().at, look.here().legs, look.characteristic_length());
+    for (int item = 0; item < items; ++item) out[item] = legs.condition_number({first_locked + item});
+  }
   static double slopes(const PointLook& look, int item, PointSlopes& out) {
     const double kappa = number(look, item);
     out.points = out.home_points = 0;
