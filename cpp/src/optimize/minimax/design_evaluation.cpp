@@ -77,9 +77,19 @@ void fill_rows(const PreparedProblem& p, int pose, DesignEvaluation& out) {
 void evaluate_alone(const PreparedProblem& p, const RowSelection& selection, DesignEvaluation& out) {
   for (int k = 0; k < p.evaluated_spectra(); ++k)
     if (selection.spectra[at_index(k)]) evaluate_spectrum(p, k, true, out);
-  for (const int k : selection.margins) {
-    out.margins[k] = margin_of(p, out, k);
-    differentiate_margin(p, k, out);
+  std::vector<MarginRow> rows;
+  std::vector<double> values;
+  const auto constraint = [&](std::size_t k) { return p.margins[at_index(selection.margins[k])].constraint; };
+  for (std::size_t k = 0, next = 0; k < selection.margins.size(); k = next) {
+    rows.clear();
+    for (; next < selection.margins.size() && constraint(next) == constraint(k); ++next)
+      rows.push_back(p.margins[at_index(selection.margins[next])]);
+    values.resize(rows.size());
+    evaluate_margins(p, out, rows, values.data());
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      out.margins[selection.margins[k + n]] = values[n];
+      differentiate_margin(p, selection.margins[k + n], out);
+    }
   }
 }
 

@@ -213,7 +213,8 @@ Eigen::VectorXd Relaxation::least(const Eigen::VectorXd& start, const Demands& c
 
   DesignEvaluation design;
   Eigen::VectorXd y = p_.with_auxiliary(start.cwiseMax(low).cwiseMin(high));
-  RowSelection selection{.alone = true};
+  RowSelection selection;
+  selection.alone = true;
   const auto select = [&](const Eigen::VectorXd& at, double t, double near) {
     const DesignEvaluation here = evaluated(at);
     bool violated = false;
