@@ -323,3 +323,23 @@ def test_boxes_that_touch_the_bounds_at_a_corner_are_checked(tmp_path):
         proof = nd.prove_optimum(study, target, gap=0.0)
         assert proof.complete
         assert nd.check_certificate(proof.save(tmp_path / "touching")).proved
+
+
+RADII = [f"{plate}_{joints}_radius" for plate in ("base", "platform") for joints in ("external", "internal")]
+
+
+@pytest.mark.slow
+def test_what_the_search_proves_of_symmetric_studies_is_checked(tmp_path):
+    """Boxes are wide at such gaps: the ranges of the checker must not be wider than those of the search."""
+    rng = np.random.default_rng(7)
+    for _ in range(10):
+        legs, radii, top = rng.uniform(1.6, 4.0), rng.uniform(1.2, 3.0), 10.0 ** rng.uniform(0.3, 1.3)
+        sizes = dict.fromkeys(RADII, (0.05 * top, top)) | {"zp": (0.05 * top, 2.0 * top), "zs": (0.02 * top, 2.0 * top)}
+        limits = {"radius_ratio": (None, radii), "leg_ratio": (None, legs)}
+        study = nd.Study("symmetric", variables=sizes, constraints=limits)
+        best = nd.optimize(study, starts=8).condition_number
+        gap = next(gap for gap in (0.6, 0.5, 0.4) if best * (1.0 - gap) > 1.02)
+        proof = nd.prove_optimum(study, best, gap=gap)
+        assert proof.complete
+        found = nd.check_certificate(proof.save(tmp_path / "some"))
+        assert found.proved, (legs, radii, top, found.words)

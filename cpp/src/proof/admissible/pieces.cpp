@@ -181,7 +181,7 @@ double volume_of(const DesignBox& box, std::size_t dimensions) {
 
 bool is_divisible(const DesignBox& box, std::size_t dimensions, const DesignBox& range, double resolution) {
   for (std::size_t k = 0; k < dimensions; ++k)
-    if (box.high[k] - box.low[k] > std::max(resolution, 1e-9) * (range.high[k] - range.low[k])) return true;
+    if (box.high[k] - box.low[k] > std::max(resolution, 1e-12) * (range.high[k] - range.low[k])) return true;
   return false;
 }
 

@@ -1,12 +1,33 @@
 #include "proof/checker/blocks.hpp"
 
+#include "proof/checker/curves.hpp"
+
 namespace ninedof::checker {
 namespace {
 
-Positive coordinate(const Box& b, std::size_t k) {
-  Positive out{b[k], {}};
-  out.log_slope[k] = 1.0;
+template <std::size_t n>
+struct Block {
+  Positive<n> g2, f2, w2;
+};
+template <std::size_t n>
+struct Pieces {
+  Block<n> axial, transverse;
+  Positive<n> external2, upper2, lower2;
+};
+
+template <std::size_t n>
+Positive<n> coordinate(const Box& b, std::size_t k) {
+  Positive<n> out{b[k], {}};
+  if (k < n) out.log_slope[k] = 1.0;
   return out;
+}
+
+/// sin^2 theta = 4 / (tau + 1/tau)^2 grows up to tau = 1 and falls from there.
+Range sine_squared(Range tau) {
+  const auto at = [](Range t) { return square(2.0 / (t + 1.0 / t)); };
+  const Range a = at(tau.a), b = at(tau.b);
+  const double most = tau.a <= 1.0 && 1.0 <= tau.b ? 1.0 : std::max(a.b, b.b);
+  return {std::min(a.a, b.a), std::min(most, 1.0)};
 }
 
 /// sigma_max of [[g, f], [0, w]].
@@ -17,14 +38,16 @@ Range greatest(double g, double f2, double w) {
 struct Values {
   Range max, min;
 };
-Values values(const Block& b) {
+template <std::size_t n>
+Values values(const Block<n>& b) {
   const Range g = root(b.g2.value), f2 = meet(b.f2.value, {0.0, inf}), w = root(b.w2.value);
   return {{greatest(g.a, f2.a, w.a).a, greatest(g.b, f2.b, w.b).b},
           {(Range(g.a) * w.a / greatest(g.a, f2.b, w.a)).a, (Range(g.b) * w.b / greatest(g.b, f2.a, w.b)).b}};
 }
 
 /// Slopes of the logarithms of sigma_max and sigma_min, which weigh those of g, f and w.
-void slopes(const Block& b, Range max[], Range min[]) {
+template <std::size_t n>
+void slopes(const Block<n>& b, Range max[], Range min[]) {
   const Range g = root(b.g2.value), w = root(b.w2.value), f2 = meet(b.f2.value, {0.0, inf});
   const Range unit{0.0, 1.0};
   // p = f^2 / (A B) and d = (g^2 - w^2) / (A B) at the corners where they are least and greatest.
@@ -41,57 +64,109 @@ void slopes(const Block& b, Range max[], Range min[]) {
   const Range d = meet({balance(g.a, w.b).a, balance(g.b, w.a).b}, {-1.0, 1.0});
   const Range up_g = meet((1.0 - p + d) / 2.0, unit), up_w = meet((1.0 - p - d) / 2.0, unit);
   const Range low_g = meet((1.0 + p - d) / 2.0, unit), low_w = meet((1.0 + p + d) / 2.0, unit);
-  for (int k = 0; k < coordinates; ++k) {
+  for (std::size_t k = 0; k < n; ++k) {
     const Range log_g = b.g2.log_slope[k] / 2.0, log_w = b.w2.log_slope[k] / 2.0, log_f = b.f2.log_slope[k] / 2.0;
     max[k] = up_g * log_g + up_w * log_w + p * log_f;
     min[k] = low_g * log_g + low_w * log_w - p * log_f;
   }
 }
 
-}  // namespace
+/// a^2 + 2 a b c + b^2 = (a + b c)^2 + b^2 s^2 for c = cosine, s^2 = 1 - c^2: the first has the narrower slopes, the
+/// second the narrower value.
+template <std::size_t n>
+Positive<n> third_side(const Positive<n>& a, const Positive<n>& b, const Signed<n>& cosine, const Positive<n>& sine2) {
+  Positive<n> out{square(a.value + b.value * cosine.value) + square(b.value) * sine2.value, {}};
+  if constexpr (n > 0) {
+    const Signed<n> sum = plain(squared(a)) + cosine * (2.0 * (a * b)) + plain(squared(b));
+    for (std::size_t k = 0; k < n; ++k) out.log_slope[k] = sum.slope[k] / out.value;
+  }
+  return out;
+}
 
-Pieces pieces(const Box& b, int dimension) {
-  const Positive U = coordinate(b, 0), x = coordinate(b, 1), eta = coordinate(b, 2), o = coordinate(b, 3);
-  const Positive tau = coordinate(b, 4), y = dimension == 5 ? x : coordinate(b, 5);
-  const Positive z2 = dimension == 5 ? Positive{1.0, {}} : squared(coordinate(b, 6));
-  const Positive U2 = squared(U), eta2 = squared(eta);
-  const Positive versed = 2.0 * inverse(plus(1.0, inverse(squared(tau))));  // 1 - cos theta
-  const Signed cosine = plus(1.0, -plain(versed));
-  Positive sine2 = 4.0 * squared(inverse(tau + inverse(tau)));  // sin theta = 2 / (tau + 1/tau)
-  sine2.log_slope[4] = 2.0 * cosine.value;
-  const Positive q = inverse(plus(1.0, o)), t = inverse(plus(1.0, inverse(o)));
-  const Signed n = squared(plus(-1.0, plain(x))) + plain(2.0 * (x * versed));
-  const Positive N = n + eta2;
-  const Positive up2 = squared(q * eta), low2 = squared(t * eta);
-  const Positive Z = z2 * inverse(up2), Y = squared(y) * inverse(low2);
-  const Positive stretch2 = plus(1.0, up2 * U2);
-  const Positive arm2 = squared(plain(t) + cosine * (q * x)) + squared(q * x) * sine2;
-  const Positive slant2 = squared(plus(1.0, plain(q * (eta2 * U2)) + -(cosine * x))) + squared(x) * sine2;
-  Pieces p;
+/// The two blocks of M and the squares of the leg lengths over a box, with their slopes along the first n coordinates.
+template <std::size_t n>
+Pieces<n> pieces(const Box& b, bool hexagonal) {
+  using Number = Positive<n>;
+  const Number U = coordinate<n>(b, 0), x = coordinate<n>(b, 1), eta = coordinate<n>(b, 2), o = coordinate<n>(b, 3);
+  const Number tau = coordinate<n>(b, 4), y = hexagonal ? x : coordinate<n>(b, 5);
+  const Number z2 = hexagonal ? Number{1.0, {}} : squared(coordinate<n>(b, 6));
+  const Number U2 = squared(U), eta2 = squared(eta);
+  const Number versed = 2.0 * inverse(plus(1.0, inverse(squared(tau))));  // 1 - cos theta
+  const Signed<n> cosine = plus(1.0, -plain(versed));
+  Number sine2{sine_squared(tau.value), {}};
+  if (n > 4) sine2.log_slope[4] = 2.0 * cosine.value;
+  const Number q = inverse(plus(1.0, o)), t = inverse(plus(1.0, inverse(o)));
+  const Signed<n> plan2 = squared(plus(-1.0, plain(x))) + plain(2.0 * (x * versed));
+  const Number N = plan2 + eta2;
+  const Number up2 = squared(q * eta), low2 = squared(t * eta);
+  const Number Z = z2 * inverse(up2), Y = squared(y) * inverse(low2);
+  const Number stretch2 = plus(1.0, up2 * U2);
+  const Number qx = q * x, lift = plus(1.0, q * (eta2 * U2));
+  const Number arm2 = third_side(t, qx, cosine, sine2), slant2 = third_side(lift, x, -cosine, sine2);
+  Pieces<n> p;
   p.axial.g2 = 3.0 * (U2 * squared(x) * sine2 * inverse(N));
   p.axial.f2 = 3.0 * (eta2 * inverse(N));
   p.axial.w2 = 3.0 * inverse(plus(2.0, Z + Y));
   p.transverse.g2 = 1.5 * (arm2 * eta2 * U2 * inverse(N) * inverse(stretch2));
   p.transverse.f2 = 1.5 * (slant2 * inverse(N) * inverse(stretch2));
   p.transverse.w2 = 1.5 * (stretch2 * inverse(plus(2.0, inverse(Z) + inverse(Y))));
-  p.axial.f2.value = 3.0 / (1.0 + n.value / eta2.value);  // each of eta, U and their like once: a narrower range
+  p.axial.f2.value = 3.0 / (1.0 + plan2.value / eta2.value);  // each of eta, U and their like once: a narrower range
   p.axial.g2.value = 3.0 * U2.value * sine2.value /
                      (square(1.0 - cosine.value / x.value) + (sine2.value + eta2.value) / square(x.value));
-  p.transverse.g2.value = 1.5 * (arm2.value / ((1.0 + n.value / eta2.value) * (1.0 / U2.value + up2.value)));
+  p.transverse.g2.value = 1.5 * (arm2.value / ((1.0 + plan2.value / eta2.value) * (1.0 / U2.value + up2.value)));
   p.external2 = N;
   p.upper2 = z2 + up2;
   p.lower2 = squared(y) + low2;
   return p;
 }
 
-bool by_ranges(const Pieces& p, const Domain& d) {
+/// By the mean value theorem, along all n coordinates.
+template <std::size_t n>
+bool combined(const Box& box, const Domain& d, const Weights& by) {
+  Box middle = box;
+  std::array<double, n> reach{};
+  for (std::size_t k = 0; k < n; ++k) {
+    const double m = std::clamp(std::sqrt(box[k].a) * std::sqrt(box[k].b), box[k].a, box[k].b);
+    middle[k] = m;
+    reach[k] = std::max(logarithm(Range(box[k].b) / m).b, logarithm(m / Range(box[k].a)).b);
+  }
+  if (n == 5) middle[5] = middle[1];
+  const Range a = double(by.max), b = double(by.min), e = double(by.external), u = double(by.upper), l = -(e + u);
+  const Pieces<0> at = pieces<0>(middle, n == 5);
+  const Pieces<n> p = pieces<n>(box, n == 5);
+  const Values axial = values(at.axial), transverse = values(at.transverse);
+  Range sum = (1.0 - a) * logarithm(axial.max) + a * logarithm(transverse.max) - (1.0 - b) * logarithm(axial.min) -
+              b * logarithm(transverse.min);
+  const bool legs = by.external != 0.0F || by.upper != 0.0F;
+  if (legs) {
+    const auto plus = [](Range x) { return Range(std::max(x.a, 0.0), std::max(x.b, 0.0)); };
+    sum = sum +
+          (e * logarithm(at.external2.value) + u * logarithm(at.upper2.value) + l * logarithm(at.lower2.value)) / 2.0 -
+          (plus(e) + plus(u) + plus(l)) * logarithm(d.leg_ratio);
+  }
+  Range axial_max[n], axial_min[n], transverse_max[n], transverse_min[n];
+  slopes(p.axial, axial_max, axial_min);
+  slopes(p.transverse, transverse_max, transverse_min);
+  for (std::size_t k = 0; k < n; ++k) {
+    Range slope = (1.0 - a) * axial_max[k] + a * transverse_max[k] - (1.0 - b) * axial_min[k] - b * transverse_min[k];
+    if (legs)
+      slope = slope + (e * p.external2.log_slope[k] + u * p.upper2.log_slope[k] + l * p.lower2.log_slope[k]) / 2.0;
+    sum = sum - Range(0.0, (Range(size(slope)) * reach[k]).b);
+  }
+  return sum.a >= logarithm(d.target).b;
+}
+
+}  // namespace
+
+bool by_ranges(const Box& box, const Domain& d) {
+  const Pieces<0> p = pieces<0>(box, d.dimension == 5);
   if (d.leg_ratio < inf) {
     const double most = std::max({p.external2.value.a, p.upper2.value.a, p.lower2.value.a});
     const double least = std::min({p.external2.value.b, p.upper2.value.b, p.lower2.value.b});
     if ((Range(most) / least).a > square(Range(d.leg_ratio)).b) return true;
   }
   const Range K = d.target;
-  for (const Block* b : {&p.axial, &p.transverse}) {
+  for (const Block<0>* b : {&p.axial, &p.transverse}) {
     // kappa + 1/kappa = g/w + w/g + f^2 / (g w)
     const Range g = root(b->g2.value), w = root(b->w2.value), r = g / w;
     const double nearest = r.a > 1.0 ? r.a : r.b < 1.0 ? r.b : 1.0;
@@ -103,37 +178,8 @@ bool by_ranges(const Pieces& p, const Domain& d) {
   return (Range(a.max.a) / t.min.b).a >= d.target || (Range(t.max.a) / a.min.b).a >= d.target;
 }
 
-bool by_combination(const Pieces& p, const Box& box, const Domain& d, const Weights& by) {
-  Box middle = box;
-  std::array<double, coordinates> reach{};
-  for (std::size_t k = 0; k < static_cast<std::size_t>(d.dimension); ++k) {
-    const double m = std::clamp(std::sqrt(box[k].a) * std::sqrt(box[k].b), box[k].a, box[k].b);
-    middle[k] = m;
-    reach[k] = std::max(logarithm(Range(box[k].b) / m).b, logarithm(m / Range(box[k].a)).b);
-  }
-  if (d.dimension == 5) middle[5] = middle[1];
-  const Range a = double(by.max), b = double(by.min), e = double(by.external), u = double(by.upper), l = -(e + u);
-  const Pieces at = pieces(middle, d.dimension);
-  const Values axial = values(at.axial), transverse = values(at.transverse);
-  Range sum = (1.0 - a) * logarithm(axial.max) + a * logarithm(transverse.max) - (1.0 - b) * logarithm(axial.min) -
-              b * logarithm(transverse.min);
-  const bool legs = by.external != 0.0F || by.upper != 0.0F;
-  if (legs) {
-    const auto plus = [](Range x) { return Range(std::max(x.a, 0.0), std::max(x.b, 0.0)); };
-    sum = sum +
-          (e * logarithm(at.external2.value) + u * logarithm(at.upper2.value) + l * logarithm(at.lower2.value)) / 2.0 -
-          (plus(e) + plus(u) + plus(l)) * logarithm(d.leg_ratio);
-  }
-  Range axial_max[coordinates], axial_min[coordinates], transverse_max[coordinates], transverse_min[coordinates];
-  slopes(p.axial, axial_max, axial_min);
-  slopes(p.transverse, transverse_max, transverse_min);
-  for (int k = 0; k < d.dimension; ++k) {
-    Range slope = (1.0 - a) * axial_max[k] + a * transverse_max[k] - (1.0 - b) * axial_min[k] - b * transverse_min[k];
-    if (legs)
-      slope = slope + (e * p.external2.log_slope[k] + u * p.upper2.log_slope[k] + l * p.lower2.log_slope[k]) / 2.0;
-    sum = sum - Range(0.0, (Range(size(slope)) * reach[static_cast<std::size_t>(k)]).b);
-  }
-  return sum.a >= logarithm(d.target).b;
+bool by_combination(const Box& box, const Domain& d, const Weights& by) {
+  return d.dimension == 5 ? combined<5>(box, d, by) : combined<coordinates>(box, d, by);
 }
 
 }  // namespace ninedof::checker

@@ -78,8 +78,7 @@ class Walk {
     for (const Range& r : box)
       if (!r.sound()) return false;
     if (outside(d_, box)) return true;
-    const Pieces p = pieces(box, d_.dimension);
-    if (by_ranges(p, d_) || (by && by_combination(p, box, d_, *by))) return true;
+    if ((by && by_combination(box, d_, *by)) || by_ranges(box, d_)) return true;
     if (depth == 0) {
       const Box part = narrowed(d_, box);
       if (empty(part)) return true;

@@ -8,6 +8,7 @@
 namespace ninedof::checker {
 
 /// Coordinates: U, x = R/U, eta = zp/U, o = zs/(zp - zs), tan(theta/2), y, z.
+constexpr std::size_t coordinates = 7;
 using Box = std::array<Range, coordinates>;
 
 struct Domain {
