@@ -10,7 +10,6 @@ from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
-from typing import Any
 
 from ninedof import _core
 from ninedof.design.region_poses import posed
@@ -21,7 +20,7 @@ from ninedof.optimize.pieces import Pieces, Warm, warm_starts, warm_variables
 from ninedof.optimize.reserve import with_reserve
 from ninedof.optimize.result import Result, Status
 from ninedof.optimize.tables import axis_hint
-from ninedof.proof.optimum import gap_of, left_out_of, prove_optimum
+from ninedof.proof.optimum import gap_of, left_out_of, prove, relaxed
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
 from ninedof.support.arrays import thread_argument
@@ -30,7 +29,7 @@ from ninedof.support.store import Store
 from ninedof.support.structs import from_core, within
 from ninedof.support.text import short_repr
 
-LONGEST = 600.0  # seconds of a proof
+LONGEST, LEAST = 600.0, 1.0  # seconds of a proof without a time limit, and where the search took all of one
 
 
 def optimize(
@@ -77,7 +76,8 @@ def optimize(
     time_limit : float
         Seconds after which the search ends with the best design so far and status "stopped"; infinite by default. Of a
         region study that design is then searched over the region once more, which takes a second or two longer: what
-        is left to gain near it is `Result.region.gain`. A proof does not count.
+        is left to gain near it is `Result.region.gain`. A proof ends with what is proved by then, after one second at
+        least; without a limit it has ten minutes.
     out : path, optional
         Folder that keeps what is finished, made if it is missing: the result before its proof, and the proof. The same
         call with the same folder goes on there, however the last one ended, and gives the same result. A study over a
@@ -135,7 +135,6 @@ def optimize(
             result = with_reserve(result, again, count, progress, lambda: perf_counter() >= run.end)
         if not certify or result.best is None or result.interrupted:
             return result
-        run.end = math.inf  # a proof does not count
         return _proved(result, run)
 
 
@@ -208,26 +207,29 @@ def _proved(result: Result, run: _Run) -> Result:
     result is `interrupted`.
     """
     study, best = result.study, best_of(result).condition_number
-    left_out = {label.removesuffix(" at neutral").removesuffix(".min") for label in left_out_of(study)}
-    if left_out:
-        others = {name: limit for name, limit in study.constraints.items() if name not in left_out}
-        relaxed = run.result(replace(study, constraints=others), warm_variables(result))
-        if relaxed.interrupted:
+    if (others := relaxed(study)) is not study:
+        eased = run.result(others, warm_variables(result))
+        if eased.interrupted:
             return replace(result, interrupted=True)
-        best = min(best, relaxed.condition_number or best)
+        best = min(best, eased.condition_number or best)
     phase(run.progress, "proving that no design is better")
 
-    def prove(best: float, gap: float) -> OptimumProof:
-        how: dict[str, Any] = {"time_limit": LONGEST, "threads": run.threads or None, "progress": run.progress}
-        return run.pieces.proof(lambda: prove_optimum(study, best, gap=gap, **how))
+    def proved(best: float, gap: float | None, known: OptimumProof | None = None) -> OptimumProof:
+        left = run.end - perf_counter()
+        seconds = LONGEST if left == math.inf else max(left, LEAST)
+
+        def compute(earlier: OptimumProof | None) -> OptimumProof:
+            return prove(study, best, gap, seconds, run.threads or None, run.progress, earlier or known)
+
+        return run.pieces.proof(compute, left)
 
     gap = gap_of(study)
-    proof = prove(best, gap)
+    proof = proved(best, None)
     while proof.better is not None and not proof.interrupted:  # one that keeps what the proof sees of the bounds
         best, gap = proof.better, min(max(10.0 * gap, 1e-3), 0.5)
-        if best * (1.0 - gap) <= 1.0:
-            break  # what was proved so far is all that can be aimed at
-        proof = prove(best, gap)
+        if best * (1.0 - gap) <= 1.0 or perf_counter() >= run.end:
+            break  # what was proved so far is all that can be aimed at, or that there is time for
+        proof = proved(best, gap, proof)
     return replace(result, proof=proof, interrupted=proof.interrupted)
 
 

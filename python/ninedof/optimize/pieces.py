@@ -67,7 +67,8 @@ def _row(study: Study, names: set[str], start: Mapping[str, Any]) -> list[float]
         return study.vector(values | {name: value for name, value in fixed.items() if name in values})
 
 
-WORDS, CERTIFICATE = "words", "certificate"  # names of a piece: its JSON, and the bytes of a certificate
+WORDS, CERTIFICATE, UNFINISHED = "words", "certificate", "unfinished"
+"""Names of a piece: its JSON, the bytes of a certificate, and what a proof has that ended before its end."""
 
 
 class Pieces:
@@ -89,15 +90,28 @@ class Pieces:
         self._keep({WORDS: json_array(result.to_dict())})
         return result
 
-    def proof(self, compute: Callable[[], OptimumProof]) -> OptimumProof:
-        """Return a proof with its certificate."""
+    def proof(
+        self, compute: Callable[[OptimumProof | None], OptimumProof], time_limit: float = math.inf
+    ) -> OptimumProof:
+        """Return a proof with its certificate; one that was interrupted, or that the time limit ended, goes on.
+
+        `compute` takes what was proved earlier.
+        """
+        earlier = None
         if (piece := self._read()) is not None:
-            proof = OptimumProof.from_dict(from_json_array(piece[WORDS]))
-            return replace(proof, certificate=piece[CERTIFICATE].tobytes())
-        proof = compute()
-        if not proof.interrupted:
-            words = json_array(proof.to_dict())
-            self._keep({WORDS: words, CERTIFICATE: np.frombuffer(proof.certificate, dtype=np.uint8)})
+            kept = OptimumProof.from_dict(from_json_array(piece[WORDS]))
+            kept = replace(kept, certificate=piece[CERTIFICATE].tobytes())
+            if UNFINISHED not in piece:
+                return kept
+            earlier = kept
+            self._next, self.new_pieces = self._next - 1, self.new_pieces + 1
+        proof = compute(earlier)
+        piece = {
+            WORDS: json_array(proof.to_dict()),
+            CERTIFICATE: np.frombuffer(proof.certificate, dtype=np.uint8),
+        }
+        unfinished = not proof.complete and proof.better is None and proof.seconds >= time_limit
+        self._keep(piece | ({UNFINISHED: np.array([])} if proof.interrupted or unfinished else {}))
         return proof
 
     def _read(self) -> Arrays | None:

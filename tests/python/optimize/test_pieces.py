@@ -98,7 +98,7 @@ GRID_WORK, SOLVED = ((GridWork, "values"),), ((solving, "optimize"),)
 SEARCHES = (
     (_core, "optimize"),
     (_core, "optimize_region"),
-    (import_module("ninedof.optimize.optimize"), "prove_optimum"),
+    (import_module("ninedof.optimize.optimize"), "prove"),
 )
 RUNS = {  # with functions, by owner and name, one of which is called for each piece
     sweep: GRID_WORK,

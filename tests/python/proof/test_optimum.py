@@ -178,7 +178,7 @@ def test_an_interrupted_proof_ends_the_command_as_one(run, tmp_path, monkeypatch
     """The design found stays, with what is proved of it."""
     cut_short = nd.prove_optimum(PAPER, BEST, progress=interrupt)
     assert OptimumProof.from_dict(cut_short.to_dict()) == cut_short
-    monkeypatch.setattr(import_module("ninedof.optimize.optimize"), "prove_optimum", lambda *_, **__: cut_short)
+    monkeypatch.setattr(import_module("ninedof.optimize.optimize"), "prove", lambda *_, **__: cut_short)
     study = tmp_path / "study.toml"
     study.write_text("[constraints]\nradius_ratio = { max = 2.0 }\n[solver]\nstarts = 2\n")
     status, out, _ = run(f"optimize {study} --certify --no-figures --out {tmp_path / 'run'}")

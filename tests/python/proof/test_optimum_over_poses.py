@@ -2,8 +2,11 @@
 
 import itertools
 import math
+import signal
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from time import perf_counter
 
 import numpy as np
 import pytest
@@ -13,7 +16,11 @@ from robots import NONPLANAR
 
 import ninedof as nd
 from ninedof.design.region_poses import posed
-from ninedof.proof.optimum import _at_home, left_out_of
+from ninedof.optimize.pieces import Pieces
+from ninedof.proof.class_proof import at_home
+from ninedof.proof.optimum import left_out_of
+from ninedof.proof.optimum_proof import OptimumProof
+from ninedof.support.store import Store
 
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0}
 LIMITS = {"base_cone": {"max_deg": 55, "axis": (0, 0, 1)}, "stroke_ratio": (None, 1.5)}
@@ -142,6 +149,121 @@ def test_the_file_of_a_bound_names_which_side_of_a_limit_it_leaves_out(tmp_path)
     assert nd.check_certificate(proof.save(tmp_path / "optimum.certificate")).proved
 
 
+SEVEN = replace(SIX, variables={**SIX.variables, "theta_z": (0.0, 0.1)})
+
+
+@pytest.mark.parametrize("poses", [REGION.objective.to_dict(), {"poses": [{}, {"position": (0.2, 0.0, 0.1)}]}])
+def test_of_more_than_six_free_variables_the_neutral_pose_proves_what_it_can(poses, tmp_path):
+    study = replace(SEVEN, objective=poses)
+    proof = nd.prove_optimum(study, 4.0, gap=0.5)
+    assert proof.complete
+    assert proof.lower_bound == 2.0
+    assert proof.left_out == left_out_of(study) == tuple(LIMITS)
+    assert proof.where in ("over the region", "at its poses")
+    assert nd.check_certificate(proof.save(tmp_path / "optimum.certificate")).proved
+
+
+def test_non_planar_designs_count_at_the_neutral_pose_too():
+    study = nd.Study("symmetric_nonplanar", objective={"poses": [{}, {"rotation": (0.1, 0.0, 0.0)}]})
+    assert at_home(study) is not None
+
+
+BESIDE = nd.Study(
+    variables={"a1": 0.0, "a2": (0.0, 60.0), "b1": (0.0, 60.0), "b2": 0.0, "theta_z": 0.0},
+    constraints={"radius_ratio": (None, 2.0), "leg_length": (None, 7.0)},
+)
+
+
+def test_a_limit_beside_those_of_the_class_does_not_stop_its_proof():
+    proof = nd.prove_optimum(BESIDE, 3.7626590785960472)
+    assert proof.complete
+    assert proof.gap(3.7626590785960472) < 1.1e-12
+    assert proof.left_out == ("leg_length",)
+
+
+@pytest.mark.slow
+def test_a_limit_that_the_class_leaves_out_counts_where_it_is_reached():
+    limits = {"radius_ratio": (None, 2.0), "leg_length": (None, 4.5)}
+    study = replace(BESIDE, variables=BESIDE.variables | {"a2": 6.0, "b1": (0.5, 10.0)}, constraints=limits)
+    best = nd.optimize(study, starts=16).condition_number
+    proof = nd.prove_optimum(study, best, gap=0.01)
+    assert proof.complete
+    assert proof.lower_bound > 4.2 > nd.optimize(BESIDE, starts=8).condition_number
+    assert proof.left_out == ()
+
+
+@pytest.mark.slow
+def test_small_gaps_are_proved_one_after_the_other():
+    """A general study that is a hexagon: boxes of designs, down to a billionth of its ranges."""
+    hexagon = nd.Geometry.hexagonal(a1=0.0, a2=6.0, b1=3.0, b2=0.0)
+    joints = {
+        f"{name}_{k + 1}_{axis}": float(getattr(hexagon, name)[k][n])
+        for name in ("base_external", "base_internal", "platform_external", "platform_internal")
+        for k in range(3)
+        for n, axis in enumerate("xyz")
+    }
+    study = nd.Study("general", variables=joints | {"zp": (0.05, 80.0), "zs": (0.05, 80.0), "theta_z": 0.0})
+    best = nd.optimize(study, starts=8).condition_number
+    proof = nd.prove_optimum(study, best, gap=1e-8)
+    assert proof.complete
+    assert proof.lower_bound == best * (1.0 - 1e-8)
+
+
+class Interrupted:
+    """A progress that sends SIGINT in the core where the nth bound is worked on."""
+
+    def __init__(self, nth=math.inf):
+        self.phases, self._nth = [], nth
+
+    def phase(self, words):
+        self.phases += [words] if words.startswith("proving that no design is below") else []
+
+    def __call__(self, *_):
+        if len(self.phases) == self._nth:
+            signal.raise_signal(signal.SIGINT)
+
+
+@pytest.mark.slow(sanitized=True)
+def test_a_proof_that_was_interrupted_goes_on_behind_what_it_has(tmp_path):
+    study = replace(REGION, constraints={"stroke_ratio": (None, 1.5)})
+    first, second = Interrupted(4), Interrupted()
+    ended = nd.optimize(study, certify=True, out=tmp_path, progress=first)
+    assert ended.interrupted
+    assert ended.lower_bound > 1.0
+    assert not ended.proof.complete
+    whole = nd.optimize(study, certify=True, out=tmp_path, progress=second)
+    assert whole.proof.complete
+    assert whole.proof.certificate
+    words = {f"proving that no design is below {target:.6g}" for target in (ended.lower_bound, whole.lower_bound)}
+    assert first.phases[0] not in second.phases
+    assert words - set(second.phases) == {f"proving that no design is below {ended.lower_bound:.6g}"}
+    assert whole.lower_bound == nd.optimize(study, certify=True).lower_bound
+    again = Interrupted()
+    assert nd.optimize(study, certify=True, out=tmp_path, progress=again).proof == whole.proof
+    assert not again.phases
+
+
+def test_a_time_limit_ends_the_proof_too(tmp_path):
+    """It goes on where another call has more time; a proof that the time did not end is returned as it is."""
+    begin = perf_counter()
+    result = nd.optimize(replace(SEVEN, starts=2), certify=True, time_limit=3.0)
+    assert perf_counter() - begin < 60.0
+    assert not result.proof.complete
+    first = OptimumProof(2.0, 3.0, False, 10, 1, seconds=5.0, certificate=b"one")
+    whole = replace(first, lower_bound=3.0, complete=True)
+    seen = []
+
+    def compute(earlier, proof):
+        seen.append(earlier)
+        return proof
+
+    for proof in (first, first, whole, first):
+        with Store(tmp_path / "run", {"kind": "some"}) as store:
+            Pieces(store).proof(partial(compute, proof=proof), 5.0)
+    assert seen == [None, first, first]
+    assert seen[1].certificate == b"one"
+
+
 @pytest.mark.parametrize(
     "change",
     [
@@ -153,8 +275,8 @@ def test_the_file_of_a_bound_names_which_side_of_a_limit_it_leaves_out(tmp_path)
 )
 def test_elsewhere_the_neutral_pose_proves_nothing(change):
     """Of a tool, or where it need not be one of the poses."""
-    assert _at_home(replace(REGION, **change)) is None
-    assert _at_home(REGION) is not None
+    assert at_home(replace(REGION, **change)) is None
+    assert at_home(REGION) is not None
 
 
 def test_threads_do_not_change_it():
@@ -169,7 +291,7 @@ def test_threads_do_not_change_it():
         (replace(REGION, objective={"region": {"ball": 0.4}, "aggregate": "mean_inverse"}), "objective"),
         (replace(REGION, objective={"region": {"ball": 0.4}, "index": "speed"}), "objective"),
         (replace(REGION, characteristic_length="optimal"), "characteristic_length"),
-        (replace(REGION, variables=dict.fromkeys(SIZES, (1.0, 2.0)) | {"theta_z": (0.0, 0.1)}), "variables: got 7"),
+        (replace(SEVEN, tool={"position": (0.1, 0.0, -0.5)}), "variables: got 7"),
         (replace(STUDIES["poses"], constraints={"singularity_free": (0.01, None)}), "singularity_free"),
     ],
 )

@@ -39,7 +39,7 @@ class _Options(JobOptions):
     starts: int | None = option(STARTS)
     seed: int | None = option("Seed, in place of the study's.")
     threads: int | None = option(THREADS)
-    time: float | None = option("Seconds after which the search ends with the best design so far.")
+    time: float | None = option("Seconds after which search and proof end with what there is.")
     convergence: bool = option(
         "Also follow many starts to their ends and draw how they converge.", False, "--convergence"
     )
@@ -80,7 +80,9 @@ def optimize(options: _Options) -> Answer:
         screen.print(verdict.report())
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
     screen.print(folder_words(directory))
-    if options.time is not None and result.status == nd.Status.STOPPED and not result.interrupted:
+    proof = result.proof
+    ended = result.status == nd.Status.STOPPED or (proof is not None and not proof.complete and proof.better is None)
+    if options.time is not None and ended and not result.interrupted:
         ended_by_time(without="--time")
     return Answer([], {**data, "record": str(record)}, exit_status(result, timed=options.time is not None))
 

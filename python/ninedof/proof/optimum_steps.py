@@ -1,0 +1,190 @@
+"""A bound over poses, in smaller and smaller gaps: by the class at the neutral pose, then by boxes of designs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+from ninedof.design.region_poses import o_is_placed
+from ninedof.design.study import Study
+from ninedof.proof.class_proof import GAPS, MOST_BOXES, at_home, is_neutral, left_out_of_class, prove_class
+from ninedof.proof.design_range import EXISTS, NONE, DesignRange, design_range, existence
+from ninedof.proof.optimum_proof import OptimumProof
+from ninedof.support.running import Progress, phase
+
+GAP = 1e-3
+"""Relative gap to prove by boxes: the active poses of an optimum meet there, and the last of it takes longest."""
+STEPS = (0.1, 0.02, 5e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)  # gaps that are proved before: a bound when the time ends
+COARSE = (0.5, 0.3, 0.2)  # before these where many variables are free
+MOST_FREE, FEW = 6, 4
+MANY_BOXES, FEW_BOXES = 1_000_000, 50_000
+"""Of the class, where boxes of designs may do more: seconds where many variables are free, else a part of one."""
+
+
+@dataclass(frozen=True)
+class Ways:
+    """How the bound of a study can be proved."""
+
+    home: Study | None
+    """The study at its neutral pose, where its class has a proof."""
+    by_boxes: bool
+    """Whether boxes of designs are known to prove it, with every limit, where the class does not."""
+    neutral: bool
+    """Whether the study is about the neutral pose alone."""
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """The limits that the proof does without, wherever it ends."""
+        return () if self.by_boxes or self.home is None else left_out_of_class(self.home)
+
+    @property
+    def gap(self) -> float:
+        """The gap to prove by default."""
+        return GAP if self.by_boxes or self.home is None else GAPS[self.home.family]
+
+    @property
+    def class_gap(self) -> float:
+        """The gap that the class is to prove by default."""
+        return self.gap if self.home is None or not self.neutral else GAPS[self.home.family]
+
+
+def ways_of(study: Study) -> Ways:
+    """Return how the bound of a study can be proved; raise ValueError if the theory does not reach it."""
+    home, neutral, few = at_home(study), is_neutral(study), len(_free(study)) <= FEW
+    if home is not None and neutral and not (few and left_out_of_class(home)):
+        return Ways(home, by_boxes=False, neutral=True)
+    if home is None and neutral and (_missing(study) or not few):
+        left_out_of_class(study)  # raises
+    try:
+        existence(range_to_prove(study), seconds=0.0)  # raises where a limit has no bounds over boxes of designs
+    except ValueError:
+        if home is None:
+            raise
+        return Ways(home, by_boxes=False, neutral=neutral)
+    return Ways(home, by_boxes=True, neutral=neutral)
+
+
+def range_to_prove(study: Study, condition_number: float | None = None) -> DesignRange:
+    """Return all designs of a study that keep its limits, and a condition number; raise where no proof is known."""
+    if missing := _missing(study):
+        raise ValueError(missing)
+    return design_range(study, _free(study), None, condition_number, MOST_FREE)
+
+
+def prove_in_steps(
+    study: Study,
+    ways: Ways,
+    condition_number: float,
+    *,
+    gap: float | None,
+    time_limit: float,
+    threads: int,
+    progress: Progress | None,
+    earlier: OptimumProof | None = None,
+) -> OptimumProof:
+    """Prove that no design of a study is better than a known one by more than a gap, over all poses.
+
+    The class at the neutral pose comes first, as it takes fewer boxes: it does without the limits that `left_out`
+    names. For gaps that it does not reach boxes of designs are cut until each is proved to break a limit, or to have a
+    greater condition number, at one of its poses. Smaller gaps come later: what is proved when the time ends is
+    returned. What an earlier proof of the same study has is not proved again.
+    """
+    aim, finest = (condition_number * (1.0 - (one if gap is None else gap)) for one in (ways.gap, ways.class_gap))
+    coarser = (*COARSE, *STEPS) if len(_free(study)) > FEW else STEPS
+    targets = [target for step in coarser if (target := condition_number * (1.0 - step)) < aim]
+    work = _Work(study, ways, time_limit, threads, progress)
+    if earlier is not None and earlier.certificate:
+        work.bound, work.certificate, work.left_out = earlier.lower_bound, earlier.certificate, earlier.left_out
+    for target in (*targets, aim):
+        if target <= work.bound:
+            continue
+        phase(progress, f"proving that no design is below {target:.6g}")
+        if work.by_class(target, work.most_boxes):
+            if ways.by_boxes and ways.neutral and work.by_class(finest, MANY_BOXES):
+                return work.proof(finest)  # all at once
+        elif not work.by_boxes(target):
+            break
+    return work.proof(aim)
+
+
+class _Work:
+    """The work on one study: what is proved so far."""
+
+    def __init__(self, study: Study, ways: Ways, time_limit: float, threads: int, progress: Progress | None) -> None:
+        self._study, self._ways, self._threads, self._progress = study, ways, threads, progress
+        self._begin = perf_counter()
+        self._end = self._begin + time_limit
+        self._below = math.inf
+        """A condition number in the class at the neutral pose: nothing above it is proved there."""
+        self._boxes, self._left, self._interrupted = 0, 0, False
+        self._better: float | None = None
+        self.bound, self.certificate, self.left_out = 1.0, b"", tuple[str, ...]()
+        few = FEW_BOXES if len(_free(study)) <= FEW else MANY_BOXES
+        self.most_boxes = few if ways.by_boxes else MOST_BOXES
+
+    def by_class(self, target: float, most_boxes: int) -> bool:
+        """Whether the class at the neutral pose proves the target."""
+        seconds = self._end - perf_counter()
+        if self._ways.home is None or self._interrupted or not (1.0 < target < self._below and seconds > 0.0):
+            return False
+        proof = prove_class(self._ways.home, target, most_boxes, seconds, self._threads, self._progress)
+        self._count(proof.boxes, proof.open, proof.interrupted)
+        if proof.complete:
+            self.bound, self.certificate, self.left_out = target, proof.certificate, tuple(proof.left_out)
+        elif not proof.interrupted:
+            self._below = min(self._below, target if proof.better is None else proof.better)
+            self._better = None if self._ways.by_boxes else proof.better
+        return proof.complete
+
+    def by_boxes(self, target: float) -> bool:
+        """Whether boxes of designs prove the target."""
+        if not self._ways.by_boxes or self._interrupted or not target > 1.0:
+            return False
+        how: dict[str, Any] = {"seconds": max(self._end - perf_counter(), 0.0), "threads": self._threads}
+        question = range_to_prove(self._study, target)
+        found = existence(question, certificate=True, progress=self._progress, **how)
+        self._count(found.designs, found.left, found.interrupted)
+        if found.state == NONE:
+            self.bound, self.certificate, self.left_out = target, found.certificate, ()
+        self._better = target if found.state == EXISTS else None
+        return found.state == NONE
+
+    def proof(self, aim: float) -> OptimumProof:
+        """Return what is proved."""
+        objective = self._study.objective
+        return OptimumProof(
+            lower_bound=self.bound,
+            target=aim,
+            complete=self.bound >= aim,
+            boxes=self._boxes,
+            open=self._left,
+            seconds=perf_counter() - self._begin,
+            better=self._better,
+            left_out=self.left_out,
+            interrupted=self._interrupted,
+            where="over the region" if objective.region is not None else "at its poses" if objective.poses else "",
+            certificate=self.certificate,
+        )
+
+    def _count(self, boxes: int, left: int, interrupted: bool) -> None:
+        self._boxes, self._left, self._interrupted = self._boxes + boxes, left, interrupted
+
+
+def _free(study: Study) -> list[str]:
+    return [name for name, ends in study.variables.items() if isinstance(ends, tuple)]
+
+
+def _missing(study: Study) -> str:
+    """Return what a study would need for this proof; nothing if there is one."""
+    objective, free = study.objective, _free(study)
+    if objective.index != "condition_number" or objective.aggregate != "worst":
+        return "objective: got another one, expected the worst condition number for a proof"
+    if not isinstance(study.characteristic_length, float | int):
+        return "characteristic_length: got one that depends on the design, expected a number for a proof over poses"
+    if o_is_placed(study):
+        return 'internal_point: got "best", expected "shifted" or "held" for a proof'
+    if not 1 <= len(free) <= MOST_FREE:
+        return f"variables: got {len(free)} that are free, expected one to {MOST_FREE} for a proof over poses"
+    return ""
