@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, replace
-from typing import Any
 
 from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.proof.class_proof import MOST_BOXES, prove_class
 from ninedof.proof.design_range import LONGEST
 from ninedof.proof.optimum_proof import OptimumProof
-from ninedof.proof.optimum_steps import prove_in_steps, ways_of
+from ninedof.proof.optimum_steps import StepByStep, ways_of
 from ninedof.support.arguments import finite, instance, path_argument
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, progress_argument
@@ -104,8 +103,7 @@ def prove(
         raise ValueError(f"condition_number: got {best:g} and a gap of {aim:g}, expected more than 1 to be proved")
     count = thread_argument(threads)
     if ways.home is not study or ways.by_boxes:
-        how: dict[str, Any] = {"time_limit": limit or LONGEST, "threads": count, "progress": progress}
-        return prove_in_steps(study, ways, best, gap=gap, earlier=earlier, **how)
+        return StepByStep(study, ways, limit or LONGEST, count, progress).prove(best, gap, earlier)
     proof = prove_class(study, best * (1.0 - aim), MOST_BOXES, limit, count, progress)
     proved = from_core(OptimumProof, proof, target=best * (1.0 - aim), where="")
     known = 1.0 if earlier is None else earlier.lower_bound

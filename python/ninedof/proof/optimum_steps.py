@@ -73,46 +73,17 @@ def range_to_prove(study: Study, condition_number: float | None = None) -> Desig
     return design_range(study, _free(study), None, condition_number, MOST_FREE)
 
 
-def prove_in_steps(
-    study: Study,
-    ways: Ways,
-    condition_number: float,
-    *,
-    gap: float | None,
-    time_limit: float,
-    threads: int,
-    progress: Progress | None,
-    earlier: OptimumProof | None = None,
-) -> OptimumProof:
-    """Prove that no design of a study is better than a known one by more than a gap, over all poses.
+class StepByStep:
+    """The proof that no design of a study is better than a known one by more than a gap, over all poses.
 
     The class at the neutral pose comes first, as it takes fewer boxes: it does without the limits that `left_out`
     names. For gaps that it does not reach boxes of designs are cut until each is proved to break a limit, or to have a
     greater condition number, at one of its poses. Smaller gaps come later: what is proved when the time ends is
-    returned. What an earlier proof of the same study has is not proved again.
+    returned.
     """
-    aim, finest = (condition_number * (1.0 - (one if gap is None else gap)) for one in (ways.gap, ways.class_gap))
-    coarser = (*COARSE, *STEPS) if len(_free(study)) > FEW else STEPS
-    targets = [target for step in coarser if (target := condition_number * (1.0 - step)) < aim]
-    work = _Work(study, ways, time_limit, threads, progress)
-    if earlier is not None and earlier.certificate:
-        work.bound, work.certificate, work.left_out = earlier.lower_bound, earlier.certificate, earlier.left_out
-    for target in (*targets, aim):
-        if target <= work.bound:
-            continue
-        phase(progress, f"proving that no design is below {target:.6g}")
-        if work.by_class(target, work.most_boxes):
-            if ways.by_boxes and ways.neutral and work.by_class(finest, MANY_BOXES):
-                return work.proof(finest)  # all at once
-        elif not work.by_boxes(target):
-            break
-    return work.proof(aim)
-
-
-class _Work:
-    """The work on one study: what is proved so far."""
 
     def __init__(self, study: Study, ways: Ways, time_limit: float, threads: int, progress: Progress | None) -> None:
+        """Begin; the time limit counts from here, in seconds."""
         self._study, self._ways, self._threads, self._progress = study, ways, threads, progress
         self._begin = perf_counter()
         self._end = self._begin + time_limit
@@ -120,52 +91,69 @@ class _Work:
         """A condition number in the class at the neutral pose: nothing above it is proved there."""
         self._boxes, self._left, self._interrupted = 0, 0, False
         self._better: float | None = None
-        self.bound, self.certificate, self.left_out = 1.0, b"", tuple[str, ...]()
-        few = FEW_BOXES if len(_free(study)) <= FEW else MANY_BOXES
-        self.most_boxes = few if ways.by_boxes else MOST_BOXES
+        self._bound, self._certificate, self._left_out = 1.0, b"", tuple[str, ...]()
 
-    def by_class(self, target: float, most_boxes: int) -> bool:
+    def prove(self, best: float, gap: float | None, earlier: OptimumProof | None = None) -> OptimumProof:
+        """Return what is proved of a gap below `best`, beside what an earlier proof of the same study has."""
+        ways, many = self._ways, len(_free(self._study)) > FEW
+        aim, finest = (best * (1.0 - (one if gap is None else gap)) for one in (ways.gap, ways.class_gap))
+        coarser = (best * (1.0 - step) for step in ((*COARSE, *STEPS) if many else STEPS))
+        most_boxes = MOST_BOXES if not ways.by_boxes else MANY_BOXES if many else FEW_BOXES
+        if earlier is not None and earlier.certificate:
+            self._bound, self._certificate, self._left_out = earlier.lower_bound, earlier.certificate, earlier.left_out
+        for target in (*(one for one in coarser if one < aim), aim):
+            if target <= self._bound:
+                continue
+            phase(self._progress, f"proving that no design is below {target:.6g}")
+            if self._by_class(target, most_boxes):
+                if ways.by_boxes and ways.neutral and self._by_class(finest, MANY_BOXES):
+                    return self._proof(finest)  # all at once
+            elif not self._by_boxes(target):
+                break
+        return self._proof(aim)
+
+    def _by_class(self, target: float, most_boxes: int) -> bool:
         """Whether the class at the neutral pose proves the target."""
         seconds = self._end - perf_counter()
-        if self._ways.home is None or self._interrupted or not (1.0 < target < self._below and seconds > 0.0):
+        if self._ways.home is None or self._interrupted or not (target < self._below and seconds > 0.0):
             return False
         proof = prove_class(self._ways.home, target, most_boxes, seconds, self._threads, self._progress)
         self._count(proof.boxes, proof.open, proof.interrupted)
         if proof.complete:
-            self.bound, self.certificate, self.left_out = target, proof.certificate, tuple(proof.left_out)
+            self._bound, self._certificate, self._left_out = target, proof.certificate, tuple(proof.left_out)
         elif not proof.interrupted:
             self._below = min(self._below, target if proof.better is None else proof.better)
             self._better = None if self._ways.by_boxes else proof.better
         return proof.complete
 
-    def by_boxes(self, target: float) -> bool:
+    def _by_boxes(self, target: float) -> bool:
         """Whether boxes of designs prove the target."""
-        if not self._ways.by_boxes or self._interrupted or not target > 1.0:
+        if not self._ways.by_boxes or self._interrupted:
             return False
         how: dict[str, Any] = {"seconds": max(self._end - perf_counter(), 0.0), "threads": self._threads}
         question = range_to_prove(self._study, target)
         found = existence(question, certificate=True, progress=self._progress, **how)
         self._count(found.designs, found.left, found.interrupted)
         if found.state == NONE:
-            self.bound, self.certificate, self.left_out = target, found.certificate, ()
+            self._bound, self._certificate, self._left_out = target, found.certificate, ()
         self._better = target if found.state == EXISTS else None
         return found.state == NONE
 
-    def proof(self, aim: float) -> OptimumProof:
+    def _proof(self, aim: float) -> OptimumProof:
         """Return what is proved."""
         objective = self._study.objective
         return OptimumProof(
-            lower_bound=self.bound,
+            lower_bound=self._bound,
             target=aim,
-            complete=self.bound >= aim,
+            complete=self._bound >= aim,
             boxes=self._boxes,
             open=self._left,
             seconds=perf_counter() - self._begin,
             better=self._better,
-            left_out=self.left_out,
+            left_out=self._left_out,
             interrupted=self._interrupted,
             where="over the region" if objective.region is not None else "at its poses" if objective.poses else "",
-            certificate=self.certificate,
+            certificate=self._certificate,
         )
 
     def _count(self, boxes: int, left: int, interrupted: bool) -> None:

@@ -153,7 +153,7 @@ POINT = {"a2": 5.0, "b1": 3.0, "zp": 4.0, "zs": 2.0, "theta_z": 0.0}
 BAD_POINT = {"a2": NAN, "zp": INF, "zs": None, "b1": "1", "theta_z": True}
 ORIENTATION = {"archetype": "orientation", "box": None, "position": [0, 0, 4]}
 HOME = it.on_axis()
-MANY_FREE = nd.Study(variables={"theta_z": (0.0, 0.1)}, objective={"region": {"ball": 0.1}})
+MANY_FREE = nd.Study(variables={"theta_z": (0.0, 0.1)}, tool={"position": (0.1, 0.0, 0.0)})
 NO_DESIGN = dataclasses.replace(it.result(), candidates=())
 AT_JOINT = nd.Configuration(HOME.position, ONE, HOME.position + it.g().platform_internal[0])
 APART = [  # a row, entries that are refused because of what they are together or where they stand, words of the error
