@@ -154,7 +154,7 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
     """Check a certificate of an optimum, a machine or a set of designs, without trusting the search that wrote it.
 
     By the code of the program ninedof_check, which shares none with the search: numbers, formulas and bounds are its
-    own. The certificate of the paper's study takes some eight seconds.
+    own. The certificate of the paper's study takes half a second.
 
     Parameters
     ----------

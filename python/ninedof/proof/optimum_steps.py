@@ -99,7 +99,7 @@ class StepByStep:
         aim, finest = (best * (1.0 - (one if gap is None else gap)) for one in (ways.gap, ways.class_gap))
         coarser = (best * (1.0 - step) for step in ((*COARSE, *STEPS) if many else STEPS))
         most_boxes = MOST_BOXES if not ways.by_boxes else MANY_BOXES if many else FEW_BOXES
-        if earlier is not None and earlier.certificate:
+        if earlier is not None:
             self._bound, self._certificate, self._left_out = earlier.lower_bound, earlier.certificate, earlier.left_out
         for target in (*(one for one in coarser if one < aim), aim):
             if target <= self._bound:

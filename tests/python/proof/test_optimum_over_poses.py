@@ -18,7 +18,7 @@ import ninedof as nd
 from ninedof.design.region_poses import posed
 from ninedof.optimize.pieces import Pieces
 from ninedof.proof.class_proof import at_home
-from ninedof.proof.optimum import left_out_of
+from ninedof.proof.optimum import left_out_of, prove
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.store import Store
 
@@ -241,6 +241,13 @@ def test_a_proof_that_was_interrupted_goes_on_behind_what_it_has(tmp_path):
     again = Interrupted()
     assert nd.optimize(study, certify=True, out=tmp_path, progress=again).proof == whole.proof
     assert not again.phases
+
+
+def test_what_was_proved_earlier_is_kept_without_a_file_too():
+    """The proof of non-planar designs has no certificate."""
+    earlier = OptimumProof(2.5, 3.6, False, 10, 1, 1.0, left_out=("stroke_ratio",))
+    proof = prove(SEVEN, 4.0, 0.1, 1e-9, 1, None, earlier)
+    assert (proof.lower_bound, proof.left_out, proof.complete) == (2.5, ("stroke_ratio",), False)
 
 
 def test_a_time_limit_ends_the_proof_too(tmp_path):
