@@ -94,7 +94,7 @@ Pieces<n> pieces(const Box& b, bool hexagonal) {
   const Number versed = 2.0 * inverse(plus(1.0, inverse(squared(tau))));  // 1 - cos theta
   const Signed<n> cosine = plus(1.0, -plain(versed));
   Number sine2{sine_squared(tau.value), {}};
-  if (n > 4) sine2.log_slope[4] = 2.0 * cosine.value;
+  if constexpr (n > 4) sine2.log_slope[4] = 2.0 * cosine.value;
   const Number q = inverse(plus(1.0, o)), t = inverse(plus(1.0, inverse(o)));
   const Signed<n> plan2 = squared(plus(-1.0, plain(x))) + plain(2.0 * (x * versed));
   const Number N = plan2 + eta2;
