@@ -31,7 +31,28 @@ LIMITS = {
     "leg_clearance": [{"radius": 0.05}, {"min": 0.02, "of": "zp", "at": "neutral"}],
     "singularity_free": [{"min": 0.01, "steps": 3}, {"min": 0.02, "at": "neutral"}],
 }
-"""Every row of the table of constraints, with each option of it at least once."""
+LATER = {
+    "base_cone_external": {"max_deg": 40.0},
+    "base_cone_internal": [{"max_deg": 50.0}, {"max_deg": 60.0, "axis": [0.0, 0.6, 0.8], "at": "neutral"}],
+    "platform_cone_external": {"max_deg": 45.0, "axis": [0.0, 0.0, -1.0]},
+    "platform_cone_internal": {"max_deg": 55.0},
+    "fault_tolerant": (None, 8.0),
+    "force": [{"max": 60.0}, {"max": 40.0, "at": "neutral"}],
+    "external_force": (None, 50.0),
+    "upper_force": (None, 40.0),
+    "lower_force": (None, 30.0),
+    "rate": (None, 2.0),
+    "external_rate": (None, 1.5),
+    "upper_rate": (None, 1.2),
+    "lower_rate": (None, 1.0),
+    "power": (None, 90.0),
+}
+DUTY = {
+    "loads": {"wrenches": [[0.3, 0.0, 0.1, 0.0, 5.0, -40.0], [0.0, 1.0, 0.0, 8.0, 0.0, -20.0]]},
+    "masses": {"platform": 2.0, "centre": (0.0, 0.1, 0.2), "rod": 0.2, "cylinder": 0.3, "internal_point": 0.1},
+    "speeds": {"linear": 1.0, "angular": 0.4},
+}
+"""With `LATER`, the rows made since, every row of the table of constraints, with each option at least once."""
 
 REQUIREMENT = {
     "family": "hexagonal",
@@ -93,6 +114,10 @@ def flat(slopes):
 
 def designs():
     """Every limit at random designs and poses: the margins of each label in turn, and their gradients."""
+    return of_designs("", constraints=LIMITS) | of_designs(", later limits", constraints=LATER, **DUTY)
+
+
+def of_designs(words, **entries):
     rng = np.random.default_rng(2026)
     out = {}
     for n in range(DESIGNS):
@@ -104,9 +129,9 @@ def designs():
         poses[1]["internal_point"] = ("held", "shifted", "best")[n % 3]
         study = nd.Study(
             family=family,
-            constraints=LIMITS,
             objective={"poses": poses, "aggregate": ("worst", "mean_inverse")[n % 2]},
             characteristic_length=(1.0, "natural", "mean_leg", "platform_radius")[n % 4],
+            **entries,
         )
         names = study.variables
         x = {}
@@ -120,9 +145,11 @@ def designs():
         x["zp"] = rng.uniform(2.0, 5.0)
         x["zs"] = x["zp"] * rng.uniform(0.2, 0.8)
         point = study.evaluate(x)
-        out[f"design {n:02d}: margins"] = [point.margins[name] for name in sorted(point.margins)]
-        out[f"design {n:02d}: gradients"] = [*flat(point.margin_gradients), *point.gradient.values()]
-        out[f"design {n:02d}: conditions"] = [point.objective, point.neutral_condition_number, *point.conditions]
+        name = f"design {n:02d}{words}"
+        out[f"{name}: margins"] = [point.margins[name] for name in sorted(point.margins)]
+        out[f"{name}: gradients"] = [*flat(point.margin_gradients), *point.gradient.values()]
+        if not words:
+            out[f"{name}: conditions"] = [point.objective, point.neutral_condition_number, *point.conditions]
     return out
 
 
