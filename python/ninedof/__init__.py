@@ -90,8 +90,8 @@ from ninedof.sheet.allotment import tolerances_for
 from ninedof.sheet.comparison import Comparison, compare
 from ninedof.sheet.failure.failure import failure
 from ninedof.sheet.failure.result import Failure
+from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.payload import Payload, largest_payload
-from ninedof.sheet.pose_limits import PathLimits, path_limits
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.architecture import (
     ArchitectureClass,

@@ -36,10 +36,24 @@ void bind_limits(py::module_& m) {
   m.attr("limit_parts") = parts;
   m.attr("limits_over_lengths") = py::tuple(py::cast(limits_over_lengths()));
   m.attr("margin_tolerance") = margin_tolerance;
+  m.def("margin", [](const std::string& kind, const std::string& side, const Array& bound, const Array& value) {
+    const auto of = [k = limit_kind_from(kind), s = side == "min" ? Side::low : Side::high](double l, double v) {
+      return margin(k, s, l, v);
+    };
+    return py::vectorize(of)(bound, value);
+  });
   m.def("limit_numbers", [](const Limit& one, const Geometry& g, const Configuration& home, const ConfigurationStack& c,
                             double characteristic_length) {
     const LimitNumbers numbers(one.name, g, home, characteristic_length, one.options());
     return for_each_row(c.count(), numbers.items(), 0, py::none(), [&](long k, double* out) { numbers.at(c[k], out); });
+  });
+  m.def("spread_numbers", [](const std::string& name, const Array& longest, const Array& shortest) {
+    const SpreadRow& row = spread_row(name);
+    const std::vector<Vec9> most = lengths_from(longest), least = lengths_from(shortest);
+    if (most.size() != least.size()) throw InvalidArgument("longest, shortest", "stacks of two lengths", "one length");
+    return for_each_row(std::ssize(most), row.items(), 0, py::none(), [&](long k, double* out) {
+      for (int leg = 0; leg < row.items(); ++leg) out[leg] = row.number(most[at_index(k)], least[at_index(k)], leg);
+    });
   });
   m.def("pairs_sharing_a_joint", [](const Geometry& g) { return pairs_sharing_a_joint(g); });
 }

@@ -121,7 +121,7 @@ std::vector<RangeEntry> ranges_about(const Problem& problem, double zp, const Ar
     std::array<double, 9> low{}, high{};
     std::ranges::transform(range.low, low.begin(), [&](double measure) { return range.length(measure); });
     std::ranges::transform(range.high, high.begin(), [&](double measure) { return range.length(measure); });
-    out.emplace_back(range.limit, low, high, range.logarithm ? 0.0 : range.size);
+    out.emplace_back(range.limit, low, high, range.spread.ratio ? 0.0 : range.size);
   }
   return out;
 }

@@ -19,8 +19,8 @@ inline std::vector<LegRange> ranges_from(const Problem& problem, const std::vect
   for (const auto& [limit, low, high, size] : entries) {
     LegRange range;
     range.limit = limit;
-    range.logarithm = !(size > 0.0);
-    range.size = range.logarithm ? problem.unit() : size;
+    range.spread.ratio = !(size > 0.0);
+    range.size = range.spread.ratio ? problem.unit() : size;
     const auto measured = [&](double length) { return range.measured(length); };
     range.low = Vec9::Map(low.data()).unaryExpr(measured);
     range.high = Vec9::Map(high.data()).unaryExpr(measured);

@@ -2,6 +2,7 @@
 
 #include "limits/table.hpp"
 #include "math/numbers.hpp"
+#include "ninedof/math/error.hpp"
 #include "robot/leg_pairs.hpp"
 
 namespace ninedof {
@@ -18,6 +19,12 @@ std::vector<std::string> limits_over_lengths() {
   for (const LimitRow& row : limit_rows())
     if (row.spread != nullptr) out.emplace_back(row.info.name);
   return out;
+}
+
+const SpreadRow& spread_row(const std::string& name) {
+  const SpreadRow* row = limit_row(name).spread;
+  if (row == nullptr) throw InvalidArgument("limit", "\"" + name + "\"", "a limit of lengths over all poses");
+  return *row;
 }
 
 std::vector<std::string> limit_parts(const std::string& name) {

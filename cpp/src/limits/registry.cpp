@@ -105,6 +105,13 @@ const char* to_string(LimitKind kind) {
   return "";
 }
 
+LimitKind limit_kind_from(const std::string& word) {
+  using enum LimitKind;
+  for (const LimitKind kind : {ratio, length, angle, sign, number, rate, power})
+    if (word == to_string(kind)) return kind;
+  throw InvalidArgument("kind", "\"" + word + "\"", "that of a limit, as \"length\"");
+}
+
 const char* to_string(Unit unit) {
   switch (unit) {
     case Unit::length: return "length";

@@ -6,24 +6,12 @@
 #include <string_view>
 
 #include "limits/design_row.hpp"
+#include "limits/margins.hpp"
 #include "limits/pose_row.hpp"
 #include "ninedof/limits/limits.hpp"
+#include "ninedof/limits/spread_row.hpp"
 
 namespace ninedof {
-
-/// A limit of the longest and the shortest length of a leg over all poses, or of all legs.
-struct SpreadRow {
-  bool ratio;     ///< their quotient; else their difference
-  bool each_leg;  ///< of every leg on its own
-};
-
-/// The margin that the optimizer works with, of a value v and a limit.
-enum class SolverMargin {
-  logarithm,  ///< log(high / v), log(v / low): for positive values
-  linear,     ///< 1 - v / high, v / low - 1
-  plain,      ///< v - low
-  mixed       ///< 1 - v / high where it is kept, log(high / v) beyond: for values that may be 0 or infinite
-};
 
 struct LimitRow {
   ConstraintInfo info;

@@ -55,10 +55,10 @@ std::vector<LimitBreak> crossings(const std::string& name, std::span<const doubl
 }
 
 LegMargins leg_margins(const Vec9& lengths, const LegLimits& limits) {
-  const auto share = [](double room, double limit) {
-    return limit > 0.0 && limit < infinity ? room / limit : infinity;
+  const auto share = [](Side side) {
+    return [side](double limit, double length) { return margin(LimitKind::length, side, limit, length); };
   };
-  return {(lengths - limits.low).binaryExpr(limits.low, share), (limits.high - lengths).binaryExpr(limits.high, share)};
+  return {limits.low.binaryExpr(lengths, share(Side::low)), limits.high.binaryExpr(lengths, share(Side::high))};
 }
 
 std::vector<LimitBreak> limit_breaks(std::span<const double> time, std::span<const Vec9> lengths,

@@ -7,13 +7,13 @@
 namespace ninedof {
 
 void LegRange::set_zp(double zp) {
-  if (!logarithm) size = most * (in_zp ? zp : 1.0);
+  if (!spread.ratio) size = most * (in_zp ? zp : 1.0);
 }
 
 void LegRange::surround(const Vec9& shortest, const Vec9& longest) {
   for (Eigen::Index leg = 0; leg < 9; ++leg) {
-    const double least = measured(each_leg ? shortest[leg] : shortest.minCoeff());
-    const double greatest = measured(each_leg ? longest[leg] : longest.maxCoeff());
+    const double least = measured(spread.each_leg ? shortest[leg] : shortest.minCoeff());
+    const double greatest = measured(spread.each_leg ? longest[leg] : longest.maxCoeff());
     low[leg] = 0.5 * (least + greatest - width());
     high[leg] = low[leg] + width();
   }
@@ -27,10 +27,9 @@ std::vector<LegRange> leg_ranges(const Problem& problem) {
     LegRange range;
     range.limit = limit.label();
     range.size = problem.unit();
-    range.logarithm = row->ratio;
+    range.spread = *row;
     range.in_zp = limit.of == Unit::zp;
     range.most = limit.high;
-    range.each_leg = row->each_leg;
     range.set_zp(1.0);
     out.push_back(std::move(range));
   }

@@ -14,7 +14,7 @@
 #include "optimize/minimax/placed_pose.hpp"
 #include "optimize/region/posed.hpp"
 #include "optimize/verdict.hpp"
-#include "problem/constraints/constraint.hpp"
+#include "problem/constraints/solver_rows.hpp"
 
 namespace ninedof {
 namespace {
@@ -98,7 +98,7 @@ class PlacedProgram {
   }
 
   /// How many ends a range has among the variables: all legs may have one.
-  static Eigen::Index groups_of(const LegRange& range) { return range.each_leg ? 9 : 1; }
+  static Eigen::Index groups_of(const LegRange& range) { return range.spread.each_leg ? 9 : 1; }
 
   void set_sizes() {
     pose_->set_design(variables_);
@@ -111,7 +111,7 @@ class PlacedProgram {
     set_sizes();
     for (std::size_t r = 0; r < goal_.ranges.size(); ++r) {
       LegRange& range = goal_.ranges[r];
-      for (Eigen::Index leg = 0; leg < 9; ++leg) range.low[leg] = y[n + first_[r] + (range.each_leg ? leg : 0)];
+      for (Eigen::Index leg = 0; leg < 9; ++leg) range.low[leg] = y[n + first_[r] + (range.spread.each_leg ? leg : 0)];
       range.high = range.low + Vec9::Constant(range.width());
     }
     goal_.log_index = y[n + groups_];
@@ -145,7 +145,7 @@ class PlacedProgram {
           g[v] = slopes[v] * some.by_variables(k, coordinates_.variable(static_cast<int>(v)));
         for (std::size_t r = 0; r < goal_.ranges.size(); ++r)
           for (Eigen::Index leg = 0; leg < 9; ++leg)
-            g[n + first_[r] + (goal_.ranges[r].each_leg ? leg : 0)] +=
+            g[n + first_[r] + (goal_.ranges[r].spread.each_leg ? leg : 0)] +=
                 some.by_ranges(k, 9 * static_cast<Eigen::Index>(r) + leg);
         g[n + groups_] = some.by_index[k];
       }

@@ -33,8 +33,8 @@ void require_workspace(const WorkspaceDomain& domain, const InternalPointRule& r
   require_positive("tolerance", settings.tolerance);
 }
 
-void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bool connected, const Control& control,
-                   WorkspaceMap& map) {
+void map_by_octree(const LimitsAtPoints& margins, const WorkspaceSettings& settings, bool connected,
+                   const Control& control, WorkspaceMap& map) {
   CellLattice lattice(margins, settings.resolution, settings.threads);
   Octree tree = grow_octree(margins, lattice, settings, connected, map.home_allowed, control);
   map.status = tree.status;
@@ -77,7 +77,7 @@ WorkspaceMap workspace(const Geometry& g, const WorkspaceDomain& domain, const I
                        const WorkspaceCriteria& criteria, const WorkspaceSettings& settings,
                        const std::optional<Configuration>& home, const Control& control) {
   require_workspace(domain, rule, criteria, settings, home);
-  const Margins margins(g, domain, rule, criteria, home);
+  const LimitsAtPoints margins(g, domain, rule, criteria, home);
   WorkspaceMap map;
   map.low = margins.chart().low();
   map.high = margins.chart().high();

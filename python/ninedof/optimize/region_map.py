@@ -23,7 +23,7 @@ from ninedof.optimize.result import Result
 from ninedof.proof.point_rule import tilt_and_yaw
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.sheet.pose_limits import pose_limits
+from ninedof.sheet.path_limits import limits_at_poses
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
 
@@ -120,7 +120,7 @@ def region_map(result: Result) -> RegionMap | None:
     shape, rows = at.shape[:-1], at.reshape(-1, 6)
     c = configurations_at(region, neutral, rows) if placing is None else placing(rows)[0]
     kappa = np.asarray(condition_number(g, c, length)).reshape(shape).max(axis=-1)
-    limits = [one for one in pose_limits(study, g, c, neutral, length) if one.name not in SPREADS]
+    limits = [one for one in limits_at_poses(study, g, c, neutral, length) if one.name not in SPREADS]
     shares = [one.margin for one in limits if kind_of(one.name) != "sign"]
     size = region.size_at(neutral)
     unit, home = (1.0, np.zeros(2)) if plane == TILTS else (size, neutral.position[list(plane)])
@@ -153,7 +153,7 @@ def _compared(study: Study, g: Geometry, neutral: Configuration, length: float, 
         return {}
     ends = np.concatenate([_core.leg_lengths_over(g, neutral, region.for_core(), SAMPLES), listed])
     middle = configurations_at(region, neutral, np.zeros((1, 6)))
-    for one in pose_limits(study, g, middle, neutral, length, ends):
+    for one in limits_at_poses(study, g, middle, neutral, length, ends):
         if one.name in SPREADS:
             out[one.name] = min(float(one.margin[0]), out.get(one.name, math.inf))
     return out

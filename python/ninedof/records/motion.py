@@ -15,7 +15,7 @@ import numpy as np
 from ninedof.design.limit_numbers import CONES
 from ninedof.motion import Followed
 from ninedof.robot.geometry import LEGS
-from ninedof.sheet.pose_limits import PathLimits
+from ninedof.sheet.path_limits import PathLimits
 from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
 from ninedof.support.units import per, with_unit

@@ -25,7 +25,7 @@ from ninedof.pareto import Front
 from ninedof.pareto.limits import with_limit, without_degrees
 from ninedof.proof.optimum_proof import FILE as CERTIFICATE
 from ninedof.records.motion import write_tables
-from ninedof.sheet.pose_limits import PathLimits
+from ninedof.sheet.path_limits import PathLimits
 from ninedof.support.extras import versions
 from ninedof.support.files import json_bytes, read_json, write_whole
 from ninedof.support.running import command_line, goes_on

@@ -20,11 +20,10 @@ def margin_of(kind: str, side: str, limit: ArrayLike, value: ArrayLike) -> Any:
     """Return what a value leaves of a limit, negative where the limit is violated.
 
     A ratio, a length or an angle leaves a share of the limit: (limit - value) / limit of a max, (value - limit) / limit
-    of a min. A determinant, of the kind "sign", has no scale and its limit may be 0: it leaves value - limit.
+    of a min; an open side leaves all. A determinant, of the kind "sign", has no scale and its limit may be 0: it leaves
+    value - limit.
     """
-    above = np.subtract(value, limit)
-    room = above if side == "min" else -above
-    return room[()] if kind == "sign" else np.divide(room, limit)[()]
+    return _core.margin(kind, side, np.asarray(limit, dtype=float), np.asarray(value, dtype=float))
 
 
 def is_violated(margin: float, kind: str = "ratio", limit: float = 0.0) -> bool:

@@ -14,7 +14,7 @@ from ninedof.design.limits import OF_LENGTHS, kind_of, split_label
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS
-from ninedof.sheet.pose_limits import PoseLimit, pose_limits
+from ninedof.sheet.path_limits import PoseLimit, limits_at_poses
 from ninedof.sheet.rows import LimitRow
 from ninedof.singularity.singularity import SingularityMargins, singularity_margins
 from ninedof.support.arrays import Floats
@@ -77,7 +77,7 @@ def limits_at(variant: Variant, c: Configuration) -> list[PoseLimit]:
     limits, g = list[PoseLimit](), variant.geometry
     c = Configuration(c.position[None], c.rotation[None], c.internal_point[None])
     if variant.study is not None:
-        limits = pose_limits(variant.study, g, c, variant.home, variant.length, variant.study_lengths)
+        limits = limits_at_poses(variant.study, g, c, variant.home, variant.length, variant.study_lengths)
     lengths = leg_lengths(g, c)
     limited = {(one.part, one.side): one.limit for one in limits if one.name in OF_LENGTHS}
     for k, leg in enumerate(LEGS):

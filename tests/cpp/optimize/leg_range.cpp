@@ -50,8 +50,8 @@ TEST_SUITE("leg_range") {
       CHECK(greatest / smallest == doctest::Approx(3.0));
       CHECK(1.0 / smallest == doctest::Approx(greatest / 1.9));
     }
-    CHECK((ranges[0].in_zp && !ranges[0].logarithm && ranges[0].each_leg));
-    CHECK((ranges[2].logarithm && !ranges[2].each_leg));
+    CHECK((ranges[0].in_zp && !ranges[0].spread.ratio && ranges[0].spread.each_leg));
+    CHECK((ranges[2].spread.ratio && !ranges[2].spread.each_leg));
   }
 
   TEST_CASE("the common range is the narrowest of all and of the limits of legs") {

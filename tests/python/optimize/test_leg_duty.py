@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 import ninedof as nd
 from ninedof.design.leg_duty import internal_motion
-from ninedof.sheet.pose_limits import pose_limits
+from ninedof.sheet.path_limits import limits_at_poses
 from ninedof.workspace.study_question import design_question
 
 BOUNDS = {"a1": 0.0, "a2": 850.0, "b1": (200.0, 350.0), "b2": 0.0, "zp": (400.0, 560.0), "zs": (200.0, 400.0)}
@@ -76,7 +76,7 @@ def test_a_force_that_rules_is_kept_at_every_pose_and_proved():
 def test_enclosures_hold_what_random_poses_have(result):
     poses = random_poses(result.configuration, 1000)
     home, length = result.configuration, result.characteristic_length
-    rows = pose_limits(STUDY, result.geometry, poses, home, length)
+    rows = limits_at_poses(STUDY, result.geometry, poses, home, length)
     loose = {"force": (None, 900.0), "rate": (None, 900.0), "power": (None, 9e5)}  # far from every value
     for study in (STUDY, replace(STUDY, constraints=loose)):
         for proof in replace(result, study=study).certify(time_limit=60.0, gap=0.5).limits[1:]:
@@ -90,7 +90,7 @@ def test_enclosures_hold_what_random_poses_have(result):
 @pytest.mark.slow
 def test_power_is_force_times_rate_and_all_are_those_of_the_sheet(result):
     poses = random_poses(result.configuration, 40)
-    rows = pose_limits(STUDY, result.geometry, poses, result.configuration, result.characteristic_length)
+    rows = limits_at_poses(STUDY, result.geometry, poses, result.configuration, result.characteristic_length)
     of = {(row.name, row.part): row.value for row in rows}
     sheet = nd.sheet(result)
     for k, leg in enumerate(sheet.legs):

@@ -17,7 +17,7 @@ from ninedof.cli.commands.certify import certificate_table
 from ninedof.design.limits import ROWS, split_label
 from ninedof.export.latex import _limits as latex_limits
 from ninedof.proof.machine import certify
-from ninedof.sheet.pose_limits import pose_limits
+from ninedof.sheet.path_limits import limits_at_poses
 from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.tables import limits_table
 from ninedof.support.margins import is_violated, margin_of, margin_words, tolerance_of
@@ -238,7 +238,7 @@ def test_a_design_on_its_limit_keeps_it():
         shift = np.tile(corner, (len(tilts), 1))
         turned = Rotation.from_rotvec(tilts).as_matrix() @ home.rotation
         poses = nd.Configuration(home.position + shift, turned, home.internal_point + shift)
-        least = min(float(one.margin.min()) for one in pose_limits(tighter, found.geometry, poses, home, 150.0))
+        least = min(float(one.margin.min()) for one in limits_at_poses(tighter, found.geometry, poses, home, 150.0))
         worst = min(worst, least)
     assert -1.1e-7 < worst < -1e-9
     assert not is_violated(worst)

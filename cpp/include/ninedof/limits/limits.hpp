@@ -85,6 +85,10 @@ struct Limit {
 /// The side of a limit that a margin belongs to.
 enum class Side { high, low };
 
+/// What a value leaves of a limit as people read it, negative where the limit is violated: a share of the limit; of a
+/// determinant, which has no scale, value - limit or limit - value. Infinite of an open side.
+double margin(LimitKind kind, Side side, double limit, double value);
+
 /// The sides that a limit can have.
 enum class LimitSides { both, only_low, only_high };
 
@@ -106,8 +110,11 @@ std::vector<ConstraintInfo> constraint_table();
 /// The criteria of workspaces, in the order of limit_names().
 std::vector<ConstraintInfo> criterion_table();
 
-/// "ratio", "length", "angle", "sign", "number" or "rate".
+/// "ratio", "length", "angle", "sign", "number", "rate" or "power".
 const char* to_string(LimitKind kind);
+
+/// Of the same word; throws InvalidArgument for another.
+LimitKind limit_kind_from(const std::string& word);
 
 /// "length", "zp" or "radius".
 const char* to_string(Unit unit);

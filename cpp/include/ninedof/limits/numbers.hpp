@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ninedof/limits/limits.hpp"
+#include "ninedof/limits/spread_row.hpp"
 #include "ninedof/math/types.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"
@@ -20,6 +21,9 @@ std::vector<std::string> limits_of_poses();
 
 /// Those of the longest and shortest lengths of legs over all poses together.
 std::vector<std::string> limits_over_lengths();
+
+/// The row of one of these; throws InvalidArgument for another name.
+const SpreadRow& spread_row(const std::string& name);
 
 /// The items of a limit at poses: legs ("l1"), pairs of legs ("l1-q2") or determinants ("det N").
 std::vector<std::string> limit_parts(const std::string& name);

@@ -1,11 +1,11 @@
 #pragma once
 /// The ranges in which limits that compare poses let the legs be at every pose.
 
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "ninedof/limits/spread_row.hpp"
 #include "ninedof/problem/problem.hpp"
 #include "ninedof/redundancy/redundancy.hpp"
 
@@ -17,17 +17,16 @@ struct LegRange {
   std::string limit;
   Vec9 low = Vec9::Zero(), high = Vec9::Zero();
   double size = 1.0;
-  bool logarithm = true;
+  SpreadRow spread;
   bool in_zp = false;  ///< whether the size is proportional to zp
   double most = std::numeric_limits<double>::infinity();  ///< the limit of longest / shortest, or of their difference
-  bool each_leg = true;  ///< whether it is about every leg on its own; else all legs have one range
 
   /// A length as the range measures it, and the length of such a measure.
-  double measured(double length) const { return logarithm ? std::log(length / size) : length / size; }
-  double length(double measure) const { return size * (logarithm ? std::exp(measure) : measure); }
+  double measured(double length) const { return spread.measured(length, size); }
+  double length(double measure) const { return spread.length(measure, size); }
 
   /// high - low
-  double width() const { return logarithm ? std::log(most) : 1.0; }
+  double width() const { return spread.width(most); }
 
   /// Sets the size of a difference for a design of this zp.
   void set_zp(double zp);

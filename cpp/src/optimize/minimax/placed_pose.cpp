@@ -9,7 +9,7 @@
 #include "math/numbers.hpp"
 #include "optimize/polish/cluster.hpp"
 #include "optimize/region/posed.hpp"
-#include "problem/constraints/constraint.hpp"
+#include "problem/constraints/solver_rows.hpp"
 
 namespace ninedof {
 namespace {
@@ -108,8 +108,8 @@ double PlacedPose::value(const Row& row) const {
 
 double PlacedPose::shown_margin(const Row& row, double margin) const {
   if (row.kind == Row::Kind::limit) return p_.shown_margin(row.item, margin).value;
-  if (!goal_.ranges[at_index(row.range)].logarithm) return margin;
-  return share_of_limit(row.kind == Row::Kind::longest ? Side::high : Side::low, margin).value;
+  if (!goal_.ranges[at_index(row.range)].spread.ratio) return margin;
+  return share_of_limit(SolverMargin::logarithm, row.kind == Row::Kind::longest ? Side::high : Side::low, margin).value;
 }
 
 Vec3 PlacedPose::free_of(const Eigen::RowVectorXd& g) const {
@@ -125,7 +125,7 @@ Vec3 PlacedPose::gradient(const Row& row) const {
     case Row::Kind::shortest: {
       if (leg_ends(row.item).to != point_s) return Vec3::Zero();
       const LegRange& range = goal_.ranges[at_index(row.range)];
-      const double by = range.logarithm ? std::max(at.legs.length[row.item], 1e-300) : range.size;
+      const double by = range.spread.slope_over(std::max(at.legs.length[row.item], 1e-300), range.size);
       return (row.kind == Row::Kind::longest ? zp() : -zp()) / by * at.legs.direction[at_index(row.item)];
     }
     case Row::Kind::plates: {
@@ -373,7 +373,7 @@ void PlacedPose::add_outer(const Row& row, double weight, Eigen::Index k, Outer&
     case Row::Kind::shortest: {
       const LegRange& range = goal_.ranges[at_index(row.range)];
       const double sign = row.kind == Row::Kind::longest ? 1.0 : -1.0, length = at.legs.length[row.item];
-      state.add_leg(1, row.item, sign / (range.logarithm ? length : range.size), g);
+      state.add_leg(1, row.item, sign / range.spread.slope_over(length, range.size), g);
       if (range.in_zp) state.add_zp(-sign * length / (range.size * zp()), g);
       out.by_ranges(k, 9 * row.range + row.item) -= sign * weight;
       break;

@@ -89,7 +89,7 @@ class PlacedPose {
   PreparedProblem p_;
   std::vector<PoseSpec> specs_;
   std::array<int, 3> shift_variable_{};
-  std::unique_ptr<Constraint> between_plates_;
+  std::unique_ptr<SolverRows> between_plates_;
   DesignEvaluation design_;
   RowSelection none_, selection_;
   std::vector<Row> rows_;

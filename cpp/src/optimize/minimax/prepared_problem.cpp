@@ -26,8 +26,8 @@ const std::string condition_limit_name = "condition_limit", neutral_condition_li
 int count_auxiliary(const Problem& problem) {
   int count = 0;
   for (const Limit& limit : problem.limits)
-    count +=
-        make_constraint(limit, static_cast<int>(problem.objective.poses.size()), Purpose::solve, {})->auxiliary_count();
+    count += make_solver_rows(limit, static_cast<int>(problem.objective.poses.size()), Purpose::solve, {})
+                 ->auxiliary_count();
   return count;
 }
 
@@ -84,7 +84,7 @@ PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpo
   const bool pairs = std::ranges::any_of(problem.limits, of_pairs);
   const std::array<bool, leg_pairs> exempt = pairs ? exempt_pairs(problem) : std::array<bool, leg_pairs>{};
   for (const Limit& limit : problem.limits) {
-    constraints.push_back(make_constraint(limit, objective_poses, purpose, exempt));
+    constraints.push_back(make_solver_rows(limit, objective_poses, purpose, exempt));
     const int own = constraints.back()->auxiliary_count();
     if (own > 0)
       constraints.back()->set_auxiliary(full + auxiliary_count, coordinates.coordinate(full + auxiliary_count));
@@ -187,13 +187,14 @@ double PreparedProblem::margin_price(int k) const {
 
 ShownMargin PreparedProblem::shown_margin(int k, double margin) const {
   const auto [constraint, row] = margins[at_index(k)];
-  return constraint < 0 ? share_of_limit(Side::high, margin) : constraints[at_index(constraint)]->shown(row, margin);
+  return constraint < 0 ? share_of_limit(SolverMargin::logarithm, Side::high, margin)
+                        : constraints[at_index(constraint)]->shown(row, margin);
 }
 
 double PreparedProblem::limited_value(int k, double margin) const {
   const auto [constraint, row] = margins[at_index(k)];
   if (constraint < 0) return condition_limit(-1 - constraint) * std::exp(-margin);
-  const Constraint& c = *constraints[at_index(constraint)];
+  const SolverRows& c = *constraints[at_index(constraint)];
   return c.value_at(c.side_of(row), margin);
 }
 

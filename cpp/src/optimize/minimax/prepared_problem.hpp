@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "problem/constraints/constraint.hpp"
+#include "problem/constraints/solver_rows.hpp"
 #include "problem/pose_index.hpp"
 
 namespace ninedof {
@@ -36,7 +36,7 @@ struct PreparedProblem {
   std::vector<PoseSpec> pose_specs;
   int objective_poses;       ///< 0: the neutral one is evaluated
   std::vector<bool> closed;  ///< of each evaluated spectrum: whether the closed form is used
-  std::vector<std::unique_ptr<Constraint>> constraints;
+  std::vector<std::unique_ptr<SolverRows>> constraints;
   std::vector<MarginRow> margins;
   std::vector<RowLevel> row_levels;
   /// Platform joints whose distance may be the characteristic length, see length_joint.hpp; empty unless it has a kink.

@@ -295,7 +295,7 @@ std::string Relaxation::enough(const StudyDemand& demand, const Eigen::VectorXd&
   const auto [constraint, row] = p_.margins[at_index(demand.margins.front())];
   if (constraint < 0)
     return demand.name + " <= " + rounded(p_.condition_limit(-1 - constraint) * std::exp(-margin), true);
-  const Constraint& c = *p_.constraints[at_index(constraint)];
+  const SolverRows& c = *p_.constraints[at_index(constraint)];
   const Side side = c.side_of(row);
   const bool angle = is_angle(c.limit()), high = side == Side::high;
   const double value = c.value_at(side, margin) / (angle ? degree : 1.0);

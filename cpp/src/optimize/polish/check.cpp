@@ -88,8 +88,8 @@ double margin_of_ranges(const Problem& problem, double zp, const LegLimits& leng
     range.set_zp(zp);
     const auto measured = [&](double length) { return range.measured(length); };
     const Vec9 low = lengths.low.unaryExpr(measured), high = lengths.high.unaryExpr(measured);
-    const double spread = range.each_leg ? (high - low).maxCoeff() : high.maxCoeff() - low.minCoeff();
-    out = std::min(out, range.logarithm ? 1.0 - std::exp(spread) / range.most : 1.0 - spread);
+    const double spread = range.spread.each_leg ? (high - low).maxCoeff() : high.maxCoeff() - low.minCoeff();
+    out = std::min(out, range.spread.ratio ? 1.0 - std::exp(spread) / range.most : 1.0 - spread);
   }
   return out;
 }

@@ -65,8 +65,8 @@ std::vector<Look::Worst> nearly_too_far_apart(const Problem& there, const Eigen:
     const Vec9 high = longest.unaryExpr(measured), low = shortest.unaryExpr(measured);
     const double near = range.width() - worst_window;
     for (Eigen::Index leg = 0; leg < 9; ++leg) {
-      const double top = range.each_leg ? high[leg] : high.maxCoeff();
-      const double bottom = range.each_leg ? low[leg] : low.minCoeff();
+      const double top = range.spread.each_leg ? high[leg] : high.maxCoeff();
+      const double bottom = range.spread.each_leg ? low[leg] : low.minCoeff();
       long_joins[at_index(leg)] |= measured(long_here[leg]) - bottom > near;
       short_joins[at_index(leg)] |= top - measured(short_here[leg]) > near;
     }

@@ -44,7 +44,7 @@ std::vector<PlacedRows> RuleRows::at(const std::vector<Placed>& places, const Ei
     for (Eigen::Index row = rows.of_index; row < rows.value.size(); ++row) {
       const Eigen::Index middle = middle_of(rows, row).first;
       const bool common = middle >= 0 && std::ranges::any_of(spreads_, [middle](const Spread& spread) {
-                            return !spread.range.each_leg && spread.first == middle;
+                            return !spread.range.spread.each_leg && spread.first == middle;
                           });
       rows.value[row] = common || !rows.by_shift.row(row).isZero(0.0)
                             ? weight * (rows.value[row] + (middle < 0 ? margin : 0.5 * margin))

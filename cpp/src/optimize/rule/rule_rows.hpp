@@ -36,7 +36,7 @@ class RuleRows {
   struct Spread {
     LegRange range;  // about middles of zero
     Eigen::Index first;  // of its middles
-    Eigen::Index middle(Eigen::Index leg) const { return range.each_leg ? first + leg : first; }
+    Eigen::Index middle(Eigen::Index leg) const { return range.spread.each_leg ? first + leg : first; }
   };
 
   const RuleTask& task_;

@@ -1,17 +1,17 @@
 /// O between the plates (eq. 9b) where the optimizer places it: above the plane of the base frame and below that of the
 /// platform frame in every such pose. Beyond either plane O would be on the far side of a singularity.
-/// Declared in problem/constraints/constraint.hpp.
+/// Declared in problem/constraints/solver_rows.hpp.
 
 #include <Eigen/Geometry>
 
-#include "problem/constraints/constraint.hpp"
+#include "problem/constraints/solver_rows.hpp"
 
 namespace ninedof {
 namespace {
 
-class BetweenPlates : public Constraint {
+class BetweenPlates : public SolverRows {
  public:
-  explicit BetweenPlates(std::vector<int> poses) : Constraint(named()), poses_(std::move(poses)) {}
+  explicit BetweenPlates(std::vector<int> poses) : SolverRows(named(), SolverMargin::plain), poses_(std::move(poses)) {}
   double price_factor(int) const override { return 0.0; }
 
  private:
@@ -21,7 +21,6 @@ class BetweenPlates : public Constraint {
     l.low = plate_gap;
     return l;
   }
-  SolverMargin form() const override { return SolverMargin::plain; }
   int items(Side) const override { return 2 * static_cast<int>(poses_.size()); }
   int pose(const DesignState& v, int item) const override { return v.first_pose + poses_[at_index(item / 2)]; }
   static Vec3 below(const PoseState& at) { return at.at[point_p] - at.at[point_s]; }
@@ -53,7 +52,7 @@ class BetweenPlates : public Constraint {
 
 }  // namespace
 
-std::unique_ptr<Constraint> make_between_plates(std::vector<int> poses) {
+std::unique_ptr<SolverRows> make_between_plates(std::vector<int> poses) {
   return std::make_unique<BetweenPlates>(std::move(poses));
 }
 

@@ -1,16 +1,15 @@
-/// A limit of the design alone. Declared in problem/constraints/constraint.hpp.
+/// A limit of the design alone. Declared in problem/constraints/solver_rows.hpp.
 
-#include "problem/constraints/constraint.hpp"
+#include "problem/constraints/solver_rows.hpp"
 
 namespace ninedof {
 namespace {
 
-class DesignLimit : public Constraint {
+class DesignLimit : public SolverRows {
  public:
-  DesignLimit(const Limit& limit, const LimitRow& row) : Constraint(limit), row_(row) {}
+  DesignLimit(const Limit& limit, const LimitRow& row) : SolverRows(limit, row.solver), row_(row) {}
 
  private:
-  SolverMargin form() const override { return row_.solver; }
   int items(Side side) const override { return row_.design->items(side); }
   Touched<double> touched(const DesignState& v, std::pair<int, int> joints) const {
     const Blueprint& b = v.blueprint;
@@ -39,7 +38,7 @@ class DesignLimit : public Constraint {
 
 }  // namespace
 
-std::unique_ptr<Constraint> make_design_limit(const Limit& limit, const LimitRow& row) {
+std::unique_ptr<SolverRows> make_design_limit(const Limit& limit, const LimitRow& row) {
   return std::make_unique<DesignLimit>(limit, row);
 }
 

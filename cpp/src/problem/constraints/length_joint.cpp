@@ -11,9 +11,10 @@ constexpr double same_distance = 1e-12;
 /// Margin of the joint itself, which is no limit.
 constexpr double no_limit = 1.0;
 
-class LengthJoint : public Constraint {
+class LengthJoint : public SolverRows {
  public:
-  explicit LengthJoint(std::vector<int> joints) : Constraint(unnamed()), joints_(std::move(joints)) {}
+  explicit LengthJoint(std::vector<int> joints)
+      : SolverRows(unnamed(), SolverMargin::logarithm), joints_(std::move(joints)) {}
   bool analytic() const override { return false; }
   double price_factor(int) const override { return 0.0; }
 
@@ -58,7 +59,7 @@ std::vector<int> joints_of_distinct_distance(const std::vector<DesignState>& des
   return out;
 }
 
-std::unique_ptr<Constraint> make_length_joint(std::vector<int> joints) {
+std::unique_ptr<SolverRows> make_length_joint(std::vector<int> joints) {
   return std::make_unique<LengthJoint>(std::move(joints));
 }
 

@@ -5,7 +5,7 @@
 /// k, and no other distance is larger. The pieces meet where distances tie. A design there is a minimum if it is one of
 /// every piece it belongs to.
 
-#include "problem/constraints/constraint.hpp"
+#include "problem/constraints/solver_rows.hpp"
 
 namespace ninedof {
 
@@ -13,6 +13,6 @@ namespace ninedof {
 std::vector<int> joints_of_distinct_distance(const std::vector<DesignState>& designs);
 
 /// No joint of `joints` is farther than DesignState::length_joint; no limit where that is -1.
-std::unique_ptr<Constraint> make_length_joint(std::vector<int> joints);
+std::unique_ptr<SolverRows> make_length_joint(std::vector<int> joints);
 
 }  // namespace ninedof

@@ -1,19 +1,19 @@
 /// A limit at every pose, and where its row says so at home and on the way there.
-/// Declared in problem/constraints/constraint.hpp.
+/// Declared in problem/constraints/solver_rows.hpp.
 
 #include <algorithm>
 
-#include "problem/constraints/constraint.hpp"
+#include "problem/constraints/solver_rows.hpp"
 
 namespace ninedof {
 namespace {
 
 constexpr double beyond_all = 1e150;  // a condition number without end, to the solver
 
-class PoseLimit : public Constraint {
+class PoseLimit : public SolverRows {
  public:
   PoseLimit(const Limit& limit, const LimitRow& row, int poses, const std::array<bool, leg_pairs>& exempt)
-      : Constraint(limit),
+      : SolverRows(limit, row.solver),
         row_(row),
         poses_(row.on_the_way() ? 1 + poses * limit.steps : std::max(poses, 1)),
         exempt_(exempt),
@@ -23,7 +23,7 @@ class PoseLimit : public Constraint {
   bool analytic() const override { return !row_.pose->pairs && *row_.info.needs == '\0'; }
 
   void margins(const DesignState& v, std::span<const MarginRow> rows, double* out) const override {
-    if (row_.pose->numbers == nullptr) return Constraint::margins(v, rows, out);
+    if (row_.pose->numbers == nullptr) return SolverRows::margins(v, rows, out);
     std::array<double, 9> numbers;
     int known = -1;  // the pose that they are of
     for (const MarginRow& row : rows) {
@@ -37,7 +37,6 @@ class PoseLimit : public Constraint {
   }
 
  private:
-  SolverMargin form() const override { return row_.solver; }
   int items(Side) const override { return row_.pose->items * poses_; }
   int index(int item) const { return item % row_.pose->items; }
   std::string part(int item) const override { return row_.pose->part(index(item)); }
@@ -83,7 +82,7 @@ class PoseLimit : public Constraint {
 
 }  // namespace
 
-std::unique_ptr<Constraint> make_pose_limit(const Limit& limit, const LimitRow& row, int poses,
+std::unique_ptr<SolverRows> make_pose_limit(const Limit& limit, const LimitRow& row, int poses,
                                             const std::array<bool, leg_pairs>& exempt) {
   return std::make_unique<PoseLimit>(limit, row, poses, exempt);
 }

@@ -1,6 +1,6 @@
 /// leg_ratio: longest over shortest leg, of all legs at all poses where the limit holds. stroke: longest less shortest
 /// length of each leg over those poses; stroke_ratio: longest over shortest. Declared in
-/// problem/constraints/constraint.hpp.
+/// problem/constraints/solver_rows.hpp.
 ///
 /// With phi the logarithm of a length, or its quotient by the limit, the limit is  phi(longest) - phi(shortest) <=
 /// room. Which legs those are changes from design to design. For a few legs every ordered pair is a margin. For many
@@ -10,16 +10,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "problem/constraints/constraint.hpp"
+#include "problem/constraints/solver_rows.hpp"
 
 namespace ninedof {
 namespace {
 
-class Spread : public Constraint {
+class Spread : public SolverRows {
  public:
   /// One group of all legs, or one for each leg; a leg at each of `poses` poses is a member.
   Spread(const Limit& limit, const LimitRow& row, int poses, Purpose purpose)
-      : Constraint(limit),
+      : SolverRows(limit, row.solver),
         row_(row),
         each_leg_(row.spread->each_leg),
         groups_(each_leg_ ? 9 : 1),
@@ -53,7 +53,6 @@ class Spread : public Constraint {
 
  private:
   std::string part(int item) const override { return each_leg_ && way_ == Way::ruling ? leg_name(item) : ""; }
-  SolverMargin form() const override { return row_.solver; }
   enum class Way { pairs, auxiliary, ruling };
   static constexpr int few = 9;
 
@@ -84,20 +83,14 @@ class Spread : public Constraint {
     return each_leg_ ? LegExtreme{v.shortest_of[at_index(group)], group} : v.shortest;
   }
 
-  double room() const { return row_.spread->ratio ? std::log(limit().high) : 1.0; }
-  double phi(const DesignState& v, const LegExtreme& l) const {
-    if (row_.spread->ratio) return std::log(v.length(l) / v.unit);
-    return v.length(l) / (limit().high * unit(v));
-  }
+  double room() const { return row_.spread->width(limit().high); }
+  double size(const DesignState& v) const { return row_.spread->ratio ? v.unit : limit().high * unit(v); }
+  double phi(const DesignState& v, const LegExtreme& l) const { return row_.spread->measured(v.length(l), size(v)); }
   void add_phi(const DesignState& v, const LegExtreme& l, double scale, Row out) const {
-    const double length = v.length(l);
-    if (row_.spread->ratio) {
-      if (length > 0.0) v.add_leg(l.pose, l.leg, scale / length, out);
-      return;
-    }
-    const double size = limit().high * unit(v);
-    v.add_leg(l.pose, l.leg, scale / size, out);
-    add_unit_gradient(v, -scale * length * limit().high / (size * size), out);
+    const double length = v.length(l), size = this->size(v);
+    const bool ratio = row_.spread->ratio;
+    if (!ratio || length > 0.0) v.add_leg(l.pose, l.leg, scale / row_.spread->slope_over(length, size), out);
+    if (!ratio) add_unit_gradient(v, -scale * length * limit().high / (size * size), out);
   }
   std::pair<LegExtreme, LegExtreme> pair(const DesignState& v, int group, int item) const {
     if (way_ == Way::ruling) return {longest(v, group), shortest(v, group)};
@@ -106,7 +99,8 @@ class Spread : public Constraint {
   }
 
   double item_margin(const DesignState& v, Side side, int item) const override {
-    if (side == Side::low) return phi(v, longest(v, item)) - phi(v, shortest(v, item)) - std::log(limit().low);
+    if (side == Side::low)
+      return phi(v, longest(v, item)) - phi(v, shortest(v, item)) - row_.spread->width(limit().low);
     const int group = item / each(), k = item % each();
     if (way_ != Way::auxiliary) {
       const auto [a, b] = pair(v, group, k);
@@ -141,7 +135,7 @@ class Spread : public Constraint {
 
 }  // namespace
 
-std::unique_ptr<Constraint> make_spread(const Limit& limit, const LimitRow& row, int poses, Purpose purpose) {
+std::unique_ptr<SolverRows> make_spread(const Limit& limit, const LimitRow& row, int poses, Purpose purpose) {
   return std::make_unique<Spread>(limit, row, std::max(poses, 1), purpose);
 }
 

@@ -188,7 +188,7 @@ Found Spreads::look_at(const Spread& spread, int longest, int shortest, bool clo
 }
 
 Plane Spreads::margin(const Spread& spread, const Plane& less_longest, const Plane& shortest, bool above) const {
-  const double k = spread.row->ratio ? spread.high : 1.0;
+  const double k = spread.row->share(spread.high);
   Plane out = below_sum(less_longest, k, shortest);
   if (above) out.c += 2.0 * (less_longest.c + k * shortest.c - out.c);  // what rounding may take, upward
   if (spread.row->ratio) return out;

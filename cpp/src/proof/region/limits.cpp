@@ -16,12 +16,6 @@ namespace {
 
 using over_region::Questions;
 
-/// Longest over shortest: a shortest length whose enclosure touches 0 leaves no upper end.
-Interval ratio_of(const Interval& longest, const Interval& shortest) {
-  return {std::max(detail::below(longest.lo / shortest.hi), 0.0),
-          shortest.lo > 0.0 ? detail::above(longest.hi / shortest.lo) : infinity};
-}
-
 class Statements {
  public:
   Statements(const PosedRobot& machine, const std::array<bool, 21>& exempt, double slack, const ProofSettings& settings,
@@ -276,11 +270,11 @@ class Statements {
     }
     Interval value(-infinity);
     for (const Leg& leg : legs) {
-      Interval one = stroke.row->ratio ? ratio_of(leg.longest, leg.shortest) : leg.longest - leg.shortest;
+      Interval one = stroke.row->of(leg.longest, leg.shortest);
       if (leg.reading > 0.0) {
         // The machine of the drawing has the lower end.
         const Interval reading(leg.reading), longest = leg.longest - reading, shortest = leg.shortest + reading;
-        one.lo = std::max((stroke.row->ratio ? ratio_of(longest, shortest) : longest - shortest).lo, 0.0);
+        one.lo = std::max(stroke.row->of(longest, shortest).lo, 0.0);
         const Interval travel = Interval((longest - shortest).hi) + Interval(leg.apart), least(leg.shortest.lo);
         if (!stroke.row->ratio) one.hi = std::min(one.hi, travel.hi);
         else if (least.lo > 0.0) one.hi = std::min(one.hi, (Interval(1.0) + travel / least).hi);

@@ -3,7 +3,7 @@
 
 #include <mutex>
 
-#include "workspace/criteria/pose_margins.hpp"
+#include "workspace/criteria/limits_at_points.hpp"
 
 namespace ninedof {
 
@@ -18,7 +18,7 @@ using Anchors = std::array<Anchor, 2>;
 /// result then does not depend on the order of the points or on the number of threads.
 class BestPoints {
  public:
-  explicit BestPoints(const Margins& margins) : margins_(margins) {}
+  explicit BestPoints(const LimitsAtPoints& margins) : margins_(margins) {}
 
   bool needed() const { return margins_.placement().searched(); }
   /// Makes room for numbers below `count`.
@@ -45,7 +45,7 @@ class BestPoints {
   double distance(const Vec3& x, const Vec3& y) const;
   void note(const InternalPoint& followed, const InternalPoint& searched);
 
-  const Margins& margins_;
+  const LimitsAtPoints& margins_;
   std::vector<Vec3> kept_;
   std::vector<char> mapped_;
   std::mutex guard_;  // of the audit, whose counts and maximum do not depend on the order

@@ -48,7 +48,7 @@ std::uint32_t KeyTable::add(std::uint64_t key) {
   return slots_[at].index;
 }
 
-CellLattice::CellLattice(const Margins& margins, int resolution, int threads)
+CellLattice::CellLattice(const LimitsAtPoints& margins, int resolution, int threads)
     : margins_(margins),
       best_(margins),
       low_(margins.chart().low()),

@@ -67,7 +67,7 @@ using NinePoints = std::array<std::uint32_t, 9>;
 
 class CellLattice {
  public:
-  CellLattice(const Margins& margins, int resolution, int threads);
+  CellLattice(const LimitsAtPoints& margins, int resolution, int threads);
 
   static constexpr int deepest = 10;
   /// The cells of level 0, the first index running fastest.
@@ -95,7 +95,7 @@ class CellLattice {
   Anchors around(std::uint64_t key) const;
   Anchors around(const Cell& cell, const Vec3& x) const;
 
-  const Margins& margins_;
+  const LimitsAtPoints& margins_;
   BestPoints best_;
   Vec3 low_, step_;  // of the finest lattice, which contains the centres of the deepest cells
   int resolution_, threads_;

@@ -14,7 +14,7 @@ namespace {
 constexpr double curvature_factor = 2.0;
 
 /// Volume and conditioning from the corners and the centre. Trapezium and midpoint rule together are exact for cubics.
-void integrate(const NinePoints& points, const CellLattice& lattice, const Margins& margins, Leaf& leaf) {
+void integrate(const NinePoints& points, const CellLattice& lattice, const LimitsAtPoints& margins, Leaf& leaf) {
   const Chart& chart = margins.chart();
   const double volume = lattice.size(leaf.cell.level).prod();
   double corner_density = 0.0, corner_sum = 0.0, corner_weight = 0.0;
@@ -46,7 +46,7 @@ void integrate(const NinePoints& points, const CellLattice& lattice, const Margi
 
 }  // namespace
 
-Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& lattice, const Margins& margins) {
+Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& lattice, const LimitsAtPoints& margins) {
   Leaf leaf;
   leaf.cell = cell;
   const int groups = margins.groups();

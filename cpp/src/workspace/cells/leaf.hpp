@@ -29,7 +29,7 @@ struct Leaf {
 
 /// The leaf of a cell. Inside or outside if the bounds of legs and region decide, and for each other margin if all nine
 /// points agree by more than it may curve between them; else on the boundary.
-Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& lattice, const Margins& margins);
+Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& lattice, const LimitsAtPoints& margins);
 
 /// Connected pieces of the allowed cells, largest first, or that with `home` first. Sets Leaf::piece, returns their
 /// volumes. Cells are connected if an allowed corner lies on the face they share. Nothing is connected with a home that

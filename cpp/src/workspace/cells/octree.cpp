@@ -16,8 +16,8 @@ constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and 
 
 class OctreeBuilder {
  public:
-  OctreeBuilder(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings, bool home_allowed,
-                const Control& control)
+  OctreeBuilder(const LimitsAtPoints& margins, CellLattice& lattice, const WorkspaceSettings& settings,
+                bool home_allowed, const Control& control)
       : m_(margins), settings_(settings), home_allowed_(home_allowed), control_(control), lattice_(lattice) {}
 
   WorkspaceStatus run(bool first_piece_alone) {
@@ -193,7 +193,7 @@ class OctreeBuilder {
     return {};
   }
 
-  const Margins& m_;
+  const LimitsAtPoints& m_;
   const WorkspaceSettings& settings_;
   const bool home_allowed_;
   const Control& control_;
@@ -210,7 +210,7 @@ class OctreeBuilder {
 
 }  // namespace
 
-Octree grow_octree(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
+Octree grow_octree(const LimitsAtPoints& margins, CellLattice& lattice, const WorkspaceSettings& settings,
                    bool first_piece_alone, bool home_allowed, const Control& control) {
   OctreeBuilder builder(margins, lattice, settings, home_allowed, control);
   builder.tree.status = builder.run(first_piece_alone);

@@ -24,7 +24,7 @@ struct Octree {
 
 /// Divides until the error is small enough. The cell of an allowed home pose is divided as long as it has no allowed
 /// corner; with `first_piece_alone` the volume is that of its piece.
-Octree grow_octree(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
+Octree grow_octree(const LimitsAtPoints& margins, CellLattice& lattice, const WorkspaceSettings& settings,
                    bool first_piece_alone, bool home_allowed, const Control& control);
 
 }  // namespace ninedof

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "workspace/criteria/pose_margins.hpp"
+#include "workspace/criteria/limits_at_points.hpp"
 
 namespace ninedof {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The boxes of a certified workspace: a tree, each box either whole or halved.
 
-#include "workspace/certified/pose_cuts.hpp"
+#include "workspace/certified/limits_over_box.hpp"
 
 namespace ninedof::certified {
 
@@ -35,7 +35,7 @@ inline Interval volume_of(const PositionBox& box) {
 }
 
 /// Looks at a box: what was open in the box that it is a part of.
-Seen seen_of(const PoseCuts& cuts, const PositionBox& box, const std::vector<Seen::Left>& left, bool some);
+Seen seen_of(const LimitsOverBox& cuts, const PositionBox& box, const std::vector<Seen::Left>& left, bool some);
 
 /// Whether the point of a box, on its boundary or inside, is proved to be allowed.
 bool proved_at(const Node& leaf, const Vec3& x);

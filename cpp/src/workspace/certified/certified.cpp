@@ -65,8 +65,8 @@ std::vector<PositionBox> rest_of(PositionBox all, const PositionBox& box) {
   return out;
 }
 
-CertifiedWorkspace::Beyond beyond(const PoseCuts& cuts, const PositionBox& reached, const PositionBox& box, bool some,
-                                  const std::function<bool()>& over) {
+CertifiedWorkspace::Beyond beyond(const LimitsOverBox& cuts, const PositionBox& reached, const PositionBox& box,
+                                  bool some, const std::function<bool()>& over) {
   using Beyond = CertifiedWorkspace::Beyond;
   if ((reached.low.array() > reached.high.array()).any()) return Beyond::nothing;  // no leg lengths fit anywhere
   if (!(reached.low.allFinite() && reached.high.allFinite())) return Beyond::unknown;
@@ -117,7 +117,7 @@ CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain&
   const int exponent = exponent_of(asked);
   const Question question = scaled(asked, exponent);
   const bool some = domain.archetype == Archetype::reachable;
-  const PoseCuts cuts(question.geometry, question.domain, question.rule, question.criteria, question.home);
+  const LimitsOverBox cuts(question.geometry, question.domain, question.rule, question.criteria, question.home);
   const PositionBox given{question.domain.low, question.domain.high}, reached = cuts.reached();
   const PositionBox box{given.low.cwiseMax(reached.low), given.high.cwiseMin(reached.high)};
 

@@ -25,7 +25,7 @@ double plain_volume(const PositionBox& box) {
   return (box.high - box.low).prod();
 }
 
-std::vector<Seen::Left> everything(const PoseCuts& cuts) {
+std::vector<Seen::Left> everything(const LimitsOverBox& cuts) {
   std::vector<Seen::Left> out;
   for (std::size_t r = 0; r < cuts.rotations(); ++r) out.push_back({static_cast<std::uint32_t>(r), cuts.all()});
   return out;
@@ -43,14 +43,14 @@ std::vector<PositionBox> halves_of(const PositionBox& box) {
   return out;
 }
 
-Grown seed(const PoseCuts& cuts, const PositionBox& box, bool some) {
+Grown seed(const LimitsOverBox& cuts, const PositionBox& box, bool some) {
   Grown out;
   out.tree.push_back({box, seen_of(cuts, box, everything(cuts), some)});
   out.looked = 1;
   return out;
 }
 
-void grow(Grown& out, const PoseCuts& cuts, bool some, const CertifySettings& settings,
+void grow(Grown& out, const LimitsOverBox& cuts, bool some, const CertifySettings& settings,
           const std::function<bool()>& time_is_over, const Control& control) {
   Tree& tree = out.tree;
   out.end = End::gap;
@@ -123,7 +123,7 @@ void grow(Grown& out, const PoseCuts& cuts, bool some, const CertifySettings& se
   if (stuck && !(high - low <= settings.gap * high)) out.end = End::smallest;
 }
 
-CertifiedWorkspace::Beyond anything_in(const PoseCuts& cuts, const PositionBox& box, bool some, long looks,
+CertifiedWorkspace::Beyond anything_in(const LimitsOverBox& cuts, const PositionBox& box, bool some, long looks,
                                        const std::function<bool()>& over) {
   using Beyond = CertifiedWorkspace::Beyond;
   struct Part {

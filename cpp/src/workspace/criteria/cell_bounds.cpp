@@ -55,6 +55,7 @@ CellBounds::CellBounds(const Geometry& g, const WorkspaceDomain& domain, const C
     }
 }
 
+// Over a box a leg is a box of vectors: its length and its cone have exact ends, where forms of the rows leave a rest.
 CellBounds::Range CellBounds::length(const Leg& leg, std::size_t r, const Vec3& centre, const Vec3& half) const {
   const Vec3 away = (leg.k * centre + leg.at[r]).cwiseAbs(), reach = std::abs(leg.k) * half;
   return {(away - reach).cwiseMax(0.0).norm(), (away + reach).norm()};

@@ -29,7 +29,7 @@ struct Ray {
 
 class Sampler {
  public:
-  Sampler(const Body& body, const Margins& margins, const Control& control)
+  Sampler(const Body& body, const LimitsAtPoints& margins, const Control& control)
       : body_(body), margins_(margins), control_(control) {
     for (int n = 0; n < rays; ++n) ways_.push_back(direction(n));
   }
@@ -115,14 +115,14 @@ class Sampler {
   }
 
   const Body& body_;
-  const Margins& margins_;
+  const LimitsAtPoints& margins_;
   const Control& control_;
   std::vector<Vec3> ways_;
 };
 
 }  // namespace
 
-double allowed_scale(const Body& body, const Margins& margins, const Control& control) {
+double allowed_scale(const Body& body, const LimitsAtPoints& margins, const Control& control) {
   Body now = body;
   double proved = 1.0;
   if (margins.bounds().covers_bodies()) {

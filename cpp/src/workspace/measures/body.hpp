@@ -1,7 +1,7 @@
 #pragma once
 /// How much of a ball or a box is allowed.
 
-#include "workspace/criteria/pose_margins.hpp"
+#include "workspace/criteria/limits_at_points.hpp"
 
 namespace ninedof {
 
@@ -19,6 +19,6 @@ struct Body {
 /// The greatest scale, at most 1, at which no forbidden point of a body is found. For positions, other than reachable
 /// ones, leg lengths are proved to be within their limits in all of it. The other criteria are sampled: on 500 rays,
 /// at several depths, and on the surface down to the least margins near the worst of these rays. Throws Stopped.
-double allowed_scale(const Body& body, const Margins& margins, const Control& control);
+double allowed_scale(const Body& body, const LimitsAtPoints& margins, const Control& control);
 
 }  // namespace ninedof

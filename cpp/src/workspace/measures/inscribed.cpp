@@ -71,7 +71,7 @@ double distance_from_others(const std::vector<Leaf>& leaves, const CellLattice& 
 
 }  // namespace
 
-void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const Margins& margins,
+void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const LimitsAtPoints& margins,
               const Surface& surface, bool first_piece_alone, const Control& control, WorkspaceMap& map) {
   const std::vector<Vec3> points = thinned(surface.points);
   const FreeDistance distance(margins.chart(), points);

@@ -57,7 +57,7 @@ std::vector<double> percentiles(std::vector<std::pair<double, double>> values, c
 
 }  // namespace
 
-Surface surface_of(const Octree& tree, CellLattice& lattice, const Margins& margins, bool first_piece_alone,
+Surface surface_of(const Octree& tree, CellLattice& lattice, const LimitsAtPoints& margins, bool first_piece_alone,
                    int resolution) {
   Surface out;
   out.area.assign(limit::count(), 0.0);

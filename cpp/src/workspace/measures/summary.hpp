@@ -12,7 +12,7 @@ struct Surface {
 };
 
 /// The boundary of piece 0, or of all pieces.
-Surface surface_of(const Octree& tree, CellLattice& lattice, const Margins& margins, bool first_piece_alone,
+Surface surface_of(const Octree& tree, CellLattice& lattice, const LimitsAtPoints& margins, bool first_piece_alone,
                    int resolution);
 
 /// Indices, percentiles and cells of a map from leaves.
@@ -21,7 +21,7 @@ void summarize(const std::vector<Leaf>& leaves, const CellLattice& lattice, bool
 
 /// Finds the largest ball and box that contain no point of the surface and stay in the chart, and shrinks both to what
 /// is allowed (allowed_scale), or with the best O to whole cells inside.
-void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const Margins& margins,
+void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const LimitsAtPoints& margins,
               const Surface& surface, bool first_piece_alone, const Control& control, WorkspaceMap& map);
 
 /// The largest box with edges along the axes: first one of whole cells (the largest for cells of one size); then its

@@ -7,7 +7,7 @@ namespace ninedof {
 
 class Audit {
  public:
-  Audit(CellLattice& lattice, const Margins& m, const WorkspaceSettings& settings, const Control& control)
+  Audit(CellLattice& lattice, const LimitsAtPoints& m, const WorkspaceSettings& settings, const Control& control)
       : lattice_(lattice), m_(m), settings_(settings), control_(control) {}
 
   /// Draws and evaluates the poses. Throws Stopped.
@@ -37,7 +37,7 @@ class Audit {
   double volume_of(const Leaf& leaf) const { return lattice_.size(leaf.cell.level).prod(); }
 
   CellLattice& lattice_;
-  const Margins& m_;
+  const LimitsAtPoints& m_;
   const WorkspaceSettings& settings_;
   const Control& control_;
   std::vector<Vec3> at_;

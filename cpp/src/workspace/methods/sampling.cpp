@@ -20,7 +20,7 @@ namespace {
 /// Evaluates points in order, calls take(number, point, margins) for each and reports progress between pieces of work.
 /// No more than a piece is held: memory for all margins of ten million points would take seconds to get.
 template <class PointAt, class Take>
-void evaluate_all(const Margins& m, long count, const PointAt& point_at, int threads, const Control& control,
+void evaluate_all(const LimitsAtPoints& m, long count, const PointAt& point_at, int threads, const Control& control,
                   long before, long total, const BestPoints* mapped, const Take& take) {
   const long piece = 64 * m.block();
   std::vector<Vec3> x;
@@ -45,7 +45,7 @@ void evaluate_all(const Margins& m, long count, const PointAt& point_at, int thr
 }
 
 /// Writes what follows from the volume and the number of points.
-void finish(const Margins& m, long count, int resolution, WorkspaceMap& map) {
+void finish(const LimitsAtPoints& m, long count, int resolution, WorkspaceMap& map) {
   // Rule of three: the volume missed by points spread evenly over the box, an upper bound at 95 % confidence.
   map.unseen = 3.0 * m.chart().box_volume() / static_cast<double>(count);
   if (!(map.volume > 0.0)) map.error = map.unseen;
@@ -54,7 +54,7 @@ void finish(const Margins& m, long count, int resolution, WorkspaceMap& map) {
   map.resolution = resolution;
 }
 
-Leaf point_leaf(const PointMargins& at, const Margins& m, double measure) {
+Leaf point_leaf(const PointMargins& at, const LimitsAtPoints& m, double measure) {
   Leaf leaf;
   const bool allowed = at.allowed(m.groups());
   leaf.state = allowed ? CellState::inside : CellState::outside;
@@ -72,8 +72,8 @@ Leaf point_leaf(const PointMargins& at, const Margins& m, double measure) {
 
 }  // namespace
 
-void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first_piece_alone, const Control& control,
-                 WorkspaceMap& map) {
+void map_by_grid(const LimitsAtPoints& m, const WorkspaceSettings& settings, bool first_piece_alone,
+                 const Control& control, WorkspaceMap& map) {
   const int n = settings.resolution;
   if (static_cast<double>(n) * n * n > static_cast<double>(settings.most_evaluations))
     throw InvalidArgument(
@@ -145,7 +145,8 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
   if (n <= 128) inscribe(leaves, lattice, m, surface, first_piece_alone, control, map);
 }
 
-void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const Control& control, WorkspaceMap& map) {
+void map_by_sample(const LimitsAtPoints& m, const WorkspaceSettings& settings, const Control& control,
+                   WorkspaceMap& map) {
   const Chart& chart = m.chart();
   const Vec3 side = chart.high() - chart.low();
   const double measure = chart.box_volume() / static_cast<double>(settings.points);

@@ -1,4 +1,4 @@
-#include "workspace/certified/pose_cuts.hpp"
+#include "workspace/certified/limits_over_box.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,8 +37,8 @@ FormVector centroid_of(const Triple& t) {
 
 }  // namespace
 
-PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
-                   const WorkspaceCriteria& criteria, const Configuration& home)
+LimitsOverBox::LimitsOverBox(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                             const WorkspaceCriteria& criteria, const Configuration& home)
     : geometry_(g), criteria_(criteria), rule_(rule), some_(domain.archetype == Archetype::reachable) {
   for (const Mat3& q : domain.rotations) rotations_.push_back(rotation_columns(q));
   if (criteria.legs) {
@@ -67,12 +67,12 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
   if (criteria.condition_number) conditions_.push_back({add_bit(), -1, *criteria.condition_number});
 }
 
-int PoseCuts::add_bit() {
+int LimitsOverBox::add_bit() {
   all_.set(at_index(bits_));
   return bits_++;
 }
 
-void PoseCuts::add(const PoseRow& row, const FormHome& home, const std::vector<Interval>& ranges) {
+void LimitsOverBox::add(const PoseRow& row, const FormHome& home, const std::vector<Interval>& ranges) {
   rows_.push_back({&row, home, {}});
   for (const Interval& range : ranges) {
     const bool open = range.lo == -infinity && range.hi == infinity;
@@ -81,7 +81,7 @@ void PoseCuts::add(const PoseRow& row, const FormHome& home, const std::vector<I
   }
 }
 
-void PoseCuts::require_kept(const RowCuts& cuts, const Configuration& home, const std::string& name) const {
+void LimitsOverBox::require_kept(const RowCuts& cuts, const Configuration& home, const std::string& name) const {
   const FormPose at_home = form_pose(home);
   const AsBuilt machine{geometry_};
   const FormLook look(machine, at_home, cuts.home);
@@ -94,12 +94,12 @@ void PoseCuts::require_kept(const RowCuts& cuts, const Configuration& home, cons
                               edge.at ? "one that keeps it" : "a regular one with " + name);
 }
 
-PoseForm PoseCuts::u_of(const RowCuts& cuts, const FormLook& look, int item) {
+PoseForm LimitsOverBox::u_of(const RowCuts& cuts, const FormLook& look, int item) {
   const bool whole = cuts.items[at_index(item)].edges.front().at.has_value();
   return whole ? cuts.row->form(look, item) : cuts.row->numerator(look, item);
 }
 
-FormPose PoseCuts::pose(const PositionBox& box, std::size_t rotation) const {
+FormPose LimitsOverBox::pose(const PositionBox& box, std::size_t rotation) const {
   const auto coordinate = [&](Eigen::Index k) { return PoseForm::coordinate(box.low[k], box.high[k], at_index(k)); };
   FormPose out{{coordinate(0), coordinate(1), coordinate(2)}, {}, rotations_[rotation]};
   using Kind = InternalPointRule::Kind;
@@ -115,9 +115,9 @@ FormPose PoseCuts::pose(const PositionBox& box, std::size_t rotation) const {
   return out;
 }
 
-bool PoseCuts::decided(const PoseForm& f, Found& found) {
+bool LimitsOverBox::decided(const PoseForm& f, Found& found) {
   if (!is_known(f)) {
-    put({}, found);
+    found.cuts.emplace_back();
     return false;
   }
   if (lower(f) > 0.0) return true;
@@ -125,15 +125,12 @@ bool PoseCuts::decided(const PoseForm& f, Found& found) {
     found.violated = true;
     return true;
   }
-  put({{f.a[0], f.a[1], f.a[2]}, ninedof::detail::above(f.r - f.c), ninedof::detail::below(-f.r - f.c)}, found);
+  found.cuts.push_back(
+      {{f.a[0], f.a[1], f.a[2]}, ninedof::detail::above(f.r - f.c), ninedof::detail::below(-f.r - f.c)});
   return false;
 }
 
-void PoseCuts::put(const Cut& cut, Found& found) {
-  found.cuts.push_back(cut);
-}
-
-void PoseCuts::look_at(const RowCuts& cuts, const FormPose& pose, Found& found) const {
+void LimitsOverBox::look_at(const RowCuts& cuts, const FormPose& pose, Found& found) const {
   const AsBuilt machine{geometry_};
   const FormLook look(machine, pose, cuts.home);
   for (int item = 0; item < cuts.row->items && !found.violated; ++item) {
@@ -148,19 +145,20 @@ void PoseCuts::look_at(const RowCuts& cuts, const FormPose& pose, Found& found) 
   }
 }
 
-bool PoseCuts::look_at_pair(const LegPairForms& legs, double distance, Found& found) {
+bool LimitsOverBox::look_at_pair(const LegPairForms& legs, double distance, Found& found) {
   Cut apart;
   if (all_apart(legs, distance, apart)) return true;
-  put(apart, found);
+  found.cuts.push_back(apart);
   const PoseForm lack = PoseForm::of(square(Interval(distance))) - squared_distance_above(legs);
   if (!is_known(lack)) return false;
   if (lower(lack) > 0.0) found.violated = true;
   // Less than the distance apart where lack > 0: slope . t below.
-  else put({{-lack.a[0], -lack.a[1], -lack.a[2]}, -infinity, ninedof::detail::below(lack.c - lack.r)}, found);
+  else found.cuts.push_back({{-lack.a[0], -lack.a[1], -lack.a[2]}, -infinity, ninedof::detail::below(lack.c - lack.r)});
   return false;
 }
 
-bool PoseCuts::all_apart(const LegPairForms& legs, double distance, Cut& apart) {
+bool LimitsOverBox::all_apart(const LegPairForms& legs, double distance, Cut& apart) {
+  // The row has no form: what the least of four forms is above is known by planes, not by a form.
   FormVector direction = turning_direction(legs);
   if (!is_known(direction.x)) direction = fixed_direction(legs);
   // The distance is at least the least of four numbers; each is above a plane of one slope, that of the least of them.
@@ -186,7 +184,7 @@ bool PoseCuts::all_apart(const LegPairForms& legs, double distance, Cut& apart) 
   return false;
 }
 
-void PoseCuts::look_at(const ConditionLimit& limit, const FormPose& pose, Found& found) const {
+void LimitsOverBox::look_at(const ConditionLimit& limit, const FormPose& pose, Found& found) const {
   if (!found.open[at_index(limit.bit)]) return;
   Moves unused;
   const forms::ConditionSplit split = forms::split_by_condition(
@@ -196,17 +194,18 @@ void PoseCuts::look_at(const ConditionLimit& limit, const FormPose& pose, Found&
     return;
   }
   if (!is_known(split.excess)) {
-    put({}, found);
+    found.cuts.emplace_back();
     return;
   }
   if (lower(split.excess) > 0.0) {
     found.violated = true;
     return;
   }
-  put({split.slope, split.level, ninedof::detail::below(split.excess.c - split.excess.r)}, found);
+  found.cuts.push_back({split.slope, split.level, ninedof::detail::below(split.excess.c - split.excess.r)});
 }
 
-PoseCuts::Found PoseCuts::look(const PositionBox& box, std::size_t rotation, Criteria open, bool cheap_ones) const {
+LimitsOverBox::Found LimitsOverBox::look(const PositionBox& box, std::size_t rotation, Criteria open,
+                                         bool cheap_ones) const {
   const FormPose at = pose(box, rotation);
   Found found{open, false, {}};
   for (const RowCuts& row : rows_)
@@ -216,10 +215,10 @@ PoseCuts::Found PoseCuts::look(const PositionBox& box, std::size_t rotation, Cri
   return found;
 }
 
-PositionBox PoseCuts::reached_with(std::size_t rotation) const {
+PositionBox LimitsOverBox::reached_with(std::size_t rotation) const {
   PositionBox out{Vec3::Constant(-infinity), Vec3::Constant(infinity)};
   if (!criteria_.legs) return out;
-  // A leg is k p + what it is at p = 0.
+  // A leg is k p + what it is at p = 0: solved for p, which a form over a box of p cannot be.
   const FormPose zero = pose({Vec3::Zero(), Vec3::Zero()}, rotation);
   using Kind = InternalPointRule::Kind;
   const Interval share = rule_.kind == Kind::fixed ? 0.0 : rule_.kind == Kind::platform ? 1.0 : rule_.fraction;
@@ -239,7 +238,7 @@ PositionBox PoseCuts::reached_with(std::size_t rotation) const {
   return out;
 }
 
-PositionBox PoseCuts::reached() const {
+PositionBox LimitsOverBox::reached() const {
   PositionBox out = reached_with(0);
   for (std::size_t r = 1; r < rotations_.size(); ++r) {
     const PositionBox one = reached_with(r);

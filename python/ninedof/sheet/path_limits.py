@@ -13,7 +13,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.limit_numbers import CLEARANCE, CONES, PARTS, SPREADS, apart, leg_number
-from ninedof.design.limits import OF_LENGTHS, ROWS, kind_of
+from ninedof.design.limits import OF_LENGTHS, kind_of
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.follow import Followed, LimitBreak
@@ -46,7 +46,7 @@ class PoseLimit(NamedTuple):
         return f"{self.name} {self.part}".strip()
 
 
-def pose_limits(
+def limits_at_poses(
     study: Study,
     g: Geometry,
     c: Configuration,
@@ -91,10 +91,8 @@ def _spreads(name: str, lengths: Floats, beside: Floats | None) -> list[tuple[st
         long, short = np.maximum.accumulate(lengths, axis=0), np.minimum.accumulate(lengths, axis=0)
     else:
         long, short = np.maximum(lengths, beside.max(axis=0)), np.minimum(lengths, beside.min(axis=0))
-    if name == "leg_ratio":
-        return [("", long.max(axis=1) / short.min(axis=1))]
-    spread = long - short if ROWS[name].kind == "length" else long / short
-    return list(zip(LEGS, spread.T, strict=True))
+    numbers = _core.spread_numbers(name, long, short)
+    return list(zip(LEGS if numbers.shape[1] > 1 else [""], numbers.T, strict=True))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -180,7 +178,7 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     instance("study", study, Study)
     g = instance("followed", followed, Followed).geometry
     single(g, home, "home")
-    every = pose_limits(study, g, followed.configurations, home, followed.characteristic_length)
+    every = limits_at_poses(study, g, followed.configurations, home, followed.characteristic_length)
     forces, rates = followed.leg_forces, followed.leg_rates
     moving = {"rate": rates} if forces is None else {"rate": rates, "force": forces, "power": forces * rates}
     rows = [one for one in every if one.name not in OF_LENGTHS and leg_number(one.name) not in moving]

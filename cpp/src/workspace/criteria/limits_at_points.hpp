@@ -38,12 +38,12 @@ struct PointMargins {
 /// The best O at point k of a block with rotation r of the domain.
 using BestAt = std::function<InternalPoint(long k, std::size_t r, const PlatformPose& pose)>;
 
-class Margins {
+class LimitsAtPoints {
  public:
-  Margins(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
-          const WorkspaceCriteria& criteria, const std::optional<Configuration>& home);
-  Margins(const Margins&) = delete;
-  Margins& operator=(const Margins&) = delete;
+  LimitsAtPoints(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                 const WorkspaceCriteria& criteria, const std::optional<Configuration>& home);
+  LimitsAtPoints(const LimitsAtPoints&) = delete;
+  LimitsAtPoints& operator=(const LimitsAtPoints&) = delete;
 
   const Chart& chart() const { return chart_; }
   const Placement& placement() const { return placement_; }

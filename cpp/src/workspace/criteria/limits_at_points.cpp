@@ -1,4 +1,4 @@
-#include "workspace/criteria/pose_margins.hpp"
+#include "workspace/criteria/limits_at_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ bool in_one(const LimitRow& row) {
 }  // namespace
 
 /// Poses of one block in the layout of batch.hpp, and the results of the kernels.
-struct Margins::Block {
+struct LimitsAtPoints::Block {
   explicit Block(long count)
       : p(size(3 * count)),
         q(size(9 * count)),
@@ -53,8 +53,8 @@ struct Margins::Block {
   }
 };
 
-Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
-                 const WorkspaceCriteria& criteria, const std::optional<Configuration>& home)
+LimitsAtPoints::LimitsAtPoints(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                               const WorkspaceCriteria& criteria, const std::optional<Configuration>& home)
     : g_(g),
       domain_(domain),
       criteria_(criteria),
@@ -82,7 +82,7 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
   list_groups();
 }
 
-void Margins::list_groups() {
+void LimitsAtPoints::list_groups() {
   // One margin for each leg and each cone: a minimum of several would have kinks between the points of a cell.
   const auto groups = [&](long count, double scale) {
     if (pose_groups_ + count >= most_groups)
@@ -127,13 +127,13 @@ void Margins::list_groups() {
   if (chart_.has_region()) bounded_[at_index(groups_ - 1)] = true;
 }
 
-PlatformPose Margins::pose(const Vec3& x, std::size_t r) const {
+PlatformPose LimitsAtPoints::pose(const Vec3& x, std::size_t r) const {
   return chart_.positional() ? PlatformPose{x, domain_.rotations[r]}
                              : PlatformPose{domain_.position, chart_.rotation(x)};
 }
 
-void Margins::judge(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best_at,
-                    PointMargins* out) const {
+void LimitsAtPoints::judge(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best_at,
+                           PointMargins* out) const {
   b.one_rotation = chart_.positional();
   for (long k = 0; k < count; ++k) {
     const PlatformPose here = pose(x[k], r);
@@ -156,13 +156,14 @@ void Margins::judge(Block& b, const Vec3* x, long count, std::size_t r, const Be
   for (long k = 0; k < count; ++k) out[k] = judge_one(b, k);
 }
 
-PointMargins Margins::judge_one(const Block& b, long k) const {
+PointMargins LimitsAtPoints::judge_one(const Block& b, long k) const {
   PointMargins m;
   double legs = infinity;
   std::size_t next = 0;
   for (const int leg : limited_legs_) {
     const double length = b.length[Block::size(9 * k + leg)];
-    const double above = length - criteria_.legs->low[leg], below = criteria_.legs->high[leg] - length;
+    const double above = cell_margin(LimitKind::length, Side::low, criteria_.legs->low[leg], length);
+    const double below = cell_margin(LimitKind::length, Side::high, criteria_.legs->high[leg], length);
     m.put(next++, std::min(above, below), above < below ? limit::leg_low + leg : limit::leg_high + leg);
     legs = std::min({legs, above, below});
   }
@@ -178,56 +179,48 @@ PointMargins Margins::judge_one(const Block& b, long k) const {
   return m;
 }
 
-void Margins::put_limit(const PoseCriterion& c, const Block& b, long k, const PosedPoints& here, PointMargins& m,
-                        std::size_t& next) const {
+void LimitsAtPoints::put_limit(const PoseCriterion& c, const Block& b, long k, const PosedPoints& here, PointMargins& m,
+                               std::size_t& next) const {
   const PoseRow* row = c.row->pose;
+  const LimitKind kind = c.row->info.kind;
+  const auto above = [&](double value) { return cell_margin(kind, Side::low, c.low, value); };
+  const auto below = [&](double value) { return cell_margin(kind, Side::high, c.high, value); };
   if (row == nullptr) {
-    // bound / kappa - 1: the slope of log(bound / kappa) at the boundary, and finite at a singularity.
-    const double margin = c.high / m.condition_number - 1.0;
+    const double margin = below(m.condition_number);
     // Without an admissible O there is no condition number; that is the limit then, and not this.
     const double none = placement_.searched() ? 1.0 : -1.0;
     return m.put(next++, std::isnan(margin) ? none : margin, c.name);
   }
-  if (c.row->info.kind == LimitKind::sign) {  // the kernel has the determinants of a block
+  if (kind == LimitKind::sign) {  // the kernel has the determinants of a block
     for (int d = 0; d < row->items; ++d) {
-      const double margin = signs_[at_index(d)] * b.det[Block::size(3 * k + d)] - c.low;
+      const double margin = above(signs_[at_index(d)] * b.det[Block::size(3 * k + d)]);
       m.put(next++, margin == 0.0 ? barely_outside : margin, c.name + d);
     }
     return;
   }
   const PointLook look(here, home_points_, c.options, criteria_.characteristic_length);
-  if (*c.row->info.needs != '\0') {
-    double most = -infinity;
-    int worst = 0;
-    for (int item = 0; item < row->items; ++item)
-      if (const double number = row->number(look, item); number > most) {
-        most = number;
-        worst = item;
-      }
-    return m.put(next++, c.high / most - 1.0, c.name + worst);  // most may be infinite
-  }
-  if (!row->pairs) {
+  if (!in_one(*c.row)) {
     for (int item = 0; item < row->items; ++item) {
       const double number = row->number(look, item);
-      // A ratio may be infinite: as of the condition number.
-      const bool ratio = c.row->info.kind == LimitKind::ratio;
-      m.put(next++, ratio ? c.high / number - 1.0 : std::min(number - c.low, c.high - number), c.name + item);
+      m.put(next++, c.low > -infinity ? std::min(above(number), below(number)) : below(number), c.name + item);
     }
     return;
   }
-  double least = infinity;
-  int closest = 0;
-  for (int pair = 0; pair < row->items; ++pair)
-    if (const double distance = exempt_[at_index(pair)] ? infinity : row->number(look, pair); distance < least) {
-      least = distance;
-      closest = pair;
+  double worst = row->pairs ? infinity : -infinity;
+  int at = 0;
+  for (int item = 0; item < row->items; ++item) {
+    const double number = row->pairs && exempt_[at_index(item)] ? infinity : row->number(look, item);
+    if (row->pairs ? number < worst : number > worst) {
+      worst = number;
+      at = item;
     }
-  m.put(next, std::min(least, 10.0 * scale_[next]) - c.low, c.name + closest);
+  }
+  m.put(next, row->pairs ? above(std::min(worst, 10.0 * scale_[next])) : below(worst), c.name + at);
   ++next;
 }
 
-void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
-                       const BestAt& best) const {
+void LimitsAtPoints::evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
+                              const BestAt& best) const {
   if (stop.stop_requested()) throw Stopped{};
   Block b(count);
   if (!set_) {
@@ -271,7 +264,7 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
   }
 }
 
-double Margins::least(const PointMargins& m, bool without_bounds) const {
+double LimitsAtPoints::least(const PointMargins& m, bool without_bounds) const {
   double out = infinity;
   for (std::size_t n = 0; n < at_index(groups_); ++n) {
     if (without_bounds && bounded_[n]) continue;
@@ -282,7 +275,7 @@ double Margins::least(const PointMargins& m, bool without_bounds) const {
   return out;
 }
 
-int Margins::violated(const PointMargins& m) const {
+int LimitsAtPoints::violated(const PointMargins& m) const {
   double least = 0.0;
   int out = -1;
   for (std::size_t n = 0; n < at_index(groups_); ++n) {

@@ -1,5 +1,5 @@
 #pragma once
-/// One limit as margins. A constraint defines the limited value; this base turns it into signed, relative margins.
+/// The rows that the optimizer has of one limit: smooth margins of each side and item, and their derivatives.
 
 #include <memory>
 #include <span>
@@ -11,24 +11,16 @@
 
 namespace ninedof {
 
-/// A margin as people read it, and its derivative by the margin of the row that the solver has.
-struct ShownMargin {
-  double value, slope;
-};
-
-/// Of a row log(limit / value), or log(value / limit) for a low limit: the share of the limit that is to spare.
-ShownMargin share_of_limit(Side side, double logarithm);
-
 /// A row of a constraint, or (constraint = -1 - k) a pair of singular values of spectrum k under a limit on the condition
 /// number.
 struct MarginRow {
   int constraint, row;
 };
 
-class Constraint {
+class SolverRows {
  public:
-  explicit Constraint(const Limit& limit) : limit_(limit), label_(limit.label()) {}
-  virtual ~Constraint() = default;
+  SolverRows(const Limit& limit, SolverMargin form) : limit_(limit), label_(limit.label()), form_(form) {}
+  virtual ~SolverRows() = default;
 
   const Limit& limit() const { return limit_; }
   const std::string& label() const { return label_; }
@@ -47,12 +39,9 @@ class Constraint {
   /// All poses that a row looks at where the value of the constraint is that of a few.
   virtual std::vector<int> poses_of(const DesignState& v, int row) const { return {pose_of(v, row)}; }
   /// Of a row with this margin: 1 - value / high or value / low - 1; of a determinant, which has no scale, value - low.
-  ShownMargin shown(int row, double margin) const {
-    const bool logarithm = form() == SolverMargin::logarithm || (form() == SolverMargin::mixed && margin < 0.0);
-    return logarithm ? share_of_limit(side_of(row), margin) : ShownMargin{margin, 1.0};
-  }
+  ShownMargin shown(int row, double margin) const { return share_of_limit(form_, side_of(row), margin); }
   /// The limited value of a design whose margin on that side is given.
-  double value_at(Side side, double margin) const;
+  double value_at(Side side, double margin) const { return value_at_margin(form_, side, bound(side), margin); }
 
   /// Whether it is about the lengths over all poses together.
   virtual bool compares_poses() const { return false; }
@@ -78,7 +67,6 @@ class Constraint {
   virtual double auxiliary_value(const DesignState&, int) const { return 0.0; }
 
  protected:
-  virtual SolverMargin form() const { return SolverMargin::logarithm; }
   /// Number of margins of a side.
   virtual int items(Side side) const = 0;
   /// The pose of an item; of those that look at all poses or at none, the first.
@@ -88,12 +76,14 @@ class Constraint {
   virtual double value(const DesignState&, Side, int) const { return 0.0; }
   virtual void add_value_gradient(const DesignState&, Side, int, double, Row) const {}
   /// The margin of an item: by default a function of its value.
-  virtual double item_margin(const DesignState& v, Side side, int item) const;
+  virtual double item_margin(const DesignState& v, Side side, int item) const {
+    return margin_of(side, value(v, side, item));
+  }
   virtual void add_item_gradient(const DesignState& v, Side side, int item, Row out) const;
 
   /// The margin of a value, and its derivative by the value.
-  double margin_of(Side side, double now) const;
-  double margin_slope(Side side, double now) const;
+  double margin_of(Side side, double now) const { return solver_margin(form_, side, bound(side), now); }
+  double margin_slope(Side side, double now) const { return solver_slope(form_, side, bound(side), now); }
   bool has_high() const { return limit_.high < infinity; }
   bool has_low() const { return limit_.low > 0.0; }
   double bound(Side side) const { return side == Side::high ? limit_.high : limit_.low; }
@@ -110,26 +100,27 @@ class Constraint {
  private:
   Limit limit_;
   std::string label_;
+  SolverMargin form_;
   int auxiliary_variable_ = -1, auxiliary_coordinate_ = -1;
 };
 
 /// Use of the rows: `solve` needs smooth rows; `evaluate`, of one design, needs the smallest margin only.
 enum class Purpose { solve, evaluate };
 
-std::unique_ptr<Constraint> make_pose_limit(const Limit& limit, const LimitRow& row, int poses,
+std::unique_ptr<SolverRows> make_pose_limit(const Limit& limit, const LimitRow& row, int poses,
                                             const std::array<bool, leg_pairs>& exempt);
-std::unique_ptr<Constraint> make_design_limit(const Limit& limit, const LimitRow& row);
-std::unique_ptr<Constraint> make_spread(const Limit& limit, const LimitRow& row, int poses, Purpose purpose);
+std::unique_ptr<SolverRows> make_design_limit(const Limit& limit, const LimitRow& row);
+std::unique_ptr<SolverRows> make_spread(const Limit& limit, const LimitRow& row, int poses, Purpose purpose);
 
-/// The constraint of a limit in a problem of `poses` displaced poses (0: the neutral one alone), where `exempt` pairs
+/// The rows of a limit in a problem of `poses` displaced poses (0: the neutral one alone), where `exempt` pairs
 /// of legs may meet. Valid limits only.
-std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpose purpose,
-                                            const std::array<bool, leg_pairs>& exempt);
+std::unique_ptr<SolverRows> make_solver_rows(const Limit& limit, int poses, Purpose purpose,
+                                             const std::array<bool, leg_pairs>& exempt);
 
 /// Least distance of O from the planes of base and platform, in zp, where O is placed.
 inline constexpr double plate_gap = 1e-6;
 
 /// 0 < zs < zp (eq. 9b), which no study has to ask for, at the neutral configuration and `poses`.
-std::unique_ptr<Constraint> make_between_plates(std::vector<int> poses);
+std::unique_ptr<SolverRows> make_between_plates(std::vector<int> poses);
 
 }  // namespace ninedof

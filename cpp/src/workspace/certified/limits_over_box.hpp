@@ -33,10 +33,10 @@ struct PositionBox {
   Vec3 low, high;
 };
 
-class PoseCuts {
+class LimitsOverBox {
  public:
-  PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
-           const WorkspaceCriteria& criteria, const Configuration& home);
+  LimitsOverBox(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                const WorkspaceCriteria& criteria, const Configuration& home);
 
   /// All criteria asked for.
   Criteria all() const { return all_; }
@@ -83,7 +83,6 @@ class PoseCuts {
   void look_at(const ConditionLimit& limit, const FormPose& pose, Found& found) const;
   /// The poses where f > 0 are allowed, those where f < 0 are not. Returns whether that is decided.
   static bool decided(const PoseForm& f, Found& found);
-  static void put(const Cut& cut, Found& found);
   /// Whether two legs are at least the distance apart in all of the box; else where they are.
   static bool all_apart(const LegPairForms& legs, double distance, Cut& apart);
   PositionBox reached_with(std::size_t rotation) const;
