@@ -353,7 +353,8 @@ class Problem:
     def starts(self, count: int, seed: int, /) -> _Floats: ...
 
 limit_parts: dict[str, tuple[str, ...]]
-limits_over_lengths: tuple[str, ...]
+limits_over_lengths: dict[str, tuple[str, ...]]
+cone_bodies: dict[str, str]
 margin_tolerance: float
 
 def limit_numbers(

@@ -31,10 +31,17 @@ void bind_limits(py::module_& m) {
   word_attribute(limit, "of", &Limit::of, std::array{"length", "zp", "radius"}, "What a length is a fraction of.");
   word_attribute(limit, "at", &Limit::at, std::array{"poses", "neutral"}, "Where it holds.");
 
-  py::dict parts;
-  for (const std::string& name : limits_of_poses()) parts[py::str(name)] = py::tuple(py::cast(limit_parts(name)));
-  m.attr("limit_parts") = parts;
-  m.attr("limits_over_lengths") = py::tuple(py::cast(limits_over_lengths()));
+  const auto with_parts = [](const std::vector<std::string>& names) {
+    py::dict out;
+    for (const std::string& name : names) out[py::str(name)] = py::tuple(py::cast(limit_parts(name)));
+    return out;
+  };
+  m.attr("limit_parts") = with_parts(limits_of_poses());
+  m.attr("limits_over_lengths") = with_parts(limits_over_lengths());
+  py::dict bodies;
+  for (const std::string& name : limits_of_poses())
+    if (const std::string body = limit_body(name); !body.empty()) bodies[py::str(name)] = body;
+  m.attr("cone_bodies") = bodies;
   m.attr("margin_tolerance") = margin_tolerance;
   m.def("margin", [](const std::string& kind, const std::string& side, const Array& bound, const Array& value) {
     const auto of = [k = limit_kind_from(kind), s = side == "min" ? Side::low : Side::high](double l, double v) {

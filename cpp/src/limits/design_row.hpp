@@ -47,7 +47,4 @@ struct DesignRow {
   DesignForm (*form)(const Touched<DesignForm>&, int item);  ///< over a box of designs
 };
 
-extern const DesignRow radius_ratio_row, zs_fraction_row, height_row, footprint_row, joint_height_row,
-    joint_spacing_row;
-
 }  // namespace ninedof

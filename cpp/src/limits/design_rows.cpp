@@ -1,8 +1,8 @@
-/// The limits of the design alone. Declared in limits/design_row.hpp.
+/// The limits of the design alone. Declared in limits/rows.hpp.
 
 #include <cmath>
 
-#include "limits/design_row.hpp"
+#include "limits/rows.hpp"
 
 namespace ninedof {
 namespace {

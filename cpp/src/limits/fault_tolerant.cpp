@@ -1,11 +1,11 @@
 /// fault_tolerant: the condition number of J' with one internal leg locked, for each of the six. An external leg takes
 /// a freedom in every design (conditioning/locked_legs.hpp), and is no item. Not a formula over every number type: a dual
 /// through singular values is wrong at ties, and over boxes of poses matrices are tested (conditioning/forms/split.cpp).
-/// Declared in limits/pose_row.hpp.
+/// Declared in limits/rows.hpp.
 
 #include <cmath>
 
-#include "limits/pose_row.hpp"
+#include "limits/rows.hpp"
 #include "ninedof/conditioning/locked_legs.hpp"
 
 namespace ninedof {

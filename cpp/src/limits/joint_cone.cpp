@@ -1,12 +1,12 @@
 /// base_cone, platform_cone: angle between each leg, pointing away from its joint on that body, and an axis of the
 /// body: a given one, or the direction of that leg at the neutral configuration. u is its cosine. The same of the
 /// external or the internal legs alone, whose joints are others to buy and to mount: base_cone_external and so on.
-/// Declared in limits/pose_row.hpp.
+/// Declared in limits/rows.hpp.
 
 #include <algorithm>
 #include <cmath>
 
-#include "limits/pose_row.hpp"
+#include "limits/rows.hpp"
 
 namespace ninedof {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "limits/pose_row.hpp"
+#include "limits/rows.hpp"
 
 namespace ninedof {
 namespace {

@@ -1,7 +1,7 @@
 /// leg_length: every leg. external_length, upper_length, lower_length: the legs of that kind. u is the squared length.
-/// Declared in limits/pose_row.hpp.
+/// Declared in limits/rows.hpp.
 
-#include "limits/pose_row.hpp"
+#include "limits/rows.hpp"
 
 namespace ninedof {
 namespace {

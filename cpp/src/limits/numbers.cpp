@@ -28,10 +28,17 @@ const SpreadRow& spread_row(const std::string& name) {
 }
 
 std::vector<std::string> limit_parts(const std::string& name) {
-  const PoseRow& row = pose_row("limit", name);
   std::vector<std::string> out;
+  const SpreadRow* spread = limit_row(name).spread;
+  if (spread != nullptr && !spread->each_leg) return out;
+  const PoseRow& row = spread != nullptr ? *leg_length_limit().pose : pose_row("limit", name);
   for (int item = 0; item < row.items; ++item) out.push_back(row.part(item));
   return out;
+}
+
+std::string limit_body(const std::string& name) {
+  const PoseRow* row = limit_row(name).pose;
+  return row == nullptr || row->cone_body < 0 ? "" : row->cone_body == 0 ? "base" : "platform";
 }
 
 LimitNumbers::LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home,

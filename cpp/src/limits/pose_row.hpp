@@ -63,11 +63,6 @@ struct PoseRow {
   void (*numbers)(const PointLook&, double* out) = nullptr;
 };
 
-extern const PoseRow leg_length_row, external_length_row, upper_length_row, lower_length_row, base_cone_row,
-    platform_cone_row, base_cone_external_row, base_cone_internal_row, platform_cone_external_row,
-    platform_cone_internal_row, leg_clearance_row, singularity_free_row, fault_tolerant_row, force_row, rate_row,
-    power_row, external_force_row, upper_force_row, lower_force_row, external_rate_row, upper_rate_row, lower_rate_row;
-
 /// "l1" to "r3", in the order of leg_lengths.
 const char* leg_name(int leg);
 

@@ -45,6 +45,13 @@ const LimitRow& leg_length_limit() {
   return *std::ranges::find_if(limit_rows(), of_all_legs);
 }
 
+const LimitRow& joint_cone_limit(bool platform) {
+  const auto of_all_joints = [&](const LimitRow& row) {
+    return row.pose != nullptr && row.pose->cone_body == static_cast<int>(platform) && row.pose->items == legs_at_body;
+  };
+  return *std::ranges::find_if(limit_rows(), of_all_joints);
+}
+
 const char* leg_name(int leg) {
   return std::array{"l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"}[at_index(leg)];
 }

@@ -7,6 +7,12 @@
 
 namespace ninedof {
 
+extern const PoseRow leg_length_row, external_length_row, upper_length_row, lower_length_row, base_cone_row,
+    platform_cone_row, base_cone_external_row, base_cone_internal_row, platform_cone_external_row,
+    platform_cone_internal_row, leg_clearance_row, singularity_free_row, fault_tolerant_row, force_row, rate_row,
+    power_row, external_force_row, upper_force_row, lower_force_row, external_rate_row, upper_rate_row, lower_rate_row;
+extern const DesignRow radius_ratio_row, zs_fraction_row, height_row, footprint_row, joint_height_row,
+    joint_spacing_row;
 inline constexpr SpreadRow leg_ratio_row{true, false}, stroke_ratio_row{true, true}, stroke_row{false, true};
 
 /// Name, kind, sides; unit besides "length", option besides `of` and `at`, low side if none is given, whether it
@@ -38,7 +44,7 @@ inline constexpr std::array known_limits = [] {
       of_design({"footprint", length, both}, logarithm, footprint_row),
       of_design({"joint_height", length, only_high, Unit::radius}, linear, joint_height_row),
       of_design({"joint_spacing", length, only_low, Unit::radius}, linear, joint_spacing_row),
-      LimitRow{{"leg_limits", length, both}},
+      LimitRow{{leg_limits_name, length, both}},
       of_pose({"base_cone", angle, only_high, {}, "axis"}, linear, base_cone_row),
       of_pose({"platform_cone", angle, only_high, {}, "axis"}, linear, platform_cone_row),
       of_pose({"base_cone_external", angle, only_high, {}, "axis"}, linear, base_cone_external_row),

@@ -1,7 +1,7 @@
 /// singularity_free: det N, det B and det C of singularity.hpp, positive on the side of the neutral configuration. The
-/// places where they are tested belong to whoever looks. Declared in limits/pose_row.hpp.
+/// places where they are tested belong to whoever looks. Declared in limits/rows.hpp.
 
-#include "limits/pose_row.hpp"
+#include "limits/rows.hpp"
 
 namespace ninedof {
 namespace {

@@ -27,6 +27,9 @@ struct LimitRow {
   bool on_the_way() const { return pose != nullptr && pose->on_the_way; }
 };
 
+/// The criterion of workspaces that gives every leg a range of lengths of its own.
+inline constexpr const char* leg_limits_name = "leg_limits";
+
 /// The table, in the order in which limits are listed.
 std::span<const LimitRow> limit_rows();
 
@@ -38,5 +41,8 @@ const PoseRow& pose_row(const char* argument, std::string_view name);
 
 /// The limit of the lengths of all nine legs.
 const LimitRow& leg_length_limit();
+
+/// The limit of the angles at all six joints of a body.
+const LimitRow& joint_cone_limit(bool platform);
 
 }  // namespace ninedof

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "limits/rows.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/robot/architecture_singularity.hpp"
 #include "optimize/conflict.hpp"
@@ -168,7 +169,7 @@ bool detect_impossible_heights(const Problem& problem, Result& result) {
                     ", against zp > zs";
   }
   for (const Limit& limit : problem.limits) {
-    if (limit.name != "zs_fraction" || limit.low < 1.0) continue;
+    if (limit_row(limit.name).design != &zs_fraction_row || limit.low < 1.0) continue;
     result.causes = {limit.label(), order};
     result.reason = none + limit.label() + " must be at least " + format_number(limit.low) + " against zp > zs";
   }

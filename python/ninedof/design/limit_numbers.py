@@ -15,17 +15,17 @@ from ninedof.robot.geometry import Geometry
 PARTS: dict[str, tuple[str, ...]] = _core.limit_parts
 """The limits that have a value at every pose, and their items: legs, pairs of legs "l1-q2", determinants "det N"."""
 CONES = tuple(name for name in PARTS if ROWS[name].is_angle)
-JOINTS = {name: (name.partition("_")[0], PARTS[name]) for name in CONES if len(PARTS[name]) == 3}
+JOINTS = {name: (ROWS[name].body, PARTS[name]) for name in CONES if len(PARTS[name]) == 3}
 """The limits on the cones of one kind of joint, and the body and the legs there: external and internal joints of each
 body, which may be of two makes and mounted in two ways."""
 CLEARANCE = next(name for name, parts in PARTS.items() if "-" in parts[0])
 """The limit on the distance of pairs of legs."""
-SPREADS = _core.limits_over_lengths  # limits that compare poses
-
-
-def leg_number(name: str) -> str:
-    """Return what a limit of the duty of legs is about: "force" for "force" and for "upper_force"."""
-    return name.rpartition("_")[2]
+REGULAR = next(name for name in PARTS if ROWS[name].kind == "sign")
+"""The limit on determinants."""
+FORCES = "number"  # the kind of limits on forces of legs
+SPREADS: dict[str, tuple[str, ...]] = _core.limits_over_lengths
+"""The limits of the longest and shortest lengths over all poses, and the legs that have one each; () for one that all
+legs share."""
 
 
 def compared(study: Study) -> list[str]:

@@ -40,6 +40,11 @@ class Row(NamedTuple):
         """Whether limits are angles, in radians."""
         return self.kind == "angle"
 
+    @property
+    def body(self) -> str:
+        """The body of the joints whose angles are limited, "base" or "platform"; "" for other limits."""
+        return _core.cone_bodies.get(self.name, "")
+
 
 ROWS = {values[0]: Row(*values) for values in _core.constraint_table}
 OF_LENGTHS = {
@@ -75,7 +80,7 @@ class Limit:
 
     @property
     def label(self) -> str:
-        """Its name in margins, prices and messages, as in the core: "base_cone", "base_cone at neutral"."""
+        """Its name in margins, prices and messages, as in the core, with " at neutral" for that pose alone."""
         return label(self.name, self.at)
 
     @property
@@ -114,7 +119,7 @@ class Limit:
 
     def axis_in(self, tool: Tool) -> Vector | tuple[()]:
         """Return the axis in the frame of geometries: that of a cone of the platform is seen from the tool's frame."""
-        return tool.turned(self.axis) if self.axis and self.name.startswith("platform_cone") and tool else self.axis
+        return tool.turned(self.axis) if self.axis and self.row.body == "platform" and tool else self.axis
 
     def for_core(self, tool: Tool, duty: _core.Duty | None = None) -> _core.Limit:
         """Return the limit as the core takes it: the axis of unit length, in the frame of geometries."""

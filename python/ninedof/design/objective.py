@@ -25,7 +25,8 @@ AGGREGATES = {
     "mean_inverse": "harmonic mean of the {index}",
     "weighted": "worst and harmonic mean, weighted, of the {index}",
 }
-CONDITION_LIMITS = ("condition_limit", "neutral_condition_limit")
+CONDITION_LIMIT = "condition_limit"
+CONDITION_LIMITS = (CONDITION_LIMIT, "neutral_condition_limit")
 SETS: dict[str, Callable[..., tuple[Pose, ...]]] = {"box": poses.box, "ball": poses.ball, "path": poses.path}
 SHARED = ("internal_point", "unit")
 """Keys of the table [objective] that are defaults of its poses, sets and region."""

@@ -12,8 +12,9 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.limit_numbers import CLEARANCE, CONES, PARTS, SPREADS, apart, leg_number
+from ninedof.design.limit_numbers import CLEARANCE, CONES, FORCES, PARTS, SPREADS, apart
 from ninedof.design.limits import OF_LENGTHS, kind_of
+from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.follow import Followed, LimitBreak
@@ -28,9 +29,9 @@ class PoseLimit(NamedTuple):
     """One side of a limit of a study for one leg, or of one that legs share, at each pose of a stack."""
 
     name: str
-    """Of the constraint: "base_cone"."""
+    """Of the constraint."""
     part: str
-    """The leg or the determinant; "" for a limit that has no parts."""
+    """The leg ("l1") or the determinant; "" for a limit that has no parts."""
     side: str
     """"min" or "max"."""
     limit: float
@@ -42,7 +43,7 @@ class PoseLimit(NamedTuple):
 
     @property
     def label(self) -> str:
-        """In words: "base_cone l1"."""
+        """In words: the name and the part."""
         return f"{self.name} {self.part}".strip()
 
 
@@ -81,7 +82,7 @@ def limits_at_poses(
                 rows.append(PoseLimit(name, part, side, unit * end, there, margin))
     if (most := study.objective.condition_limit) is not None:
         kappa = np.asarray(condition_number(g, c, characteristic_length))
-        rows.append(PoseLimit("condition_limit", "", "max", most, kappa, margin_of("ratio", "max", most, kappa)))
+        rows.append(PoseLimit(CONDITION_LIMIT, "", "max", most, kappa, margin_of("ratio", "max", most, kappa)))
     return rows
 
 
@@ -166,13 +167,12 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     Examples
     --------
     >>> import ninedof as nd
-    >>> limits = {"base_cone": {"max_deg": 5}, "leg_clearance": {"radius": 0.05}}
-    >>> study = nd.Study(variables={"a1": 0.0, "b2": 0.0}, constraints=limits)  # joints in pairs: these legs may meet
+    >>> study = nd.Study(constraints={"base_cone_internal": {"max_deg": 5}})
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> home = nd.Configuration.neutral(3.9828, 2.4432)
     >>> motion = nd.follow(g, nd.Trajectory.line(home, [0.5, 0, 0]), home)
     >>> nd.path_limits(study, motion, home)
-    <PathLimits: 1001 poses, breaks base_cone l1 max, base_cone l2 max, base_cone r1 max, base_cone r3 max>
+    <PathLimits: 1001 poses, breaks base_cone_internal r1 max, base_cone_internal r3 max>
 
     """
     instance("study", study, Study)
@@ -180,18 +180,17 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     single(g, home, "home")
     every = limits_at_poses(study, g, followed.configurations, home, followed.characteristic_length)
     forces, rates = followed.leg_forces, followed.leg_rates
-    moving = {"rate": rates} if forces is None else {"rate": rates, "force": forces, "power": forces * rates}
-    rows = [one for one in every if one.name not in OF_LENGTHS and leg_number(one.name) not in moving]
+    moving = {"rate": rates} if forces is None else {"rate": rates, FORCES: forces, "power": forces * rates}
+    rows = [one for one in every if one.name not in OF_LENGTHS and kind_of(one.name) not in moving]
     return PathLimits(followed.time, (*rows, *_of_motion(study, moving)))
 
 
 def _of_motion(study: Study, values: Mapping[str, Floats]) -> Iterator[PoseLimit]:
-    """Yield the limits of forces, rates and powers of a motion, shape (n, 9) or (k, n, 9): the largest of k loads."""
+    """Yield the limits of a motion on its values by kind, shape (n, 9) or (k, n, 9): the largest of k loads."""
     for limit in study.limits:
-        duty = leg_number(limit.name)
-        if duty not in values or limit.at != "poses":
+        if limit.kind not in values or limit.at != "poses":
             continue
-        moduli = np.abs(values[duty])
+        moduli = np.abs(values[limit.kind])
         most = moduli.reshape(-1, *moduli.shape[-2:]).max(axis=0)
         for leg in PARTS[limit.name]:
             value = most[:, LEGS.index(leg)]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.limit_numbers import PARTS, leg_number
+from ninedof.design.limit_numbers import FORCES, PARTS
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import LEGS
@@ -110,10 +110,10 @@ def largest_payload(
     g, c, _ = robot_of(design, length=1.0)
     rows = load_rows(duty.loads.wrenches or None if loads is None else loads)
     rows = rows if len(rows) else np.zeros((1, 6))
-    others = [one for one in duty.limits if one.row.needs and leg_number(one.name) != "rate"]  # whatever the mass
+    others = [one for one in duty.limits if one.row.needs and one.kind != "rate"]  # whatever the mass
     if force is None:
         force = _stated(duty)
-        others = [one for one in others if leg_number(one.name) != "force" or one.at != "poses"]
+        others = [one for one in others if one.kind != FORCES or one.at != "poses"]
     push, most_pull = _limit("force", force), _limit("pull", force if pull is None else pull)
     count = whole("samples", samples, 1, MOST_SAMPLES)
     gravity, masses = duty.loads.gravity, masses_of(duty)
@@ -147,7 +147,7 @@ def _stated(study: Study) -> Floats:
     """Return the greatest force that a study allows each leg at its poses: by `force`, and by that of its kind."""
     most = np.full(9, np.inf)
     for one in study.limits:
-        if one.at == "poses" and leg_number(one.name) == "force":
+        if one.at == "poses" and one.kind == FORCES:
             legs = [LEGS.index(leg) for leg in PARTS[one.name]]
             most[legs] = np.minimum(most[legs], one.high)
     if np.isinf(most).all():

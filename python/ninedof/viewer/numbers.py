@@ -10,7 +10,7 @@ import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number, singular_values
 from ninedof.design.limit_numbers import CONES, SPREADS
-from ninedof.design.limits import OF_LENGTHS, kind_of, split_label
+from ninedof.design.limits import OF_LENGTHS, ROWS, kind_of, split_label
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS
@@ -60,7 +60,7 @@ def numbers_of(variant: Variant, c: Configuration) -> Numbers:
         if one.part in LEGS and (one.name in OF_LENGTHS or one.name in SPREADS or one.name == RANGE):
             legs[LEGS.index(one.part)] = min(legs[LEGS.index(one.part)], margin)
         elif one.name in CONES and is_violated(margin):
-            cones.add((one.name.partition("_")[0], LEGS.index(one.part)))
+            cones.add((ROWS[one.name].body, LEGS.index(one.part)))
     return Numbers(
         condition_number=float(condition_number(g, c, variant.length)),
         singular_values=np.asarray(singular_values(g, c, variant.length)),

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "limits/table.hpp"
+#include "limits/rows.hpp"
 #include "support/support.hpp"
 
 using namespace ninedof;

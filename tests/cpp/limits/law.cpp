@@ -10,7 +10,7 @@
 
 #include "limits/law_boxes.hpp"
 #include "limits/leg_clearance.hpp"
-#include "limits/table.hpp"
+#include "limits/rows.hpp"
 #include "ninedof/batch/batch.hpp"
 #include "ninedof/limits/numbers.hpp"
 #include "ninedof/math/error.hpp"

@@ -25,8 +25,12 @@ std::vector<std::string> limits_over_lengths();
 /// The row of one of these; throws InvalidArgument for another name.
 const SpreadRow& spread_row(const std::string& name);
 
-/// The items of a limit at poses: legs ("l1"), pairs of legs ("l1-q2") or determinants ("det N").
+/// The items of a limit at poses, or over lengths: legs ("l1"), pairs of legs ("l1-q2"), determinants ("det N"); none
+/// where it is of all legs together.
 std::vector<std::string> limit_parts(const std::string& name);
+
+/// The body of the joints whose angles a limit is about, "base" or "platform"; "" for other limits.
+std::string limit_body(const std::string& name);
 
 /// The numbers that a limit at poses is about, an item each: lengths, angles in radians, distances of legs, determinants,
 /// positive on the side of the neutral pose, condition numbers with a leg locked, or forces, rates and powers of legs.

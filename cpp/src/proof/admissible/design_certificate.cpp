@@ -108,7 +108,8 @@ class DesignLines {
     bool pairs = false;
     for (const Limit& one : question_.problem.limits) {
       put_limit(one.label(), one.name, one.low, one.high, to_string(one.of), one.at == LimitAt::neutral, one.axis);
-      pairs = pairs || one.name == "leg_clearance";
+      const PoseRow* row = limit_row(one.name).pose;
+      pairs = pairs || (row != nullptr && row->pairs);
     }
     const double condition = std::min(objective.condition_limit, question_.condition);
     for (const bool neutral : {false, true})

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "conditioning/forms/gram.hpp"
+#include "limits/rows.hpp"
 #include "math/numbers.hpp"
 
 namespace ninedof::admissible {

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "limits/rows.hpp"
 #include "ninedof/math/error.hpp"
 
 namespace ninedof::proof {
@@ -29,29 +30,29 @@ void require_line_theory(const Problem& study) {
 bool read_limit(const Limit& limit, double length, LineLimits& out) {
   const Interval range{limit.low > 0.0 ? limit.low : -infinity, limit.high};
   const auto in_lengths = [&](double x) { return std::isfinite(x) ? Interval(x) / length : Interval(x); };
-  if (limit.name == "zs_fraction") {
+  const LimitRow& row = limit_row(limit.name);
+  if (row.design == &zs_fraction_row) {
     out.share = cut(out.share, range);
-  } else if (limit.name == "radius_ratio") {
+  } else if (row.design == &radius_ratio_row) {
     out.radius_ratio = cut(out.radius_ratio, range);
-  } else if (limit.name == "leg_ratio") {
+  } else if (row.spread == &leg_ratio_row) {
     out.leg_ratio = std::min(out.leg_ratio, limit.high);
     return !(limit.low > 1.0);
-  } else if (limit.name == "height") {
+  } else if (row.design == &height_row) {
     out.zp = cut(out.zp, {in_lengths(range.lo).lo, in_lengths(range.hi).hi});
-  } else if (limit.name == "footprint") {
+  } else if (row.design == &footprint_row) {
     for (const std::size_t base : {0, 1})
       out.radius[base].hi = std::min(out.radius[base].hi, in_lengths(limit.high).hi);
     return !(limit.low > 0.0);
-  } else if (limit.name == "joint_height") {
+  } else if (row.design == &joint_height_row) {
     if (limit.of == Unit::radius) out.joint_height_in_radius = std::min(out.joint_height_in_radius, limit.high);
     else out.joint_height = std::min(out.joint_height, in_lengths(limit.high).hi);
-  } else if (limit.name.ends_with("_length")) {
+  } else if (row.pose != nullptr && row.pose->first_leg >= 0) {
     std::array<Interval, 3>& of = limit.of == Unit::zp ? out.length_in_zp : out.length;
     const Interval lengths = limit.of == Unit::zp ? range : Interval(in_lengths(range.lo).lo, in_lengths(range.hi).hi);
-    const bool every = limit.name == "leg_length";
-    if (every || limit.name == "external_length") of[0] = cut(of[0], lengths);
-    if (every || limit.name == "upper_length") of[1] = cut(of[1], lengths);
-    if (every || limit.name == "lower_length") of[2] = cut(of[2], lengths);
+    const int first = row.pose->first_leg;
+    for (int leg = first; leg < first + row.pose->items; leg += 3)  // one of each kind: they have one length
+      of[at_index(leg / 3)] = cut(of[at_index(leg / 3)], lengths);
   } else {
     return false;
   }
@@ -84,7 +85,7 @@ LineLimits line_limits(const Problem& study, std::vector<std::string>& left_out)
     left_out.push_back(names[angle].name);
   for (const Limit& limit : study.limits)
     if (!read_limit(limit, length, out))
-      left_out.push_back(limit.name == "leg_ratio" ? limit.label() + ".min" : limit.label());
+      left_out.push_back(limit_row(limit.name).spread == &leg_ratio_row ? limit.label() + ".min" : limit.label());
   if (study.objective.neutral_condition_limit < infinity || study.objective.condition_limit < infinity)
     left_out.emplace_back("condition_number");
   return out;

@@ -1,5 +1,6 @@
 #include "proof/optimum/axis_domain.hpp"
 
+#include "limits/rows.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 
@@ -100,14 +101,14 @@ void read_limits(const Problem& study, AxisDomain& d, std::vector<std::string>& 
   d.log_leg_ratio = infinity;
   for (const Limit& limit : study.limits) {
     const Interval range{std::max(limit.low, 0.0), limit.high};
-    const bool low = limit.low > 0.0;
-    if (limit.name == "zs_fraction") {
+    const LimitRow& row = limit_row(limit.name);
+    if (row.design == &zs_fraction_row) {
       d.share = both(d.share, range);
-    } else if (limit.name == "radius_ratio") {
+    } else if (row.design == &radius_ratio_row) {
       d.radius_ratio = both(d.radius_ratio, range);
-    } else if (limit.name == "leg_ratio") {
+    } else if (row.spread == &leg_ratio_row) {
       if (limit.high < infinity) d.log_leg_ratio = std::min(d.log_leg_ratio, log(Interval(limit.high)).hi);
-      if (low && limit.low > 1.0) left_out.push_back(limit.label() + ".min");
+      if (limit.low > 1.0) left_out.push_back(limit.label() + ".min");
     } else {
       left_out.push_back(limit.label());
     }

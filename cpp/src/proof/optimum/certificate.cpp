@@ -1,5 +1,6 @@
 #include "proof/optimum/certificate.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -45,7 +46,7 @@ std::string certificate(const Problem& study, double target, const std::vector<s
   for (std::size_t k = 0; k < names.size(); ++k)
     range("variable", names[k].name, study.variables[k].low, study.variables[k].high);
   for (const Limit& limit : study.limits)
-    if (limit.name == "radius_ratio" || limit.name == "leg_ratio" || limit.name == "zs_fraction")
+    if (std::ranges::find(left_out, limit.label()) == left_out.end())
       range("limit", limit.name, std::max(limit.low, 0.0), limit.high);
   for (const std::string& limit : left_out) body += "left_out " + limit + "\n";
   body += "tree " + std::to_string(tree.size()) + "\n";

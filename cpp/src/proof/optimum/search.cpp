@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 
+#include "limits/rows.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
@@ -162,7 +163,7 @@ OptimumProof prove_optimum(const Problem& study, const OptimumSettings& settings
     Problem planar = study;
     planar.family = "symmetric";
     planar.variables.resize(planar_variables);
-    std::erase_if(planar.limits, [](const Limit& limit) { return limit.name == "joint_height"; });
+    std::erase_if(planar.limits, [](const Limit& limit) { return limit_row(limit.name).design == &joint_height_row; });
     return prove_optimum(planar, settings, control);
   }
   OptimumProof out;

@@ -122,9 +122,8 @@ class Statements {
     for (const bool platform : {false, true})
       for (int k = 0; k < legs_at_body; ++k) {
         if (machine_.tolerances.joints[at_index(joint_at(platform, leg_at(platform, k)))] == 0.0) continue;
-        const LimitRow& cone = limit_row(platform ? "platform_cone" : "base_cone");
         stroke.turns[at_index(leg_at(platform, k))][platform] =
-            questions_.ask(cone, k, {true, at_neutral, not_a_number, {}});
+            questions_.ask(joint_cone_limit(platform), k, {true, at_neutral, not_a_number, {}});
       }
     put(label, row, side, bound, at_neutral);
     strokes_.push_back(stroke);

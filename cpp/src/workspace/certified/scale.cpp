@@ -57,7 +57,7 @@ void require_held(const Question& q, int exponent) {
   require_held("internal_point", q.rule.point, exponent);
   if (q.criteria.legs)
     for (const Vec9* ends : {&q.criteria.legs->low, &q.criteria.legs->high})
-      for (const double x : *ends) require_held("leg_limits", x, exponent);
+      for (const double x : *ends) require_held(leg_limits_name, x, exponent);
   for (const Limit& limit : q.criteria.limits) {
     if (has_lengths(limit))
       for (const double x : {limit.low, limit.high}) require_held(limit.name.c_str(), x, exponent);

@@ -35,7 +35,7 @@ struct JudgedLimit {
 class Judge {
  public:
   Judge(const Geometry& g, const Configuration& home, const WorkspaceCriteria& criteria) : g_(g), criteria_(criteria) {
-    if (criteria.legs) names.emplace_back("leg_limits");
+    if (criteria.legs) names.emplace_back(leg_limits_name);
     const std::array<bool, 21> exempt = pairs_sharing_a_joint(g, criteria.exempt);
     for (const PoseCriterion& c : criteria_besides_legs(criteria)) {
       if (c.row->pose == nullptr) continue;
