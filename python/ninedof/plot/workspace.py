@@ -31,7 +31,9 @@ USUAL, MORE = 95, 0.5  # the colours end at this percentile, or at the greatest 
 BOUNDARY = 2.2  # points
 DASHED = (0, (3, 1.5))
 
-KINDS: dict[str, tuple[str, str, Any]] = {  # limits: part of the name, words, colour, dashes
+Look = tuple[str, str, Any]
+"""Words, colour, dashes."""
+KINDS: dict[str, Look] = {  # limits, by a part of their names; others look like OTHER
     "l": (style.LEG_WORDS["l"], style.EXTERNAL, "-"),
     "q": (style.LEG_WORDS["q"], style.UPPER, (0, (2.4, 0.8))),
     "r": (style.LEG_WORDS["r"], style.LOWER, (0, (0.9, 0.7))),
@@ -48,6 +50,7 @@ KINDS: dict[str, tuple[str, str, Any]] = {  # limits: part of the name, words, c
     "box": ("box of the map", "#000000", (0, (2.0, 1.6))),
     "internal_point": ("no admissible O", "#999933", (0, (4.0, 1.5))),
 }
+OTHER = "#44AA99", (0, (1.2, 0.7, 3.0, 0.7))
 ALLOWED, OPEN, EDGE = "#A9CCE3", "#E8871E", "#7FB0D1"  # proved, not decided, edges of proved boxes
 
 
@@ -124,7 +127,7 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure |
                 aspect=28,
                 panchor=False,
             )
-        looks = [look for kind, look in KINDS.items() if kind in ends]
+        looks = [look_of(kind) for kind in (*KINDS, *sorted(ends - KINDS.keys())) if kind in ends]
         keys = [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in looks]
         _legend(figure, keys, sections, style.INK, 4)
         left, right = below.subplots(1, 2)
@@ -176,9 +179,16 @@ def certified_workspace(sections: Sequence[Section], unit: str = "", figure: Fig
 
 
 def kind_of(name: str) -> str:
-    """Return the key of `KINDS` of a limit."""
+    """Return the key of `KINDS` of a limit, its own name for one that is not there."""
     first = name.split(" ")[0]
-    return next((kind for kind in KINDS if len(kind) > 1 and kind in first), first[:1])
+    if first in LEGS:
+        return first[:1]
+    return next((kind for kind in KINDS if len(kind) > 1 and f"_{kind}_" in f"_{first}_"), first)
+
+
+def look_of(kind: str) -> Look:
+    """Return the look of a kind of limits."""
+    return KINDS.get(kind, (kind.replace("_", " "), *OTHER))
 
 
 def _layout() -> ConstrainedLayoutEngine:
@@ -229,7 +239,7 @@ def _outline(s: WorkspaceSlice, turn: Any) -> list[Floats]:
 
 def _boundary(axes: Any, s: WorkspaceSlice, turn: Any, kinds: Sequence[str]) -> set[str]:
     """Draw the boundary in stretches of one kind of limit, show the plane about it, and return the kinds."""
-    names, drawn = list(KINDS), set[str]()
+    names, drawn = list(dict.fromkeys(kinds)), set[str]()
     numbers = np.array([names.index(kind) for kind in kinds] + [-1])
     lines = _outline(s, turn)
     for line in lines:
@@ -239,7 +249,7 @@ def _boundary(axes: Any, s: WorkspaceSlice, turn: Any, kinds: Sequence[str]) -> 
         )
         number = numbers[s.limit[row, column]]
         for first, last in style.stretches(number):
-            _, colour, dashes = KINDS[names[number[first]]] if number[first] >= 0 else ("", style.MUTED, "-")
+            _, colour, dashes = look_of(names[number[first]]) if number[first] >= 0 else ("", style.MUTED, "-")
             drawn |= {names[number[first]]} if number[first] >= 0 else set()
             part = line[first : last + 1].T
             axes.plot(*part, color="white", lw=BOUNDARY, solid_capstyle="butt", zorder=4)
@@ -315,7 +325,7 @@ def _shares(axes: Any, shares: Mapping[str, float]) -> None:
     if not top:
         axes.set_axis_off()
         return
-    colours = [KINDS[kind_of(name)][1] for name, _ in top]
+    colours = [look_of(kind_of(name))[1] for name, _ in top]
     axes.barh(range(len(top)), [100.0 * share for _, share in top], color=colours, height=0.7)
     axes.set_yticks(range(len(top)), [_limit_words(name) for name, _ in top])
     axes.invert_yaxis()

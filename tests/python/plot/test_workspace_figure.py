@@ -13,7 +13,7 @@ from matplotlib.colors import to_hex, to_rgb
 import ninedof as nd
 from ninedof import plot
 from ninedof.plot import style
-from ninedof.plot.workspace import KINDS, kind_of
+from ninedof.plot.workspace import KINDS, OTHER, kind_of
 
 
 @pytest.mark.parametrize(
@@ -66,6 +66,16 @@ def test_what_ends_a_workspace_is_seen_on_every_colour_of_the_condition_number(k
 def test_limits_of_one_kind_of_legs_have_the_colour_of_all():
     names = ("upper_force q1", "lower_rate r2", "base_cone_external l1", "det N", "q3 high")
     assert [kind_of(name) for name in names] == ["force", "rate", "base_cone", "det", "q"]
+
+
+def test_a_limit_that_the_figures_do_not_know_has_a_look_and_its_own_name():
+    """A new row of the table of limits needs no line of the figures."""
+    found = space(names=["l1 low", "apex_distance O"], shares={"apex_distance O": 1.0})
+    figure = plot.workspace(found, [section(np.full((8, 8), 4.0), 1)])
+    assert {to_hex(line.get_color()) for line in figure.axes[0].lines} == {"#ffffff", OTHER[0].lower()}
+    assert OTHER[0] not in {colour for _, colour, _ in KINDS.values()}
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["apex distance"]
 
 
 def test_a_workspace_of_orientations_is_drawn_in_degrees():
