@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import ninedof as nd
@@ -25,14 +25,12 @@ from ninedof.cli.options import (
 )
 from ninedof.cli.posed import Chosen, length_at_home
 from ninedof.design.indices import computed
+from ninedof.design.limits import OF_LENGTHS
 from ninedof.support.arguments import choice, finite
 from ninedof.support.units import DEG, plain_name, unit_entry
 from ninedof.workspace.certified import GAPS, require_certifiable
+from ninedof.workspace.question import CRITERIA
 from ninedof.workspace.study_question import ACTUATORS, Asked, asked_criteria, place_of, rule_of_region
-
-LENGTHS = ("leg_length", "external_length", "upper_length", "lower_length")
-CONES = ("base_cone_deg", "platform_cone_deg", "base_cone_axis", "platform_cone_axis")
-CRITERIA = (*LENGTHS, "condition_number", *CONES, "leg_clearance", "singularity_free")
 
 
 @struct
@@ -87,6 +85,10 @@ class WorkspaceOptions(JobOptions):
     threads: int | None = option(THREADS)
 
 
+def _is_of_criteria(name: str) -> bool:
+    return plain_name(name) in (*OF_LENGTHS, *CRITERIA) or name.endswith("_axis")
+
+
 @dataclass(frozen=True)
 class Question:
     """A question for `nd.workspace`."""
@@ -105,7 +107,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     """Return the question that options ask of a design."""
     study, home = chosen.study, chosen.configuration
     region = None if study is None else study.objective.region
-    numbers = options.given(*CRITERIA).items()
+    numbers = options.given(*(one.name for one in fields(options) if _is_of_criteria(one.name))).items()
     values = {plain_name(name): _radians(name, x) if name.endswith(DEG) else x for name, x in numbers}
     choice("--actuators", options.actuators, ACTUATORS)
     asked = asked_criteria(chosen.result if options.study_limits else None, values, options.actuators)

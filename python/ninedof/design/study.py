@@ -126,7 +126,7 @@ class Study:
         has radians.
     constraints : mapping
         Name to (low, high), None for an open side, or to a mapping of min, max (max_deg for an angle) and options:
-        {"leg_ratio": (None, 3.0), "base_cone": {"max_deg": 45, "axis": [0, 0, 1]}}. 0 < zs < zp (eq. 9b) always holds.
+        {"stroke_ratio": (None, 1.4), "base_cone": {"max_deg": 45, "axis": [0, 0, 1]}}. 0 < zs < zp always (eq. 9b).
         A limit holds at every pose of the objective, or with "at": "neutral" at the neutral pose alone, where it is
         named "leg_ratio at neutral". A list of two such mappings states both. Limits that compare poses take no
         "neutral": strokes, and cones about the legs' own neutral directions.

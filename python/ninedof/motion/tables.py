@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from ninedof.support.units import amount, kind_unit, per, times
 from ninedof.tables import RIGHT, Column, Table, columns, grouped
 
 POWERS, WORKS = ("power", "braking"), ("work", "returned")
-OF_LENGTHS = ("leg_clearance", "stroke")
+KINDS = {"leg_clearance": "length", "stroke": "length", "singularity_free": "sign"}  # in records that have none
 SHOWN = 12  # breaks of limits
 FEW = 50  # poses of a path: fewer need not show what happens between them
 
@@ -76,12 +76,15 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
         if "limit_deg" in row:
             ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
         else:
-            kind = row.get("kind", "length" if row["name"] in OF_LENGTHS else "")  # none in earlier records
-            unit = kind_unit(kind, motion.get("unit", ""))
+            unit = kind_unit(_kind(row), motion.get("unit", ""))
             ends = [amount(f"{row[key]:.6g}", unit) for key in ("limit", "value")]
-        margin = margin_words(row["margin"], "sign" if row["name"] == "singularity_free" else "")
+        margin = margin_words(row["margin"], _kind(row))
         rows.append((f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"))
     return Table("Limits of the study along the path", heads, rows)
+
+
+def _kind(limit: Mapping[str, Any]) -> str:
+    return str(limit.get("kind", KINDS.get(limit["name"], "")))
 
 
 def motion_tables(motion: Mapping[str, Any]) -> list[Table]:
@@ -112,8 +115,9 @@ def motion_words(followed: Followed, motion: Mapping[str, Any]) -> Iterator[tupl
     speed, time = amount(f"{moving:.5g}", per(followed.unit, "s")), "second" if followed.unit else "unit of time"
     yield "", f"platform: speed at most {speed}, turning at most {math.degrees(turning):.5g} degrees per {time}"
     breaks = motion["breaks"]
+    lengths = {*LEGS, *(row["name"] for row in motion.get("limits", ()) if _kind(row) == "length")}
     for entry in breaks[:SHOWN]:
-        yield _break_words(entry, followed.unit)
+        yield _break_words(entry, followed.unit, lengths)
     if len(breaks) > SHOWN:
         yield "", f"and {len(breaks) - SHOWN} more breaks of limits: see record.json"
     error = f"largest difference {motion['tracking_error']:.1e}"
@@ -123,12 +127,12 @@ def motion_words(followed: Followed, motion: Mapping[str, Any]) -> Iterator[tupl
         yield "not tracked back", f" beyond t = {motion['tracked_until']:.6g}: {error}"
 
 
-def _break_words(entry: Mapping[str, Any], unit: str) -> tuple[str, str]:
+def _break_words(entry: Mapping[str, Any], unit: str, lengths: Container[str]) -> tuple[str, str]:
     limit = entry["limit"]
     if limit.startswith("det"):
         return "singularity", f": {limit} changes sign at t = {entry['begin']:.6g}"
     worst = f"{entry['worst_deg']:.5g}°" if "worst_deg" in entry else f"{entry['worst']:.5g}"
-    if limit.split()[0] in (*LEGS, *OF_LENGTHS):
+    if limit.split()[0] in lengths:
         worst = amount(worst, unit)
     when = f"from t = {entry['begin']:.6g} to {entry['end']:.6g}"
     return "limit breaks", f": {limit}, {when}, at worst {worst} at {entry['at']:.6g}"

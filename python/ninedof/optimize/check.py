@@ -16,6 +16,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.design_point import DesignPoint
+from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import LENGTH
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.candidate import best_of
@@ -162,7 +163,7 @@ def _of_design(result: Result) -> Iterator[Finding]:
     sentence = f"{index} of {poses}: {point.objective:.9g}, difference {figure:.1e}"
     yield Finding("objective", figure <= allowed, figure, sentence)
     for name, margin in point.margins.items():
-        label = name if name.startswith("condition_limit") else f"limit: {name}"
+        label = name if name.startswith(CONDITION_LIMIT) else f"limit: {name}"
         sentence = f"the least margin is {margin:.3e}, where the value is {point.values[name]:.9g}"
         yield Finding(label, margin >= -FEASIBLE, margin, sentence)
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from ninedof.design.duty import Tolerances, tolerances_like
 from ninedof.design.limit_numbers import with_scaled_limits
+from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.region_poses import Placing, o_is_placed
 from ninedof.design.study import Study
 from ninedof.optimize.candidate import best_of
@@ -182,7 +183,7 @@ def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
     for limit in open_limits(study, design, study.tolerances, FOR_PROOF, threads):
         key = f"{limit.name} {limit.side}"
         met, worst = limit.value if limit.side == "max" else limit.value[::-1]
-        if limit.name in ("condition_limit", NEUTRAL_LIMIT):  # its enclosure is wide
+        if limit.name in (CONDITION_LIMIT, NEUTRAL_LIMIT):  # its enclosure is wide
             share = min(limit.limit / met, 1.0) * (1.0 - NARROWER)
         else:
             lack = 1.0 - limit.limit / worst if 0.0 < worst < math.inf else 1.0

@@ -15,7 +15,7 @@ from ninedof.optimize.candidate import Candidate, best_of
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result
 from ninedof.paper import published
-from ninedof.paper.published import KAPPA, published_geometry, published_variables, published_zs, solved
+from ninedof.paper.published import KAPPA, LIMIT, published_geometry, published_variables, published_zs, solved
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.running import Progress
@@ -128,7 +128,7 @@ def compare(
 
 
 def _published_row(title: str, zs: float) -> Row:
-    return _row(title, published_variables(zs) | {"theta_z": 0.0}, ("a1", "b2", "radius_ratio"))
+    return _row(title, published_variables(zs) | {"theta_z": 0.0}, ("a1", "b2", LIMIT.label))
 
 
 def _row(title: str, variables: Mapping[str, float], active: tuple[str, ...]) -> Row:
@@ -136,7 +136,7 @@ def _row(title: str, variables: Mapping[str, float], active: tuple[str, ...]) ->
     g, c = point.geometry, point.configuration
     kappa = float(condition_number(g, c))
     legs = dict(zip("lqr", leg_lengths(g, c)[[0, 3, 6]].tolist(), strict=True))
-    ratio = 2.0 * (1.0 - point.margins["radius_ratio"])  # the margin is 1 - ratio / 2
+    ratio = LIMIT.high * (1.0 - point.margins[LIMIT.label])
     return Row(title, dict(variables), kappa, legs, ratio, 100.0 * (1.0 - kappa / KAPPA), active, g, c)
 
 

@@ -26,6 +26,7 @@ from ninedof.robot.geometry import Geometry
 A1, B1, ZP, KAPPA = 0.0, 5.8124, 3.9828, 3.9110
 BASE_SIDE, PLATFORM_SIDE = B1, B1 / 2  # the reading that reproduces eq. (40)
 PLATES = {"a1": A1, "a2": BASE_SIDE, "b1": PLATFORM_SIDE, "b2": 0.0}
+(LIMIT,) = Study.paper().limits  # of the size of the base
 
 FIGURES = {
     "figure_1": "Fig. 1, the architecture",

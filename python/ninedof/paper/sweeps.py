@@ -161,7 +161,7 @@ def ratio_study(side: str, ratio: float) -> Study:
     heights: dict[str, Any] = {"zp": (1e-3, 50.0), "zs": (1e-3, 50.0)}
     return Study(
         variables=pair | others | heights,
-        constraints={"radius_ratio": (None, 2.0)},
+        constraints=Study.paper().constraints,
         characteristic_length=(1e-3, 50.0),
         starts=STARTS,
     )

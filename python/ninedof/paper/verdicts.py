@@ -12,6 +12,7 @@ from ninedof.optimize.candidate import best_of
 from ninedof.paper.published import (
     B1,
     KAPPA,
+    LIMIT,
     STUDIES,
     ZP,
     displacement_slopes,
@@ -116,7 +117,7 @@ def verdicts(threads: int | None = None) -> tuple[Verdict, ...]:
             "flight simulators: fixed base twice the mobile one, 2 a2 = b1",
             f"limits reached at {least:.6f}: {', '.join(same_class.active)}",
             "right as a limit, with a the platform; a larger base would be better still"
-            if "radius_ratio" in same_class.active
+            if LIMIT.label in same_class.active
             else "the limit does not bind",
         ),
         (

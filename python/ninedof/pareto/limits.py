@@ -9,7 +9,9 @@ from typing import Any
 
 from ninedof.design.duty import tolerances_like
 from ninedof.design.indices import objectives
+from ninedof.design.limit_numbers import SPREADS
 from ninedof.design.limits import AT, ROWS, Limit, label, names_with_max, split_label
+from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
@@ -18,7 +20,6 @@ from ninedof.sheet.sheet import sheet
 from ninedof.support.arguments import did_you_mean, shown
 from ninedof.support.units import DEG
 
-CONDITION_LIMIT = "condition_limit"
 TOLERANCE = "tolerance"
 """The larger one of the study's two; both are scaled. It is tighter for the search where it is larger."""
 IN_DEGREES = {label(name + DEG, at): label(name, at) for name, row in ROWS.items() if row.is_angle for at in AT}
@@ -122,7 +123,8 @@ def value_of(study: Study, against: str, result: Result) -> float:
 
 def floor_of(study: Study, against: str) -> float:
     """Return the lower bound of a constraint for any design: 1 for a ratio of maximum to minimum, or its own min."""
-    least = 1.0 if split_label(against)[0] in ("leg_ratio", "stroke_ratio") else 0.0
+    name = split_label(against)[0]
+    least = 1.0 if name in SPREADS and ROWS[name].kind == "ratio" else 0.0
     return max(least, _limit(study, against).low)
 
 

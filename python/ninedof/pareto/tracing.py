@@ -12,10 +12,11 @@ from time import perf_counter
 
 import numpy as np
 
+from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import Front, objective_of
-from ninedof.pareto.limits import CONDITION_LIMIT, TOLERANCE, resolve, tightest_first, with_degrees, without_degrees
+from ninedof.pareto.limits import TOLERANCE, resolve, tightest_first, with_degrees, without_degrees
 from ninedof.pareto.solving import BISECTIONS, FrontSolver, between_indices, of_a_limit, of_tolerances
 from ninedof.support.arguments import finite, instance, items, path_argument, shown, whole
 from ninedof.support.arrays import thread_argument
@@ -49,8 +50,8 @@ def pareto(
     study : Study
         Its own value of the limit is replaced; the min and the other options of the limit are kept.
     against : str
-        A constraint with a max ("radius_ratio", "leg_ratio", "height", "stroke", ...; "leg_ratio at neutral" for the
-        limit at the neutral pose alone; "base_cone_deg" for an angle in degrees), or a second index: with
+        A constraint with a max, by its name in studies ("leg_ratio at neutral" for the limit at the neutral pose
+        alone; "base_cone_deg" for an angle in degrees), or a second index: with
         "condition_limit" the study's own index is minimized under limits on the condition number at every pose; with
         "speed" or "frobenius", for a study of the condition number, that index is minimized. "tolerance" is the price
         of accuracy: every machine within the tolerances keeps the limits, the larger one of joints and legs takes the

@@ -214,7 +214,7 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None, figur
     >>> figure = plot.atlas(nd.atlas(10**6), optimum=(2.0, 3.762659))  # doctest: +SKIP
 
     """
-    ratio, kappa = result["radius_ratio"], result["condition_number"]
+    ratio, kappa = (result[name] for name in result.dims["histogram"])
     counts = result["histogram"]
     total = int(counts.sum())
     inner = counts[1:-1, :-1]  # without the open bins

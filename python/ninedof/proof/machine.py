@@ -12,7 +12,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.design.duty import Tolerances
 from ninedof.design.limits import label
-from ninedof.design.objective import Objective
+from ninedof.design.objective import CONDITION_LIMIT, Objective
 from ninedof.design.region import Region
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
@@ -28,7 +28,7 @@ from ninedof.support.running import Progress, phase
 from ninedof.support.structs import entries, from_core, options_of
 
 DRAWN = Tolerances()
-NEUTRAL_LIMIT = label("condition_limit", "neutral")
+NEUTRAL_LIMIT = label(CONDITION_LIMIT, "neutral")
 WIDE = 20.0  # an enclosure that is proved at once, where only a bound counts
 LARGEST = 0.1  # of the machine's height
 FOR_ERRORS = 0.2  # of the time
@@ -105,7 +105,7 @@ def certify(
     phase(progress, "proving the condition number")
     end = perf_counter() + seconds  # what was before does not count: it is done again whenever a proof is gone on with
     objective = study.objective
-    bounds = {"condition_limit": objective.condition_limit, "condition_number": condition_number}
+    bounds = {CONDITION_LIMIT: objective.condition_limit, "condition_number": condition_number}
     limits_of_index = {name: bound for name, bound in bounds.items() if bound is not None}
     at_neutral = []
     if (bound := objective.neutral_condition_limit) is not None:
@@ -169,7 +169,7 @@ def open_limits(
     geometry, configurations, length, _ = design
     alone = posed_robot(replace(study, objective=Objective()), geometry, configurations[[0]], length, None, built)
     for name, machine, bound in (
-        ("condition_limit", robot, objective.condition_limit),
+        (CONDITION_LIMIT, robot, objective.condition_limit),
         ("condition_number", robot, condition_number),
         (NEUTRAL_LIMIT, alone, objective.neutral_condition_limit),
     ):

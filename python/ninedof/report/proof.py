@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ninedof.design.limits import OF_LENGTHS
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto import Front
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.tables.html import Html, bullets, joined, paragraphs, tag
 from ninedof.workspace import WorkspaceMap
+from ninedof.workspace.question import LEG_LIMITS
 
 ROUNDING = 1e-9  # a gap that no figure on the page shows
 
@@ -48,7 +50,7 @@ def of_front(front: Front) -> Html:
 def of_workspace(workspace: WorkspaceMap, question: Mapping[str, Any]) -> Html:
     """Return the same of a workspace and what was asked."""
     proofs = []
-    legs = any(name == "leg_limits" or name.endswith("_length") for name in question.get("criteria", ()))
+    legs = any(name == LEG_LIMITS or name in OF_LENGTHS for name in question.get("criteria", ()))
     of_positions = workspace.archetype not in ("orientation", "reachable") and question.get("internal_point") != "best"
     if workspace.ball_radius > 0.0 and legs and of_positions:
         proofs.append("Proved: in the largest ball and the largest box every leg keeps to its limits.")

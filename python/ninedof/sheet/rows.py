@@ -69,7 +69,7 @@ class LimitRow(NamedTuple):
     """One side of a limit beside the worst value of the design at the study's own poses."""
 
     name: str
-    """As margins call it: "base_cone", "base_cone at neutral"."""
+    """As margins call it: `Limit.label`."""
     side: str
     """"min" or "max"."""
     limit: float
@@ -119,7 +119,7 @@ def _row(side: str, bound: float, kind: str, point: Mapping[str, Any]) -> LimitR
 
 
 OF_EVERY_LEG = ("shortest", "longest", "neutral", "stroke", "stroke_ratio", "idle", "speed", "acceleration")
-CONES = ("base_cone", "platform_cone")
+CONES = tuple(f"{body}_cone" for body in ("base", "platform"))
 RANGES = ("twist_speed", "twist_acceleration")
 LARGEST = ("speed", "acceleration", "power")
 

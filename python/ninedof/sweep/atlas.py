@@ -18,7 +18,17 @@ from ninedof.support.files import Arrays
 from ninedof.support.running import Progress
 from ninedof.support.text import plain
 from ninedof.sweep.result import SweepResult
-from ninedof.sweep.survey import BOUNDS, Sample, Tally, closed_form, condition_edges, ratio_edges, squared_radius_ratio
+from ninedof.sweep.survey import (
+    BOUNDS,
+    RADIUS_RATIO,
+    ZS_FRACTION,
+    Sample,
+    Tally,
+    closed_form,
+    condition_edges,
+    ratio_edges,
+    squared_radius_ratio,
+)
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -128,16 +138,15 @@ def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
     rows = total.number >= 0
     design = np.full((len(rows), len(HEXAGONAL)), np.nan)
     design[rows] = work.sample.at(total.number[rows].astype(np.uint64))
-    ratio = ("radius_ratio",)
+    ratio = (RADIUS_RATIO,)
     return SweepResult(
         arrays={**total.arrays(), "best": np.where(rows, total.best, np.nan), "design": design},
         dims={
             "histogram": (*ratio, "condition_number"),
             **{"best": ratio, "number": ratio, "design": (*ratio, "variable")},
         },
-        coords={"radius_ratio": ratio_edges(), "condition_number": condition_edges(), "variable": np.array(HEXAGONAL)},
-        units=dict.fromkeys(("histogram", "best", "number", "radius_ratio", "condition_number"), "1")
-        | {"design": "l_c"},
+        coords={RADIUS_RATIO: ratio_edges(), "condition_number": condition_edges(), "variable": np.array(HEXAGONAL)},
+        units=dict.fromkeys(("histogram", "best", "number", RADIUS_RATIO, "condition_number"), "1") | {"design": "l_c"},
         attributes=plain({**work.question(), **versions()}),
     )
 
@@ -148,7 +157,7 @@ def _bounds(bounds: Mapping[str, tuple[float, float]] | None) -> tuple[tuple[flo
     known_keys("bounds", own, BOUNDS)
     out = []
     for name, usual in BOUNDS.items():
-        where, value, most = f"bounds[{name!r}]", own.get(name, usual), 1.0 if name == "zs_fraction" else math.inf
+        where, value, most = f"bounds[{name!r}]", own.get(name, usual), 1.0 if name == ZS_FRACTION else math.inf
         low, high = (finite(where, end, 0.0) for end in items(where, value, "(low, high)", 2))
         if not low <= high <= most:
             raise ValueError(f"{where}: got {shown(value)}, expected 0 <= low <= high" + " <= 1" * math.isfinite(most))

@@ -15,6 +15,7 @@ from ninedof.support.extras import optional
 from ninedof.support.files import Saved
 from ninedof.support.text import encode, short
 from ninedof.support.units import amount, degrees_of, plain_name
+from ninedof.sweep.survey import RADIUS_RATIO
 from ninedof.tables import Column, Table, columns
 from ninedof.tables.html import notebook
 
@@ -189,7 +190,7 @@ def atlas_table(best: Iterable[Mapping[str, Any]]) -> Table:
     heads = columns(">radius ratio\nbelow", ">condition\nnumber", *(f">{name}" for name in names))
     rows = []
     for size in SIZES:
-        below = [one for one in listed if one["radius_ratio"] < size]
+        below = [one for one in listed if one[RADIUS_RATIO] < size]
         if below:
             one = min(below, key=lambda one: one["condition_number"])
             values = (one["condition_number"], *(one["design"][name] for name in names))

@@ -12,10 +12,11 @@ from ninedof import _core
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays
 
+RADIUS_RATIO, ZS_FRACTION = "radius_ratio", "zs_fraction"  # the size of a base, a variable in place of zs
 BOUNDS: dict[str, tuple[float, float]] = {
     **dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, 10.0)),
     "zp": (0.05, 10.0),
-    "zs_fraction": (0.0, 1.0),
+    ZS_FRACTION: (0.0, 1.0),
 }
 """In characteristic lengths; zs is a fraction of zp, since 0 < zs < zp (eq. 9b)."""
 

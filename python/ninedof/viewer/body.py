@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.limit_numbers import CONES
+from ninedof.design.limit_numbers import CONES, REGULAR
 from ninedof.design.limits import OF_LENGTHS
 from ninedof.design.region_poses import o_is_placed
 from ninedof.robot.configuration import Configuration
@@ -19,6 +19,7 @@ from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 from ninedof.viewer.machine import Variant
 from ninedof.viewer.shapes import Mesh
+from ninedof.workspace.question import LEG_LIMITS
 from ninedof.workspace.search import workspace
 from ninedof.workspace.study_question import EASE, permitted_ranges, study_limits
 
@@ -50,7 +51,7 @@ def question_of(variant: Variant, c: Configuration, rule: str, size: float, cond
     if variant.study is not None:
         limits, _ = study_limits(variant.study, variant.geometry, variant.home)
         criteria = {name: limit for name, limit in limits.items() if name not in OF_LENGTHS}
-    criteria |= {"leg_limits": leg_limits(variant), "singularity_free": True}
+    criteria |= {LEG_LIMITS: leg_limits(variant), REGULAR: True}
     if condition_limit < math.inf:
         criteria["condition_number"] = min(condition_limit, criteria.get("condition_number", math.inf))
     carried = {"platform": c.rotation.T @ (c.internal_point - c.position)}  # without a turn the same as shifted

@@ -14,7 +14,7 @@ from ninedof.design.limit_numbers import PARTS
 from ninedof.support.arrays import Floats
 from ninedof.support.structs import from_core
 from ninedof.support.text import short_repr
-from ninedof.workspace.question import connected
+from ninedof.workspace.question import LEG_LIMITS, connected
 
 LIMITS: tuple[str, ...] = tuple(_core.workspace_limits)
 
@@ -64,7 +64,7 @@ def group_of(name: str) -> str:
     if first in PARTS:
         return first
     of_item = [limit for limit, parts in PARTS.items() if name in parts]
-    return of_item[0] if of_item else "leg_limits" if name.endswith((" low", " high")) else name
+    return of_item[0] if of_item else LEG_LIMITS if name.endswith((" low", " high")) else name
 
 
 @short_repr

@@ -32,7 +32,7 @@ class WorkspaceStatus(StrEnum):
     LIMITED = "limited"
     """`most_evaluations` or the smallest cells were reached first; see `error`."""
     EMPTY = "empty"
-    """No allowed pose was found, or none connected with home under "singularity_free"; see `error`."""
+    """No allowed pose was found, or none connected with home under `singularity_free`; see `error`."""
     STOPPED = "stopped"
     """Interrupted: the state after the last complete level, NaN if there was none."""
 
@@ -64,7 +64,7 @@ class WorkspaceMap(Saved):
     home_limit: str
     """The limit that the home pose violates; "" without one."""
     pieces: Floats
-    """Volumes of the connected pieces, the largest first; with "singularity_free" the one of home first."""
+    """Volumes of the connected pieces, the largest first; with `singularity_free` the one of home first."""
     ball_centre: Floats
     ball_radius: float
     """The largest ball inside, in the coordinates of the map; radius 0 and centre NaN where there is none. Leg limits

@@ -26,6 +26,8 @@ SPREAD = 60  # rotations of a set that is not given
 MOST_ROTATIONS = 100_000
 ROWS = {values[0]: Row(*values) for values in _core.criterion_table}
 CRITERIA = tuple(ROWS)
+LEG_LIMITS = next(name for name, row in ROWS.items() if row.kind == "length" and name not in PARTS)
+"""The criterion that gives every leg a range of lengths of its own."""
 ENDS = {"min": "low", "max": "high"}
 
 

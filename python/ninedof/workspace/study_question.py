@@ -23,7 +23,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.sheet.sheet import sheet
 from ninedof.support.arrays import Floats
 from ninedof.support.structs import Fixed
-from ninedof.workspace.question import ROWS, criteria_of
+from ninedof.workspace.question import LEG_LIMITS, ROWS, criteria_of
 
 EASE = 1e-9
 """Share by which limits are eased: an optimum lies on some of them, and rounding would put its home pose outside."""
@@ -134,15 +134,15 @@ def asked_criteria(design: Any = None, values: Mapping[str, Any] = Fixed(), actu
     criteria = {name: value for name, value in criteria.items() if value is not False}
     ranges = OF_LENGTHS.keys() & criteria
     own = {name for name in unchanged - ranges if name in criteria}
-    own |= {"leg_limits"} if ranges and ranges <= unchanged else set()
+    own |= {LEG_LIMITS} if ranges and ranges <= unchanged else set()
     criteria = with_leg_limits(criteria)
     compares = any(name in SPREADS for name in left) and OF_LENGTHS.keys().isdisjoint(values)
     if not compares or (built := built_ranges(design, actuators)) is None:
         return Asked(criteria, own, left, "", replaced)
-    least, most = criteria.get("leg_limits", (0.0, math.inf))
-    criteria["leg_limits"] = (np.maximum(least, built[0]), np.minimum(most, built[1]))
+    least, most = criteria.get(LEG_LIMITS, (0.0, math.inf))
+    criteria[LEG_LIMITS] = (np.maximum(least, built[0]), np.minimum(most, built[1]))
     left = [name for name in left if name not in SPREADS]
-    return Asked(criteria, own - {"leg_limits"}, left, ACTUATOR_WORDS[actuators], replaced)
+    return Asked(criteria, own - {LEG_LIMITS}, left, ACTUATOR_WORDS[actuators], replaced)
 
 
 def _covers(one: str, other: str) -> bool:
@@ -204,7 +204,7 @@ def with_leg_limits(limits: Mapping[str, Any]) -> dict[str, Any]:
     """Return criteria whose ranges of leg lengths are one entry, the first."""
     others = {name: value for name, value in limits.items() if name not in OF_LENGTHS}
     legs = leg_ranges({name: limits[name] for name in OF_LENGTHS if name in limits})
-    return others if legs is None else {"leg_limits": legs} | others
+    return others if legs is None else {LEG_LIMITS: legs} | others
 
 
 def leg_ranges(ranges: Mapping[str, tuple[float, float]]) -> tuple[Any, Any] | None:

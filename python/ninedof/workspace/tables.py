@@ -16,7 +16,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS as LEG_NAMES
 from ninedof.support.units import amount, kind_unit
 from ninedof.tables import RIGHT, Column, Line, Table
-from ninedof.workspace.question import ROWS
+from ninedof.workspace.question import LEG_LIMITS, ROWS
 
 SHOWN = 8  # limits in the table
 STATUSES = {
@@ -144,7 +144,7 @@ def rule_words(keywords: Mapping[str, Any], unit: str) -> str:
 
 def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> Iterator[str]:
     """Yield a criterion in words, for legs of several kinds one for each; without nine ranges of legs if brief."""
-    if name == "leg_limits":
+    if name == LEG_LIMITS:
         ranges = [*zip(*(np.broadcast_to(end, 9).tolist() for end in value), strict=True)]
         if any(len(set(ranges[legs])) > 1 for legs in KINDS.values()):
             each = (f"{leg} {low:.6g} to {high:.6g}" for leg, (low, high) in zip(LEG_NAMES, ranges, strict=True))

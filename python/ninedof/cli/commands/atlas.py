@@ -14,7 +14,7 @@ from ninedof.cli.options import option, struct
 from ninedof.cli.sweep_job import Job
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.sweep.result import atlas_table
-from ninedof.sweep.survey import squared_radius_ratio
+from ninedof.sweep.survey import RADIUS_RATIO, squared_radius_ratio
 
 PLACE = 5
 EXAMPLES = """
@@ -33,11 +33,11 @@ def atlas(job: _Options) -> None:
     result, folder = job.compute(partial(nd.atlas, job.designs, job.seed), f"{job.designs:,} designs")
     rows = [
         {
-            "radius_ratio": float(low),
+            RADIUS_RATIO: float(low),
             "condition_number": float(kappa),
             "design": dict(zip(result["variable"].tolist(), design.tolist(), strict=True)),
         }
-        for low, kappa, design in zip(result["radius_ratio"], result["best"], result["design"], strict=True)
+        for low, kappa, design in zip(result[RADIUS_RATIO], result["best"], result["design"], strict=True)
         if np.isfinite(kappa)
     ]
     data = {"atlas": {"designs": int(result["histogram"].sum()), "best": rows}}

@@ -14,6 +14,7 @@ from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, s
 from ninedof.cli.posed import named_design
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
+from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limits import TOLERANCE, with_degrees
 from ninedof.pareto.solving import range_words
@@ -36,7 +37,7 @@ class _Options(JobOptions):
         "A study file (TOML), or a run folder: its study. The paper's study if none is given.", None
     )
     against: str | None = option(
-        'The limit that is swept: a constraint ("leg_ratio", "leg_ratio at neutral", "base_cone_deg"), '
+        'The limit that is swept: a constraint ("leg_ratio at neutral", "base_cone_deg"), '
         "condition_limit, or tolerance: what accuracy costs. By default radius_ratio, of a run the limit of "
         "greatest price."
     )
@@ -62,7 +63,7 @@ def pareto(options: _Options) -> None:
     study = study.with_solver(options.starts)
     against = options.against
     if against is None:
-        against = "radius_ratio" if run is None else _dearest(run)
+        against = nd.Study.paper().limits[0].name if run is None else _dearest(run)
     against = with_degrees(against)  # at the terminal angles are degrees
     name = "the paper's problem" if file is None else file.name
     if study.length_note:
@@ -97,7 +98,7 @@ def _study_of(study: Path | None) -> tuple[nd.Study, nd.Result | None]:
 def _dearest(run: nd.Result) -> str:
     """Return the limit of a run whose relaxation buys most."""
     prices = run.prices or {}
-    names = [name for name in prices if split_label(name)[0] in names_with_max() or name == "condition_limit"]
+    names = [name for name in prices if split_label(name)[0] in names_with_max() or name == CONDITION_LIMIT]
     if not names:
         raise ValueError(
             "--against: got none, expected the limit to sweep: no limit with a max has a price in this run"
