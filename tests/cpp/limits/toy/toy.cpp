@@ -10,7 +10,9 @@
 #include "ninedof/optimize/evaluate.hpp"
 #include "ninedof/optimize/optimize.hpp"
 #include "ninedof/proof/machine.hpp"
+#include "ninedof/sheet/sheet_numbers.hpp"
 #include "ninedof/workspace/certified.hpp"
+#include "ninedof/workspace/region_share.hpp"
 #include "support/studies.hpp"
 
 using namespace ninedof;
@@ -47,7 +49,7 @@ TEST_SUITE("toy") {
     CHECK(std::ranges::any_of(criterion_table(), listed));
     CHECK(limits_of_poses().back() == "apex_distance");
     CHECK(limit_parts("apex_distance") == std::vector<std::string>{"O"});
-    double found = 0.0;
+    double found = 0.0;  // as paths and the viewer have it
     LimitNumbers("apex_distance", published, home, 1.0).at({Vec3(1.0, 2.0, 3.0), Mat3::Identity(), apex}, &found);
     CHECK(found == doctest::Approx((Vec3(1.0, 2.0, 3.0) - apex).norm()).epsilon(1e-15));
   }
@@ -77,6 +79,30 @@ TEST_SUITE("toy") {
     CHECK(best.variables[4] - best.variables[5] == doctest::Approx(limit).epsilon(1e-9));
     CHECK(std::ranges::count(best.active, "apex_distance") == 1);
     CHECK(best.prices.at("apex_distance") > 0.0);
+  }
+
+  TEST_CASE("sheet: its number at a pose, and both of its ends over poses") {
+    const SheetNumbers sheet({.geometry = published, .neutral = home, .limits = {{.name = "apex_distance"}}});
+    REQUIRE(sheet.groups().size() == 1);
+    const SheetGroup& group = sheet.groups().front();
+    CHECK(group.name == "apex_distance");
+    REQUIRE(group.size == 1);
+    CHECK(group.worst == WorstEnd::both);
+    double found = 0.0;
+    sheet.evaluate(0, {Vec3(1.0, 2.0, 3.0), Mat3::Identity(), apex}, &found);
+    CHECK(found == doctest::Approx((Vec3(1.0, 2.0, 3.0) - apex).norm()).epsilon(1e-15));
+  }
+
+  TEST_CASE("share of a region: a ball of a cube, and what is passed") {
+    Region cube;
+    cube.size = Vec3::Constant(1.0);
+    cube.shifted = false;
+    WorkspaceCriteria criteria;
+    criteria.limits = {{.name = "apex_distance", .high = 0.8}};
+    const Configuration in_o{apex, Mat3::Identity(), apex};
+    const RegionShare found = region_share(published, in_o, criteria, cube, 20'000);
+    CHECK(found.share == doctest::Approx(4.0 / 3.0 * pi * 0.512 / 8.0).epsilon(0.01));
+    CHECK(found.passed == std::vector<std::string>{"apex_distance"});
   }
 
   TEST_CASE("workspace: a ball, or a shell, with the new limit as its boundary") {
