@@ -39,16 +39,6 @@ Problem study(const std::string& family, std::vector<Limit> limits) {
   return p;
 }
 
-/// A limit of a row of the table, with every side that it has.
-Limit limit_of(const ConstraintInfo& row) {
-  Limit out{.name = row.name};
-  if (*row.needs != '\0') out.duty = hand::duty();
-  if (row.sides != LimitSides::only_low) out.high = row.kind == LimitKind::angle ? 0.8 : 3.0;
-  if (row.sides != LimitSides::only_high) out.low = 0.05;
-  out.steps = 3;
-  return out;
-}
-
 /// One design at one pose of a region; the slopes of all its poses wanted.
 struct AtPose {
   AtPose(const PreparedProblem& problem, const Eigen::VectorXd& y, const Region& region, const Vec6& at, bool slopes)
@@ -134,7 +124,7 @@ TEST_SUITE("region_search") {
           if (std::string(row.name) == "leg_ratio" && family != "general") break;  // legs of one length: kinks
           CAPTURE(family);
           CAPTURE(std::string(row.name));
-          Problem problem = one_pose(study(family, {limit_of(row)}));
+          Problem problem = one_pose(study(family, {hand::limit_of(row)}));
           problem.objective.condition_limit = 50.0;
           problem.objective.index =
               std::array{Index::condition_number, Index::speed, Index::frobenius}[at_index(n % 3)];

@@ -149,6 +149,39 @@ inline std::shared_ptr<const ninedof::Duty> duty() {
   return std::make_shared<const ninedof::Duty>(out);
 }
 
+/// A limit of a row of the table, with every side that it has.
+inline Limit limit_of(const ninedof::ConstraintInfo& row) {
+  using enum ninedof::LimitKind;
+  Limit out{.name = row.name, .steps = 3};
+  if (*row.needs != '\0') out.duty = duty();
+  if (row.sides != ninedof::LimitSides::only_low)
+    out.high = row.kind == angle    ? 0.8
+               : row.kind == number ? 30.0
+               : row.kind == rate   ? 1.0
+               : row.kind == power  ? 20.0
+                                    : 3.0;
+  if (row.sides != ninedof::LimitSides::only_high) out.low = row.kind == sign ? 0.05 : 0.5;
+  return out;
+}
+
+/// Of every row of the table each side, in each unit; a cone about the legs' own directions and about an axis.
+inline std::vector<Limit> every_limit() {
+  std::vector<Limit> out;
+  for (const ninedof::ConstraintInfo& row : ninedof::constraint_table())
+    for (const bool other : {false, true}) {
+      Limit both = limit_of(row);
+      if (other && row.of == Unit::length && row.kind != ninedof::LimitKind::angle) continue;
+      if (other && row.kind == ninedof::LimitKind::angle) both.axis = {1.0, -0.5, 0.3};
+      if (other) both.of = row.of;
+      Limit low = both, high = both;
+      low.high = infinity;
+      high.low = -infinity;
+      if (row.sides != ninedof::LimitSides::only_low) out.push_back(high);
+      if (row.sides != ninedof::LimitSides::only_high) out.push_back(low);
+    }
+  return out;
+}
+
 inline Range measured(const Limit& limit, const Design& d) {
   const Geometry& g = d.geometry;
   const double zp = d.at.front().position.z();

@@ -5,6 +5,8 @@ import math
 import numpy as np
 import pytest
 from limit_oracle import (
+    EVERY_LIMIT,
+    RULES,
     Limit,
     Robot,
     between_segments,
@@ -17,6 +19,7 @@ from scipy.optimize import minimize
 from sizes import size
 
 import ninedof as nd
+from ninedof.design.limits import ROWS
 
 PAIRS = np.array([(0, 1), (0, 2), (1, 2), (0, 4), (0, 7)])
 
@@ -34,6 +37,10 @@ def robot(poses=None, heights=(0.0, 0.0)):
 
 def least(robot, name, **limit):
     return float(margins(Limit(name, **limit), robot).min())
+
+
+def test_every_limit_has_a_definition_and_is_stated():
+    assert set(EVERY_LIMIT) == set(RULES) == set(ROWS)
 
 
 def test_ratios_and_lengths_by_hand():

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from design_oracle import is_angle
 from duty_oracle import DUTY
+from limit_oracle import EVERY_LIMIT
 from sizes import size
 
 import ninedof as nd
@@ -24,33 +25,7 @@ POSES = [
 ]
 # Every constraint that has a meaning at one pose, with every side and unit it has.
 LIMITS = (
-    {
-        "radius_ratio": {"min": 0.5, "max": 2.0},
-        "leg_ratio": {"min": 1.2, "max": 3.0},
-        "zs_fraction": {"min": 0.1, "max": 0.9},
-        "leg_length": {"min": 0.5, "max": 6.0},
-        "external_length": {"min": 0.1, "max": 1.6, "of": "zp"},
-        "upper_length": {"min": 0.2, "max": 4.0},
-        "lower_length": {"min": 0.2, "max": 1.4, "of": "zp"},
-        "height": {"min": 0.5, "max": 8.0},
-        "footprint": {"min": 0.5, "max": 6.0},
-        "joint_height": {"max": 0.6},
-        "joint_spacing": {"min": 0.1},
-        "leg_clearance": {"min": 0.2},
-        "base_cone": {"max_deg": 50.0, "axis": [0.1, -0.2, 2.0]},
-        "platform_cone": {"max_deg": 60.0, "axis": [0.2, 0.3, -1.0]},
-        "base_cone_external": {"max_deg": 50.0, "axis": [0.1, -0.2, 2.0]},
-        "base_cone_internal": {"max_deg": 55.0, "axis": [0.1, 0.2, 2.0]},
-        "platform_cone_external": {"max_deg": 60.0, "axis": [0.2, 0.3, -1.0]},
-        "platform_cone_internal": {"max_deg": 65.0, "axis": [0.2, -0.3, -1.0]},
-        "singularity_free": {"min": 0.01},
-        "fault_tolerant": {"max": 9.0},
-        "force": {"max": 100.0},
-        "rate": {"max": 1.5},
-        "power": {"max": 150.0},
-        **{f"{kind}_force": {"max": 90.0} for kind in ("external", "upper", "lower")},
-        **{f"{kind}_rate": {"max": 1.4} for kind in ("external", "upper", "lower")},
-    },
+    {name: limit for name, limit in EVERY_LIMIT.items() if name not in ("stroke", "stroke_ratio")},
     {
         "leg_length": {"min": 0.2, "max": 2.0, "of": "zp"},
         "joint_height": {"max": 0.2, "of": "radius"},
@@ -97,10 +72,6 @@ def cases():
 
 
 CASES = list(cases())
-
-
-def test_the_lists_name_every_constraint():
-    assert set(LIMITS[0]) | {"stroke", "stroke_ratio"} == set(limits.ROWS)
 
 
 @pytest.mark.parametrize("family", FAMILIES)

@@ -252,6 +252,36 @@ RULES = {  # the values that must be at most the high limit, and those that must
     "singularity_free": (None, lambda r, limit: determinants(r, limit.steps if limit.at == "poses" else 0)),
 }
 
+EVERY_LIMIT = {  # with every side that it has, as studies state it
+    "stroke_ratio": {"max": 1.3},
+    "stroke": {"max": 0.4, "of": "zp"},
+    "radius_ratio": {"min": 0.5, "max": 2.0},
+    "leg_ratio": {"min": 1.2, "max": 3.0},
+    "zs_fraction": {"min": 0.1, "max": 0.9},
+    "leg_length": {"min": 0.5, "max": 6.0},
+    "external_length": {"min": 0.1, "max": 1.6, "of": "zp"},
+    "upper_length": {"min": 0.2, "max": 4.0},
+    "lower_length": {"min": 0.2, "max": 1.4, "of": "zp"},
+    "height": {"min": 0.5, "max": 8.0},
+    "footprint": {"min": 0.5, "max": 6.0},
+    "joint_height": {"max": 0.6},
+    "joint_spacing": {"min": 0.1},
+    "leg_clearance": {"min": 0.2},
+    "base_cone": {"max_deg": 50.0, "axis": [0.1, -0.2, 2.0]},
+    "platform_cone": {"max_deg": 60.0, "axis": [0.2, 0.3, -1.0]},
+    "base_cone_external": {"max_deg": 50.0, "axis": [0.1, -0.2, 2.0]},
+    "base_cone_internal": {"max_deg": 55.0, "axis": [0.1, 0.2, 2.0]},
+    "platform_cone_external": {"max_deg": 60.0, "axis": [0.2, 0.3, -1.0]},
+    "platform_cone_internal": {"max_deg": 65.0, "axis": [0.2, -0.3, -1.0]},
+    "singularity_free": {"min": 0.01},
+    "fault_tolerant": {"max": 9.0},
+    "force": {"max": 100.0},
+    "rate": {"max": 1.5},
+    "power": {"max": 150.0},
+    **{f"{kind}_force": {"max": 90.0} for kind in ("external", "upper", "lower")},
+    **{f"{kind}_rate": {"max": 1.4} for kind in ("external", "upper", "lower")},
+}
+
 
 # --- Directions and distances -----------------------------------------------------------------------------------------
 
