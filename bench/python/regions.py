@@ -6,8 +6,8 @@
 
 Each study runs in a process of its own, which is killed after --limit seconds: "no end". A line says how far the
 objective is from the best known value, what is left to gain near it by the study's own account, and the least margin of
-the limits and of the index at random poses (--poses), drawn and evaluated in numpy, by the definitions. With O best 1000
-poses are drawn: placing O at each takes a search.
+the limits and of the index at random poses (--poses), drawn and evaluated in numpy, by the definitions. With O best
+1000 poses are drawn: placing O at each takes a search.
 """
 
 import argparse
