@@ -285,6 +285,18 @@ class Tolerances(Table):
         return self.joints > 0.0 or self.legs > 0.0
 
 
+LARGEST_TOLERANCE = 0.1
+"""Of the height zp: no tolerance of a machine is as large."""
+
+
+def require_small(tolerances: Tolerances, height: float, unit: str) -> None:
+    """Raise for tolerances of no machine that is at most as high."""
+    for name, size in (("joints", tolerances.joints), ("legs", tolerances.legs)):
+        if size > 0.0 and not size < LARGEST_TOLERANCE * height:
+            got, most = (amount(f"{x:.6g}", unit) for x in (size, LARGEST_TOLERANCE * height))
+            raise ValueError(f"tolerances.{name}: got {got}, expected less than a tenth of the greatest zp, {most}")
+
+
 def tolerances_like(shape: Tolerances, size: float) -> Tolerances:
     """Return tolerances in the ratio of others, the larger one of a size; alike where the others are none."""
     most = max(shape.joints, shape.legs)

@@ -19,7 +19,7 @@ from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design import actuators as bought
 from ninedof.design.actuators import FOR, LEG_KINDS, Actuator
 from ninedof.design.design_point import DesignPoint, design_point
-from ninedof.design.duty import DUTIES, About, Loads, Masses, Speeds, Tolerances, Tool, duty
+from ninedof.design.duty import DUTIES, About, Loads, Masses, Speeds, Tolerances, Tool, duty, require_small
 from ninedof.design.leg_duty import LegDuty, internal_motion, require_stated
 from ninedof.design.limits import OF_LENGTHS, ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
@@ -159,7 +159,7 @@ class Study:
         The origin of the plate by default.
     loads, masses, speeds, tolerances : Loads, Masses, Speeds, Tolerances or mappings
         What the machine carries, how fast it moves and how well it is made: defaults of `sheet`, of the commands about
-        one design, and of reports.
+        one design, and of reports. Tolerances are less than a tenth of the greatest zp.
     actuators : sequence of Actuator or mappings, or path
         Legs that can be bought, or a CSV file with the columns name, shortest, longest, force, rate and price:
         `optimize` chooses rows with the design. None by default.
@@ -235,6 +235,7 @@ class Study:
         }.items():
             object.__setattr__(self, name, value)
         self.problem()
+        require_small(self.tolerances, float(np.max(variables["zp"])), self.unit)
 
     @classmethod
     def paper(cls) -> Study:

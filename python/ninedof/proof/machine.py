@@ -10,7 +10,7 @@ from typing import TypedDict, Unpack
 import numpy as np
 
 from ninedof import _core
-from ninedof.design.duty import Tolerances
+from ninedof.design.duty import LARGEST_TOLERANCE, Tolerances
 from ninedof.design.limits import label
 from ninedof.design.objective import CONDITION_LIMIT, Objective
 from ninedof.design.region import Region
@@ -30,7 +30,6 @@ from ninedof.support.structs import entries, from_core, options_of
 DRAWN = Tolerances()
 NEUTRAL_LIMIT = label(CONDITION_LIMIT, "neutral")
 WIDE = 20.0  # an enclosure that is proved at once, where only a bound counts
-LARGEST = 0.1  # of the machine's height
 FOR_ERRORS = 0.2  # of the time
 FOR_LIMITS = 5.0  # seconds of each: their enclosures are not gone on with, those of the condition number are
 
@@ -74,7 +73,7 @@ def certify(
         condition_number = finite("condition_number", condition_number, 1.0)
     if keep is not None and not callable(keep):
         raise ValueError(f"keep: got {shown(keep)}, expected a callable of one argument")
-    size, most = max(built.joints, built.legs), LARGEST * study.zp(configurations[0])
+    size, most = max(built.joints, built.legs), LARGEST_TOLERANCE * study.zp(configurations[0])
     if not size < most:
         raise ValueError(f"tolerance: got {size:g}, expected less than a tenth of the machine's height, {most:.6g}")
     only_neutral = region is None and len(configurations) == 1

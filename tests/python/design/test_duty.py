@@ -64,6 +64,14 @@ def test_a_study_without_them_is_written_as_before():
         ({"masses": {"inertia": [1, 1, 3, 0, 0, 0]}}, r"masses\.inertia: got principal moments 1, 1, 3"),
         ({"speeds": {"angular_deg": -1}}, r"speeds\.angular_deg: got -1"),
         ({"tolerances": {"joints": "small"}}, r"tolerances\.joints: got 'small', expected a number"),
+        (
+            {"unit": "mm", "variables": {"zp": [300, 700]}, "tolerances": {"joints": 70}},
+            r"tolerances\.joints: got 70 mm, expected less than a tenth of the greatest zp, 70 mm",
+        ),
+        (
+            {"variables": {"zp": 5.0, "zs": 2.0}, "tolerances": {"joints": 0.49, "legs": 0.6}},
+            r"tolerances\.legs: got 0.6, expected less than a tenth of the greatest zp, 0.5",
+        ),
         ({"about": {"project": 7}}, r"about\.project: got 7, expected text"),
         ({"about": "me"}, r"about: got 'me', expected a table"),
         ({"mass": {}}, r"study: got the entry 'mass'.*did you mean 'masses'"),

@@ -151,8 +151,9 @@ def test_ctrl_c_in_a_proof_keeps_the_design(monkeypatch):
     assert not result.reserve.proved
 
 
-def test_tolerances_as_large_as_the_machine_are_no_crash():
-    result = nd.optimize(replace(REQUIREMENT, tolerances=nd.Tolerances(joints=300.0)), starts=2)
+@pytest.mark.slow
+def test_tolerances_with_which_no_design_is_proved_are_no_crash():
+    result = nd.optimize(replace(REQUIREMENT, tolerances=nd.Tolerances(joints=60.0)), starts=2)
     assert result.status == "infeasible"
     assert result.best is None
     assert result.reason.startswith("not proved of every machine within the tolerances: ")

@@ -74,9 +74,9 @@ def test_a_front_of_tolerances_is_read_back(front, tmp_path):
 
 def test_the_ratio_of_joints_and_legs_is_kept():
     study = replace(STUDY, tolerances=nd.Tolerances(joints=0.2, legs=0.05))
-    assert with_limit(study, "tolerance", 2.0).tolerances == nd.Tolerances(2.0, 0.5)
+    assert with_limit(study, "tolerance", 0.4).tolerances == nd.Tolerances(0.4, 0.1)
     assert with_limit(study, "tolerance", None).tolerances == nd.Tolerances()
-    assert with_limit(STUDY, "tolerance", 2.0).tolerances == nd.Tolerances(2.0, 2.0)
+    assert with_limit(STUDY, "tolerance", 0.4).tolerances == nd.Tolerances(0.4, 0.4)
     assert unit_of(study, "tolerance") == "mm"
     assert tightest_first("tolerance", (0.0, 2.0, 1.0)) == [2.0, 1.0, 0.0]
     assert tightest_first("height", (2.0, 1.0)) == [1.0, 2.0]
