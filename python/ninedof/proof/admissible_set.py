@@ -15,17 +15,30 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof import _core
 from ninedof.design.study import Study
+from ninedof.design.variables import angles_in_radians
 from ninedof.proof.design_range import DesignRange, HasDesign, design_values
-from ninedof.proof.machine_record import ProofPose
+from ninedof.proof.machine_record import ProofPose, outward
 from ninedof.support.arguments import finite, path_argument, shown, table
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import write_whole
+from ninedof.support.units import amount
 
 INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
 STATES = (INSIDE, OUTSIDE, UNDECIDED)
 PIECES = ("low", "high", "state", "demand", "poses")
 AROUND_SECONDS = 20.0
 ON_LIMIT, EASED_SECONDS = 1e-6, 5.0  # of a limit: what the optimizer's designs on it may pass it by
+WIDER = 1e-3  # of each limit, where a design on one is asked how far it may go
+
+
+class NoRoom(ValueError):
+    """No box around a design is proved."""
+
+    def __init__(self, design: str, reason: str) -> None:
+        """Say why, where that is known."""
+        expected = f"one that is inside: {reason}" if reason else "one around which a box is proved to be inside"
+        super().__init__(f"design: got {design}, expected {expected}")
+        self.reason = reason
 
 
 class Reason(NamedTuple):
@@ -134,14 +147,16 @@ class AdmissibleSet:
         design : Result or mapping, optional
             The design; `at` by default.
         proportions : mapping, optional
-            The half widths of the box by variable, up to a factor: tolerances of manufacture. By default the box for
-            which the product of the room to all sides is greatest: there is room to each.
+            The half widths of the box by variable, up to a factor: tolerances of manufacture; angles in radians, or in
+            degrees with _deg behind the name. By default the box for which the product of the room to all sides is
+            greatest: there is room to each.
 
         Raises
         ------
         ValueError
             If the design is not inside: the message names the limit that it breaks, if that is proved, or the limit
-            that it is on: an optimum has no room on that side.
+            that it is on: an optimum has no room on that side. It then says how far each variable may go with limits
+            that are 0.1 % wider, if that is proved.
 
         """
         values = self.of.at if design is None else design_values(design)
@@ -154,23 +169,31 @@ class AdmissibleSet:
         x = [finite(name, values[name]) for name in self.vary]
         half: list[float] = []
         if proportions is not None:
-            given = table("proportions", proportions)
+            given = angles_in_radians(
+                self.study, table("proportions", proportions), lambda name, x: finite(f"proportions.{name}", x)
+            )
             if set(given) != set(self.vary):
-                raise ValueError(f"proportions: got {shown(list(given))}, expected {', '.join(self.vary)}")
-            half = [finite(f"proportions.{name}", given[name]) for name in self.vary]
-        found, low, high, broken = _core.room_around(self.of.for_core(), x, half, seconds=AROUND_SECONDS)
-        if found:
-            return dict(zip(self.vary, zip(low, high, strict=True), strict=True))
+                raise ValueError(f"proportions: got {shown(list(proportions))}, expected {', '.join(self.vary)}")
+            half = [given[name] for name in self.vary]
+
+        def room(of: DesignRange, seconds: float) -> tuple[dict[str, tuple[float, float]], int]:
+            found, low, high, broken = _core.room_around(of.for_core(), x, half, seconds=seconds)
+            return dict(zip(self.vary, zip(low, high, strict=True), strict=True)) if found else {}, broken
+
+        box, broken = room(self.of, AROUND_SECONDS)
+        if box:
+            return box
         words = ", ".join(f"{name} = {value:g}" for name, value in zip(self.vary, x, strict=True))
         share = ON_LIMIT if broken >= 0 else -ON_LIMIT  # a design that breaks none may be within a limit by rounding
-        on, _, _, breaks = _core.room_around(self.of.eased(share).for_core(), x, half, seconds=EASED_SECONDS)
-        if max(broken, breaks) >= 0:
-            limit = " ".join(self.demands[broken if broken >= 0 else breaks]).strip().replace("_", " ")
-            there = f"it is on the limit {limit} (within {ON_LIMIT:g} of it): no room on that side"
-            if broken >= 0 and not on:
-                there = f"it breaks {limit}" if breaks >= 0 else f"it is on the limit {limit}, or breaks it"
-            raise ValueError(f"design: got {words}, expected one that is inside: {there}")
-        raise ValueError(f"design: got {words}, expected one around which a box is proved to be inside")
+        on, breaks = room(self.of.eased(share), EASED_SECONDS)
+        if max(broken, breaks) < 0:
+            raise NoRoom(words, "")
+        limit = " ".join(self.demands[broken if broken >= 0 else breaks]).strip().replace("_", " ")
+        if broken >= 0 and not on:
+            raise NoRoom(words, f"it breaks {limit}" if breaks >= 0 else f"it is on the limit {limit}, or breaks it")
+        wide, _ = room(self.of.eased(WIDER), AROUND_SECONDS)
+        more = f"; with every limit {WIDER:.1%} wider {room_words(self.of, wide)}" if wide else ""
+        raise NoRoom(words, f"it is on the limit {limit} (within {ON_LIMIT:g} of it): no room on that side{more}")
 
     def __repr__(self) -> str:
         """Show the shares."""
@@ -213,6 +236,16 @@ class AdmissibleSet:
     def _boxes(self, state: int) -> Floats:
         chosen = self.state == state
         return np.stack([self.low[chosen], self.high[chosen]], axis=-1)
+
+
+def room_words(of: DesignRange, room: Mapping[str, tuple[float, float]]) -> str:
+    """Return how far each variable may go at once, as `AdmissibleSet.around` has it; rounded to the safe side."""
+    parts = []
+    for name, ends in room.items():
+        low, high = (of.study.shown(name, end) for end in ends)
+        upper = amount(outward(high, up=False), of.study.unit_of(name))
+        parts.append(f"{name} may be {outward(low, up=True)} to {upper}")
+    return f"{', '.join(parts)}{', all at once' if len(parts) > 1 else ''}"
 
 
 def _pose(row: list[float]) -> ProofPose:

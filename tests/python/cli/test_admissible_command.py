@@ -119,13 +119,58 @@ def test_a_run_gives_the_other_variables(run, study, tmp_path):
         ("--vary a2 --set theta_z=30", "theta_z: got 30 rad, expected at most a turn, or theta_z_deg"),
         ("--vary theta_z=0:30", "theta_z: got 30 rad, expected at most a turn, or theta_z_deg"),
         ("--vary a2 --set b9=1", "--set: got 'b9', expected one of a1, a2"),
-        ("", "Missing option '--vary'"),
+        ("", "--vary: got none, expected one to four of a1, a2, b1, b2, zp, zs, theta_z, or --around"),
+        ("--around --out x", "--out: got x, expected none with --around and no --vary"),
+        ("--vary a2 --proportions a2=1", "--proportions: got it without --around"),
+        ("--around --proportions a2=2;b1=1", "--proportions: got 'a2=2;b1=1', expected NAME=NUMBER,NAME=NUMBER"),
+        ("--around --proportions a2=2,a2=1", "--proportions: got 'a2=2,a2=1', expected NAME=NUMBER,NAME=NUMBER"),
+        ("--around --proportions a2=2,b1=1", "--proportions: got ['a2', 'b1'], expected a2, b1, zp, zs"),
     ],
 )
 def test_what_is_refused(run, study, line, words):
     status, _, err = run(f"admissible {study} {line}")
     assert status == 2
     assert words in " ".join(err.split())
+
+
+def test_around_alone_says_how_far_all_free_variables_may_go(run, study):
+    study.write_text('unit = "mm"\n' + STUDY)
+    line = f"admissible {study} --around --set a2=6 --set b1=3 --set zp=5 --set zs=3"
+    status, out, _ = run(line)
+    assert status == 0
+    words = " ".join(out.split())
+    assert words.startswith("Proved around a2 = 6 mm, b1 = 3 mm, zp = 5 mm, zs = 3 mm: a2 may be ")
+    assert words.endswith(" mm, all at once.")
+    room = json.loads(run(f"{line} --json")[1])["around"]
+    at = {"a2": 6, "b1": 3, "zp": 5, "zs": 3}
+    found = nd.admissible(nd.Study.load(study), tuple(at), at=at, time_limit=0.0)
+    assert {name: tuple(ends) for name, ends in room.items()} == found.around()
+    for name, (low, high) in room.items():  # rounded to the safe side
+        printed = words.split(f"{name} may be ")[1].split(" mm")[0].split(" to ")
+        assert low <= float(printed[0]) < float(printed[1]) <= high
+    status, out, _ = run(f"{line} --proportions a2=2,b1=1,zp=1,zs=1 --json")
+    assert status == 0
+    widths = {name: high - low for name, (low, high) in json.loads(out)["around"].items()}
+    assert widths == pytest.approx(dict.fromkeys(widths, widths["b1"]) | {"a2": 2.0 * widths["b1"]})
+
+
+def test_around_alone_names_the_limit_that_leaves_no_room(run, study):
+    status, out, _ = run(f"admissible {study} --around --set a2=7.5 --set b1=3 --set zp=5 --set zs=3 --json")
+    assert status == 0
+    answer = json.loads(out)
+    assert answer["around"] is None
+    assert answer["reason"].startswith(
+        "it is on the limit radius ratio (within 1e-06 of it): no room on that side; with"
+    )
+    assert "with every limit 0.1% wider a2 may be " in answer["reason"]
+
+
+def test_with_more_than_four_free_variables_around_asks_which(run, study):
+    study.write_text("[constraints]\nleg_ratio = { max = 3.0 }\n")
+    status, _, err = run(f"admissible {study} --around")
+    assert status == 2
+    words = " ".join(err.split())
+    assert "--vary: got none with 6 free variables: a1, a2, b1, b2, zp, zs, expected one to four" in words
 
 
 def test_a_study_that_places_o_anew_is_refused():
@@ -179,7 +224,7 @@ def test_a_study_with_actuators_says_for_which_rows_a_design_exists(run, study):
     status, out, _ = run(f"admissible {study} {ASKED} 0.05")
     assert "yes" in out
     assert "no " in out
-    for option in ("--around", "--condition 4", "--out x", "--scheduler x"):
+    for option in ("--around", "--around --proportions a2=1", "--condition 4", "--out x", "--scheduler x"):
         status, _, err = run(f"admissible {study} {ASKED} 0.05 {option}")
         assert status == 2
         assert f"{option.split()[0]}: got" in err

@@ -1,6 +1,7 @@
 """Sets of admissible designs, held against designs drawn at random and evaluated in numpy at poses drawn at random."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -339,6 +340,10 @@ def test_the_room_around_a_design():
     assert 0.0 < least < 0.02  # its sides go on until a limit is near
     wide = found.around(proportions={"a2": 2.0, "b1": 1.0})
     assert np.ptp(wide["a2"]) == pytest.approx(2.0 * np.ptp(wide["b1"]))
+    turned = nd.admissible(
+        replace(study, variables=SIZES | AT), {"theta_z_deg": (-10.0, 10.0)}, at=AT | {"a2": 6, "b1": 3}
+    )
+    assert turned.around(proportions={"theta_z_deg": 1.0}).keys() == {"theta_z"}
     with pytest.raises(ValueError, match=r"design: got a2 = 9.5, b1 = 1.5, expected one that is inside: it breaks"):
         found.around({"a2": 9.5, "b1": 1.5})
     with pytest.raises(ValueError, match=r"design.zp: got 4, expected 5, as in the set"):
@@ -355,6 +360,10 @@ def test_a_design_on_a_limit_has_no_room():
     for zp in (5.0, 5.0 * (1.0 + 1e-7)):
         with pytest.raises(ValueError, match=r"it is on the limit height \(within 1e-06 of it\): no room on that side"):
             found.around({"zp": zp})
+    with pytest.raises(ValueError, match=r"with every limit 0.1% wider zp may be \S+ to 5.00[45]\d*$") as error:
+        found.around()
+    low, high = map(float, str(error.value).rpartition(" may be ")[2].split(" to "))
+    assert 2.0 <= low < 5.0 < 5.004 < high < 5.005  # what is proved ends within the wider limit, to 0.5 %
     with pytest.raises(ValueError, match="it breaks height"):
         found.around({"zp": 5.0 * (1.0 + 1e-5)})
 

@@ -17,7 +17,7 @@ LINES = {
     ],
     "admissible": [
         "{study} --vary a2=4:8 --vary b1=1:5 --set zp=4 --set zs=2 --set theta_z_deg=0 --condition 9 "
-        "--time 1 --resolution 0.2 --threads 1 --around --certificate {page} "
+        "--time 1 --resolution 0.2 --threads 1 --around --proportions a2=2,b1=1 --certificate {page} "
         "--out {out}"
     ],
     "compare": ["{run} {run} --plot x.png"],

@@ -11,12 +11,13 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import SCHEDULER, THREADS, Options, argument, changes_option, option, struct
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
-from ninedof.proof.design_range import design_range
+from ninedof.proof.admissible_set import NoRoom, room_words
+from ninedof.proof.design_range import MOST_VARIED, design_range
 from ninedof.records.load import split
 from ninedof.records.proofs import admissible_file, load_admissible, save_admissible
 from ninedof.support.running import goes_on
 from ninedof.support.store import folder_of
-from ninedof.support.units import amount, with_unit
+from ninedof.support.units import amount
 from ninedof.tables import Table, columns
 
 PLACE = 4
@@ -28,18 +29,26 @@ EXAMPLES = """
   ninedof admissible study.toml --vary a2 --vary b1 --set zp=480 --set zs=320 --out designs
   ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --set zs=-5%
   ninedof admissible study.toml --vary a2 --vary b1 --vary zp --set zs=320 --scheduler tcp://head:8786
-  ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --around    how far each may go"""
+  ninedof admissible runs/20260101-120000 --around    how far each dimension may go
+  ninedof admissible runs/20260101-120000 --vary a2 --vary b1 --around --proportions a2=2,b1=1"""
 
 
 @struct
 class _Options(Options):
     of: str = argument("A study file, a run folder, or RUN#7 of a front.", metavar="STUDY|RUN")
-    vary: list[str] = option("A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH.", ...)
+    vary: list[str] | None = option(
+        "A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH. Needed, but with --around alone."
+    )
     set: list[str] | None = option("Another variable: zs=320, or zs=+10%. Repeatable.")
     condition: float | None = option("A bound of the condition number besides the limits.")
     time: float = option("Seconds, with --scheduler of each root; what is proved by then is kept.", 300.0)
     resolution: float = option("The least size of a box, as a part of each range.", 0.01)
-    around: bool = option("How far each variable may go at once, from the design.", False, "--around")
+    around: bool = option(
+        "How far each variable may go at once, from the design; without --vary this alone, of all free variables.",
+        False,
+        "--around",
+    )
+    proportions: str | None = option("With --around: half widths in these proportions, a2=2,b1=1.")
     certificate: Path | None = option("A file of the boxes with reasons for `ninedof check`.")
     out: Path | None = option("A folder for the answer; that of the run by default.")
     threads: int | None = option(THREADS)
@@ -54,9 +63,13 @@ def admissible(options: _Options) -> Answer:
     """
     screen = options.screen
     of, folder = _of(options)
-    vary, at = dict(map(_vary, options.vary)), changes_option(options.set or ())
+    vary, at = dict(map(_vary, options.vary or ())), changes_option(options.set or ())
+    if options.proportions is not None and not options.around:
+        raise ValueError("--proportions: got it without --around, expected both")
     if isinstance(of, nd.Study) and of.actuators:
         return _rows(screen, of, options, vary, at)
+    if not vary:
+        return _around_alone(screen, of, options, at)
     asked = design_range(of, vary, at, options.condition)
     file = None if folder is None else admissible_file(folder, asked)
     earlier = None if file is None else load_admissible(file, asked)
@@ -81,14 +94,14 @@ def admissible(options: _Options) -> Answer:
         screen.print(f"certificate {options.certificate}")
         data["certificate"] = str(options.certificate)
     if options.around:
-        data["around"] = _around(screen, found)
+        data |= _around(screen, found, options)
     return Answer([], data, INTERRUPTED if found.interrupted else DONE)
 
 
 def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: Mapping[str, Any]) -> Answer:
     """Return for which rows of its actuators a study has designs; nothing is kept."""
     alone = "for a study with actuators: its answer is printed alone"
-    options.refuse(alone, "condition", "around", "certificate", "out", "scheduler")
+    options.refuse(alone, "condition", "around", "proportions", "certificate", "out", "scheduler")
     with screen.bar("boxes", "actuators") as bar:
         found = nd.admissible_actuators(study, vary, at=at, **_how(options), progress=bar)
     heads = columns("legs", "actuator", "a design exists", "for example")
@@ -130,18 +143,40 @@ def _vary(text: str) -> tuple[str, tuple[float, float] | None]:
     return name, (low, high) if equals else None
 
 
-def _around(screen: Screen, found: nd.AdmissibleSet) -> dict[str, list[float]] | None:
-    """Print how far the design may go; that it lies on a limit is an answer too."""
+def _around_alone(screen: Screen, of: nd.Study | nd.Result, options: _Options, at: Mapping[str, Any]) -> Answer:
+    """Say how far all free variables may go at once; designs are not divided, and nothing is kept."""
+    study = of if isinstance(of, nd.Study) else of.study
+    free = [name for name, ends in study.variables.items() if isinstance(ends, tuple)]
+    if not options.around:
+        raise ValueError(f"--vary: got none, expected one to four of {', '.join(study.variables)}, or --around")
+    if not 1 <= len(free) <= MOST_VARIED:
+        names = f": {', '.join(free)}" if free else ""
+        raise ValueError(f"--vary: got none with {len(free)} free variables{names}, expected one to four")
+    options.refuse("with --around and no --vary: designs are not divided", "certificate", "out", "scheduler")
+    found = nd.admissible(of, free, at=at, condition_number=options.condition, time_limit=0.0)
+    return Answer([], _around(screen, found, options))
+
+
+def _proportions(text: str) -> dict[str, float]:
+    pairs = [part.partition("=") for part in text.split(",")]
     try:
-        room = found.around()
-    except ValueError as error:
-        words = str(error)
-        screen.print(f"No box around the design is proved. {words[:1].upper()}{words[1:]}.")
-        return None
-    heads = columns("proved, all at once", ">design", ">from", ">to")
-    rows = []
-    for name, ends in room.items():
-        low, high, at = (f"{found.study.shown(name, x):.6g}" for x in (*ends, found.of.at[name]))
-        rows.append((with_unit(name, found.study.unit_of(name)), at, low, high))
-    screen.print(Table("", heads, rows))
-    return {name: list(ends) for name, ends in room.items()}
+        out = {name.strip(): float(value) for name, _, value in pairs}
+    except ValueError:
+        out = {}
+    if len(out) < len(pairs):
+        raise ValueError(f"--proportions: got {text!r}, expected NAME=NUMBER,NAME=NUMBER, each name once")
+    return out
+
+
+def _around(screen: Screen, found: nd.AdmissibleSet, options: _Options) -> dict[str, Any]:
+    """Print how far the design may go; that it lies on a limit is an answer too."""
+    proportions = None if options.proportions is None else _proportions(options.proportions)
+    held = f", at {found.of.held}" if found.of.held else ""
+    try:
+        room = found.around(proportions=proportions)
+    except NoRoom as error:
+        words = f": {error.reason}" if error.reason else ""
+        screen.print(f"No box around {found.of.values(found.vary)}{held} is proved{words}.")
+        return {"around": None, "reason": error.reason}
+    screen.print(f"Proved around {found.of.values(found.vary)}{held}: {room_words(found.of, room)}.")
+    return {"around": {name: list(ends) for name, ends in room.items()}}
