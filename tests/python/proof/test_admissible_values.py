@@ -1,0 +1,122 @@
+"""Sets of admissible designs at values that are known: the paper's class, lines of its closed form, 50 digits."""
+
+import math
+from itertools import islice
+
+import numpy as np
+import pytest
+from exact_robot import ExactRobot
+from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+from ninedof.proof.design_range import design_range, existence
+
+CLASS = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": (2.0, 8.0), "zs": (1.0, 6.0)}
+PAPER = nd.Study(variables=CLASS, constraints={"radius_ratio": (None, 2.0)})
+BEST = {"a2": 6.00793985, "b1": 3.00396992, "zp": 4.97524962, "zs": 3.1680759}  # 3.762659078596
+PUBLISHED = {"a2": 5.8124, "b1": 2.9062, "zp": 3.9828, "zs": 2.3745}
+
+
+def closed_form(**values):
+    return float(nd.hexagonal_condition_number(**({"a1": 0.0, "b2": 0.0} | values)))
+
+
+@pytest.mark.slow
+def test_no_design_is_better_than_the_optimum():
+    """Sides and heights within 2 %: 6e-5 below the optimum of the class there is none, 4e-5 above it there is one."""
+    near = {name: (0.98 * value, 1.02 * value) for name, value in BEST.items()}
+    assert existence(design_range(PAPER, near, None, 3.7626)).state == "none"
+    one = existence(design_range(PAPER, near, None, 3.7627))
+    assert one.state == "exists"
+    assert closed_form(**one.design) <= 3.7627
+
+
+def test_nearly_the_best_plates_are_few():
+    """{kappa <= 3.7627} at the heights of the optimum has a diameter of about the root of the gap, 6e-3."""
+    ranges = {"a2": (5.98, 6.03), "b1": (2.99, 3.015)}
+    at = {"zp": BEST["zp"], "zs": BEST["zs"]}
+    found = nd.admissible(PAPER, ranges, at=at, condition_number=3.7627, resolution=0.001)
+    assert found.shares["inside"] > 0.0
+    low, high = np.moveaxis(found.inside, 2, 0)
+    assert closed_form(a2=0.5 * (low + high)[0, 0], b1=0.5 * (low + high)[0, 1], **at) < 3.7627
+    left = np.concatenate([found.inside, found.undecided])
+    width = left[..., 1].max(axis=0) - left[..., 0].min(axis=0)
+    assert (width > 1e-3).all()
+    assert (width < 0.05).all()
+    assert existence(design_range(PAPER, ranges, at, 3.762659)).state == "none"
+
+
+def test_the_published_plates_are_at_the_edge_of_those_as_good():
+    heights = {name: PUBLISHED[name] for name in ("zp", "zs")}
+    study, own = nd.Study(variables=CLASS), closed_form(**PUBLISHED)
+    assert f"{own:.4f}" == "3.9110"
+    ranges = {name: (0.99999 * PUBLISHED[name], 1.00001 * PUBLISHED[name]) for name in ("a2", "b1")}
+    for share, state in ((1e-8, "inside"), (-1e-8, "outside")):
+        found = nd.admissible(study, ranges, at=heights, condition_number=own * (1.0 + share), resolution=0.001)
+        assert found.state_of([[PUBLISHED["a2"], PUBLISHED["b1"]]]) == [state]
+        assert min(found.shares["inside"], found.shares["outside"]) > 0.2
+
+
+@pytest.mark.parametrize("bound", [3.8, 3.911, 4.2])
+def test_the_set_of_heights_ends_where_the_closed_form_says(bound):
+    """Along lines from the best heights of the plates kappa = K has a root: the set is on its side of it."""
+    study = nd.Study(variables=CLASS | {name: BEST[name] for name in ("a2", "b1")})
+    found = nd.admissible(study, {"zp": (2.0, 10.0), "zs": (1.0, 8.0)}, condition_number=bound, resolution=0.001)
+    decided, middle, reach = 0, np.array([BEST["zp"], BEST["zs"]]), []
+    angles = 2.0 * math.pi * np.arange(180) / 180
+    for angle in angles:
+        way = np.array([math.cos(angle), math.sin(angle)])
+
+        def excess(t, way=way):
+            zp, zs = middle + t * way
+            return closed_form(a2=BEST["a2"], b1=BEST["b1"], zp=zp, zs=zs) - bound if 0.0 < zs < zp else math.inf
+
+        far = next(t for t in np.arange(0.02, 9.0, 0.02) if excess(t) > 0.0)  # the first root: the set has one piece
+        root = brentq(lambda t: min(excess(t), 1.0), 0.0, far, xtol=1e-13)
+        reach.append(root)
+        near = [middle + root * (1.0 + share) * way for share in (-0.1, -1e-9, 1e-9, 0.1)]
+        states = found.state_of(near)
+        assert "outside" not in states[:2], angle
+        assert "inside" not in states[2:], angle
+        decided += states[::3] == ["inside", "outside"]
+    assert decided > 0.95 * len(angles)
+    area = 0.5 * np.mean(np.square(reach)) * 2.0 * math.pi / 56.0  # of the box
+    assert found.shares["inside"] < area < found.shares["inside"] + found.shares["undecided"]
+
+
+@pytest.mark.parametrize(
+    ("limit", "point"), [("leg_length", "shifted"), ("lower_length", "held"), ("condition_number", "")]
+)
+def test_designs_outside_break_their_limit_in_fifty_digits(limit, point):
+    """At the pose that is named; the robot in balls of 400 bits. A condition number is that of the neutral pose."""
+    limits = {"leg_length": (1.5, 7.0), "lower_length": {"max": 0.95, "of": "zp"}}
+    region = {"box": (0.4, 0.4, 0.3), "tilt": 0.12, "internal_point": point}
+    study = nd.Study(
+        variables=CLASS,
+        constraints={limit: limits[limit]} if limit in limits else {},
+        objective={"region": region} if point else {},
+    )
+    most = None if limit in limits else 6.0
+    at = {"zp": 5.0, "zs": 3.0}
+    found = nd.admissible(study, ("a2", "b1"), at=at, condition_number=most, resolution=0.1)
+    rng, seen = np.random.default_rng(5), set()
+    for box, reason in islice(zip(found.outside, found.reasons, strict=True), 60):
+        a2, b1 = box[:, 0] + rng.random(2) * np.ptp(box, axis=1)
+        shift, pose = np.array(reason.pose.shift), reason.pose
+        turn = Rotation.from_rotvec(pose.tilt) * Rotation.from_rotvec((0.0, 0.0, pose.yaw))
+        s = np.array([0.0, 0.0, 3.0]) + (0.0 if point == "held" else shift)
+        robot = ExactRobot(
+            nd.Geometry.hexagonal(0.0, a2, b1, 0.0),
+            nd.Configuration(np.array([0.0, 0.0, 5.0]) + shift, turn.as_matrix(), s),
+        )
+        seen.add(reason.limit)
+        lengths = dict(zip(("l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"), robot.lengths(), strict=True))
+        if reason.limit == "leg_length":
+            length = lengths[reason.part]
+            assert length > 7.0 or length < 1.5, reason
+        elif reason.limit == "lower_length":
+            assert lengths[reason.part] > 0.95 * 5.0, reason
+        elif reason.limit == "condition_number":
+            assert robot.condition_number() > 6.0, reason
+    assert limit in seen
