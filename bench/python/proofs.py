@@ -10,6 +10,7 @@ is not proved by the checker.
 import argparse
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -26,12 +27,27 @@ def example(name):
     return nd.Study.load(ROOT / "examples" / f"{name}.toml")
 
 
+REQUIREMENT = example("18_requirement")
+TILTED = replace(REQUIREMENT, objective={"region": {"box": (60.0, 60.0, 40.0), "tilt_deg": 30.0}})
+SIX = replace(REQUIREMENT, variables=dict(REQUIREMENT.variables) | {"a1": (0.0, 600.0), "b2": (0.0, 250.0)})
+
+
+def paper(**ends):
+    """The paper's problem with other bounds of some variables."""
+    study = nd.Study.paper()
+    return replace(study, variables=dict(study.variables) | ends)
+
+
 STUDIES = {  # study, gap
     "01_paper": (example("01_paper"), 1e-12),
     "the paper's with b1 ≤ 2, radius ratio ≤ 2.5": (CAP, 1e-8),
+    "the paper's with theta_z from -1 to 1 rad": (paper(theta_z=(-1.0, 1.0)), 1e-12),
+    "the paper's with zp ≤ 2.5": (paper(zp=(0.05, 2.5)), 3e-3),
     "09_near_isotropic": (example("09_near_isotropic"), 2e-3),
     "values/nonplanar_any_height": (example("values/nonplanar_any_height"), 2e-3),
-    "18_requirement, over its region": (example("18_requirement"), 1e-3),
+    "18_requirement, over its region": (REQUIREMENT, 1e-3),
+    "18_requirement, tilts of 30 degrees": (TILTED, 2e-2),
+    "18_requirement, six free variables": (SIX, 0.2),
 }
 
 

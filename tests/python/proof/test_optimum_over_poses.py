@@ -107,6 +107,19 @@ def test_where_a_better_design_is_hidden_only_less_than_it_is_proved():
     assert proof.lower_bound < best
 
 
+@pytest.mark.parametrize("study", [STUDIES["poses"], nd.Study.paper()], ids=["poses", "paper"])
+def test_a_design_that_is_better_by_1e_10_is_not_overlooked(study):
+    """Less than it is proved, and more is not: the claimed bound lies 9e-11 above the best design."""
+    best = nd.optimize(study).condition_number
+    proof = nd.prove_optimum(study, best * (1.0 + 1e-10), gap=1e-11, time_limit=60.0)
+    assert not proof.complete
+    assert proof.lower_bound <= best
+    assert proof.better is None or best <= proof.better < best * (1.0 + 1e-10)
+    proof = nd.prove_optimum(study, best * (1.0 - 1e-10), gap=1e-11, time_limit=60.0)
+    assert proof.complete
+    assert best * (1.0 - 1.2e-10) < proof.lower_bound < best
+
+
 @pytest.mark.slow
 def test_all_limits_count():
     """Without one of them there is a better design: the bound of both is above it."""
