@@ -16,6 +16,7 @@ namespace ninedof {
 namespace {
 
 constexpr double tolerance = 1e-9;  // relative: below it joints are on one line, and legs coincide
+constexpr auto to_tolerance = ", to 1e-9 of the size";
 
 /// The longest side. Throws unless it is a length; `lost` is what three joints in one point do.
 double longest_side(const std::string& name, const Triple& t, const std::string& lost) {
@@ -35,8 +36,9 @@ void require_triangle(const std::string& name, const Triple& t, const std::strin
   const double longest = longest_side(name, t, lost);
   const double height = relative_height(t, longest);
   if (!(height > tolerance))
-    throw InvalidArgument(name, "collinear joints (height / longest side = " + format_number(height) + "): " + lost,
-                          "joints that span a triangle");
+    throw InvalidArgument(
+        name, "collinear joints (height / longest side = " + format_number(height) + "): " + lost + to_tolerance,
+        "joints that span a triangle");
 }
 
 void require_legs_apart(const Triple& base, const Triple& platform) {
@@ -48,7 +50,7 @@ void require_legs_apart(const Triple& base, const Triple& platform) {
       if ((base[i] - base[k]).norm() <= tolerance * one && (platform[i] - platform[k]).norm() <= tolerance * other)
         throw InvalidArgument("base_external, platform_external",
                               "external legs " + std::to_string(k + 1) + " and " + std::to_string(i + 1) +
-                                  " with the same joints: " + lost,
+                                  " with the same joints: " + lost + to_tolerance,
                               "legs that differ in at least one joint");
 }
 

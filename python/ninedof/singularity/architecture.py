@@ -106,7 +106,9 @@ def architecture_sentences(design: HasRobot, unit: str) -> list[str]:
         )
     residual = _core.homothety_residual(*single(geometry, design.configuration))
     if residual < NEAR:
-        within, lost = ("", "0") if residual <= EQUAL else (f" within {100.0 * residual:.2g} %", "nearly 0")
+        within, lost = (
+            (f", to {EQUAL:g}", "0") if residual <= EQUAL else (f" within {100.0 * residual:.2g} %", "nearly 0")
+        )
         out.append(
             f"The external triangles of base and platform are similar and parallel{within}: at this orientation det N "
             f"is {lost} at every position, wherever O is. Turned about z, the platform leaves it."

@@ -163,6 +163,19 @@ def test_the_class_is_named(triple, joints, words):
         nd.Geometry(**(triples | {triple: joints}))
 
 
+def test_what_is_refused_within_rounding_says_so():
+    with pytest.raises(ValueError, match=r"det B is 0 at every pose, to 1e-9 of the size, expected"):
+        nd.Geometry(INTERNAL, [[0, 0, 0], [1, 1e-10, 0], [2, 0, 0]], INTERNAL, INTERNAL)
+    turned = [INTERNAL[0], INTERNAL[1], np.negative(INTERNAL[2])]
+    with pytest.raises(ValueError, match=r"with the same joints: det N is 0 at every pose, to 1e-9 of the size"):
+        nd.Geometry(
+            [INTERNAL[0], np.add(INTERNAL[0], 1e-10), INTERNAL[2]],
+            INTERNAL,
+            [INTERNAL[0], INTERNAL[0], turned[2]],
+            INTERNAL,
+        )
+
+
 def test_external_joints_on_a_line_make_a_machine():
     """Finite condition number, and the position problem finds the pose from its leg lengths."""
     g = nd.Geometry(LINE, INTERNAL, np.array(INTERNAL)[::-1] * [1.0, 0.5, 1.0], INTERNAL)
