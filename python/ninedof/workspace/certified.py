@@ -8,6 +8,7 @@ from typing import Any, Unpack
 from numpy.typing import ArrayLike
 
 from ninedof import _core
+from ninedof.robot.designs import HasRobot
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite, shown, whole
 from ninedof.support.arrays import thread_argument
@@ -15,7 +16,8 @@ from ninedof.support.running import Progress, progress_argument
 from ninedof.support.structs import from_core, options_of
 from ninedof.support.units import unit_argument
 from ninedof.workspace.certified_record import CertifiedWorkspace
-from ninedof.workspace.question import DEFAULTS, WorkspaceArguments, connected, question_of, rule_of
+from ninedof.workspace.question import WorkspaceArguments, connected, question_of, rule_of
+from ninedof.workspace.study_question import robot_and_arguments
 
 FOREVER = 1e9  # seconds
 GAPS = (1e-9, 0.999)
@@ -31,7 +33,7 @@ def require_certifiable(archetype: str, internal_point: Any) -> None:
 
 
 def certified_workspace(
-    geometry: Geometry,
+    geometry: Geometry | HasRobot,
     box: tuple[ArrayLike, ArrayLike] | None = None,
     *,
     gap: float = 0.05,
@@ -53,7 +55,8 @@ def certified_workspace(
 
     Parameters
     ----------
-    geometry : Geometry
+    geometry : Geometry, Result or Design
+        A design stands for the same as in `workspace`, with the limits of its study.
     box : (low, high), each array_like, shape (3,)
         Positions to examine.
     gap : float
@@ -93,11 +96,12 @@ def certified_workspace(
     True
 
     """
-    arguments = options_of("certified_workspace", WorkspaceArguments, question, **DEFAULTS)
+    options = options_of("certified_workspace", WorkspaceArguments, question, archetype="constant_orientation")
     progress_argument(progress)
+    geometry, arguments = robot_and_arguments(geometry, {"box": box, **options})
     unit = unit_argument(arguments["unit"])
     require_certifiable(arguments["archetype"], arguments["internal_point"])
-    asked = question_of(geometry, box, arguments)
+    asked = question_of(geometry, arguments["box"], arguments)
     settings = _core.CertifySettings(
         gap=finite("gap", gap, *GAPS),
         seconds=FOREVER if time_limit is None else finite("time_limit", time_limit, 0.0, FOREVER),

@@ -36,16 +36,17 @@ class WorkspaceArguments(TypedDict, total=False):
 
     archetype: str
     criteria: Mapping[str, Any] | None
-    internal_point: ArrayLike | str | Mapping[str, ArrayLike]
+    internal_point: ArrayLike | str | Mapping[str, ArrayLike] | None
     rotation: Any
     region: Mapping[str, Any] | None
     orientations: Any
     home: Configuration | None
-    characteristic_length: float
+    characteristic_length: float | None
     unit: str | None
 
 
-DEFAULTS = {"archetype": "constant_orientation", "internal_point": 0.5, "characteristic_length": 1.0}
+DEFAULTS = {"internal_point": 0.5, "characteristic_length": 1.0}
+"""Of a robot alone; a design has its own."""
 
 
 def spread_rotations(count: int, angle: float = math.pi) -> Floats:

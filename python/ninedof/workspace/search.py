@@ -13,7 +13,7 @@ from ninedof import _core
 from ninedof.design.indices import What, indices_of
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.designs import HasRobot, robot_of
+from ninedof.robot.designs import HasRobot
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown, whole
 from ninedof.support.arrays import as_number, thread_argument
@@ -23,7 +23,7 @@ from ninedof.support.units import unit_argument
 from ninedof.workspace.cells import WorkspaceCells, statistics_of
 from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
 from ninedof.workspace.question import question_of
-from ninedof.workspace.study_question import design_question
+from ninedof.workspace.study_question import robot_and_arguments
 
 METHODS = ("octree", "grid", "sample")
 POINTS = 16384
@@ -183,11 +183,7 @@ def workspace(
         "characteristic_length": characteristic_length,
         "unit": unit,
     }
-    own: dict[str, Any] = {"internal_point": 0.5, "characteristic_length": 1.0}
-    if not isinstance(geometry, Geometry):
-        own |= design_question(geometry, archetype)[0]
-        geometry = robot_of(geometry)
-    arguments |= {name: value for name, value in own.items() if arguments[name] is None}
+    geometry, arguments = robot_and_arguments(geometry, arguments)
     unit = unit_argument(arguments.pop("unit"))
     question = question_of(geometry, arguments.pop("box"), arguments)
     progress_argument(progress)

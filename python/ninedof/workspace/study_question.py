@@ -23,7 +23,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.sheet.sheet import sheet
 from ninedof.support.arrays import Floats
 from ninedof.support.structs import Fixed
-from ninedof.workspace.question import LEG_LIMITS, ROWS, criteria_of
+from ninedof.workspace.question import DEFAULTS, LEG_LIMITS, ROWS, criteria_of
 
 EASE = 1e-9
 """Share by which limits are eased: an optimum lies on some of them, and rounding would put its home pose outside."""
@@ -86,6 +86,15 @@ def design_question(design: HasRobot, archetype: str = "constant_orientation") -
     return arguments | {"criteria": asked.criteria}, asked.left
 
 
+def robot_and_arguments(design: Geometry | HasRobot, arguments: Mapping[str, Any]) -> tuple[Geometry, dict[str, Any]]:
+    """Return the geometry, and the arguments; in place of those that are None what a design has, or a robot alone."""
+    own: dict[str, Any] = dict(DEFAULTS)
+    if not isinstance(design, Geometry):
+        own |= design_question(design, arguments["archetype"])[0]
+        design = robot_of(design)
+    return design, {**arguments, **{name: value for name, value in own.items() if arguments.get(name) is None}}
+
+
 def place_of(home: Configuration, region: Region | None, tool: Tool, archetype: str) -> dict[str, Any]:
     """Return the box, about a region or home, or the fixed position and rotation, of an archetype."""
     if archetype == "orientation":
@@ -104,7 +113,7 @@ class Asked(NamedTuple):
     left: list[str]
     """Limits of the study that are no criteria of a pose."""
     actuators: str
-    """How long the legs are that a study compares, in words; "" without such."""
+    """The lengths of the legs that a study compares, in words; "" without such."""
     replaced: list[str]
     """Limits of the study in whose place others count."""
 

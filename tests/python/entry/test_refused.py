@@ -123,7 +123,8 @@ EXCEPT = {  # rows and arguments where one of these values has a meaning, or ano
     *("failure characteristic_length", "admissible resolution", "admissible time_limit"),
     *("admissible_actuators resolution", "admissible_actuators time_limit"),
     *("inverse_velocity: O chosen sdot", "sheet centre", "stiffness internal", "workspace home"),
-    *("certified_workspace home", "sweep_designs design", "sheet leg_errors", "sheet joint_errors"),
+    *("certified_workspace home", "certified_workspace internal_point", "certified_workspace characteristic_length"),
+    *("sweep_designs design", "sheet leg_errors", "sheet joint_errors"),
     *("sheet leg_stiffness", "Region.worded unit", "Objective.worded unit", "CertifiedWorkspace.with_estimate unit"),
     *("inverse_velocity weights", "inverse_velocity: O chosen weights", "internal_velocity weights", "view design"),
 }

@@ -112,6 +112,28 @@ def test_a_workspace_of_a_result_has_the_limits_and_the_actuators_of_its_study()
         assert by_hand.volume == pytest.approx(permitted.volume, rel=5e-3)
 
 
+def test_a_certified_workspace_of_a_result_has_the_limits_of_its_study():
+    objective = {"region": {"box": [0.3, 0.3, 0.3], "tilt_deg": 5, "internal_point": "held"}}
+    study = nd.Study(constraints={"stroke_ratio": (None, 1.4)}, objective=objective, starts=4)
+    result = nd.optimize(study)
+    proved, estimate = nd.certified_workspace(result, gap=0.1), nd.workspace(result, tolerance=1e-2)
+    np.testing.assert_array_equal([proved.box_low, proved.box_high], [estimate.low, estimate.high])
+    assert proved.volume[0] <= estimate.volume <= proved.volume[1]
+    # By hand: O stays where the design has it, and a leg of a length ratio of 1.4 about the lengths that it needs.
+    middle = np.sqrt([leg.shortest * leg.longest for leg in result.sheet().legs])
+    by_hand = nd.certified_workspace(
+        result.geometry,
+        (estimate.low, estimate.high),
+        criteria={"leg_limits": (middle / np.sqrt(1.4), middle * np.sqrt(1.4))},
+        home=result.configuration,
+        internal_point=result.configuration.internal_point,
+        gap=0.1,
+    )
+    np.testing.assert_allclose(proved.volume, by_hand.volume, rtol=0.05)
+    wider = nd.certified_workspace(result, criteria={"leg_limits": (middle / 1.4, middle * 1.4)}, gap=0.1)
+    assert wider.volume[0] > proved.volume[1]
+
+
 def needs(result, legs):
     """The criteria of the lengths that the region needs."""
     lengths = ([leg.shortest for leg in legs], [leg.longest for leg in legs])
@@ -120,7 +142,7 @@ def needs(result, legs):
 
 def test_a_result_without_a_design_is_refused():
     nothing = nd.optimize(nd.Study(constraints={"leg_ratio": (None, 1.0001), "leg_length": (9.0, None)}, starts=2))
-    for call in (nd.condition_number, nd.leg_lengths, nd.workspace):
+    for call in (nd.condition_number, nd.leg_lengths, nd.workspace, nd.certified_workspace):
         if nothing.best is None:
             with pytest.raises(ValueError, match="got a result without a design"):
                 call(nothing)
