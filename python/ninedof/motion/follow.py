@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_at
+from ninedof.motion.tables import FORCES, motion_tables
 from ninedof.motion.trajectory import Trajectory
 from ninedof.redundancy.redundancy import leg_limits
 from ninedof.redundancy.rules import RULES
@@ -25,9 +26,8 @@ from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_lead
 from ninedof.support.files import Saved
 from ninedof.support.text import short_repr
 from ninedof.support.units import metres, unit_entry
+from ninedof.tables.html import notebook
 
-FORCES = ("push", "pull", "rms")
-"""The entries of `Followed.drives` that are forces."""
 PATH = ("time", "position", "rotation")
 DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
 
@@ -102,7 +102,7 @@ class Followed(Saved):
 
     @cached_property
     def breaks(self) -> tuple[LimitBreak, ...]:
-        """Stretches of time in which a leg passes its limit (by more than 1e-6 of it), and singularities passed."""
+        """Stretches of time in which a leg violates its limit (by more than 1e-6 of it), and singularities passed."""
         determinants = np.stack(self.singularity_margins)
         entries = _core.limit_breaks(self.time, self.leg_lengths, *self.limits, determinants)
         return tuple(LimitBreak(*entry) for entry in entries)
@@ -142,7 +142,7 @@ class Followed(Saved):
 
     @property
     def load_count(self) -> int:
-        """How many loads the forces are for, each on its own: 1 also for masses alone, 0 without forces."""
+        """The number of loads that the forces are for, each on its own: 1 also for masses alone, 0 without forces."""
         return 0 if self.leg_forces is None else self.leg_forces.size // (9 * len(self.time))
 
     @property
@@ -198,6 +198,9 @@ class Followed(Saved):
         """Show the number of poses and what is not kept."""
         limits = ", ".join(sorted({entry.limit for entry in self.breaks}))
         return f"<Followed: {len(self.time)} poses, {'breaks ' + limits if limits else 'within limits'}>"
+
+    def _repr_html_(self) -> str:
+        return notebook(repr(self), *motion_tables(self.to_dict()))
 
     def _saved(self) -> dict[str, Any]:
         entries = super()._saved()

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.motion.follow import FORCES, Followed
 from ninedof.redundancy.rules import where_o
 from ninedof.robot.geometry import LEGS
 from ninedof.robot.idle import NEVER_CARRY
@@ -18,6 +17,7 @@ from ninedof.tables import RIGHT, Column, Table, columns, grouped
 
 POWERS, WORKS = ("power", "braking"), ("work", "returned")
 KINDS = {"leg_clearance": "length", "stroke": "length", "singularity_free": "sign"}  # in records that have none
+FORCES = ("push", "pull", "rms")
 SHOWN = 12  # breaks of limits
 FEW = 50  # poses of a path: fewer need not show what happens between them
 
@@ -94,7 +94,7 @@ def motion_tables(motion: Mapping[str, Any]) -> list[Table]:
     return [legs_table(motion), *([] if drives is None else [drives]), *limits]
 
 
-def motion_words(followed: Followed, motion: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+def motion_words(followed: Any, motion: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield remarks on the tables, one sentence each: words to be stressed, and the rest."""
     kappa, near = motion["condition_number"], motion["nearest_singularity"]
     o = where_o(motion["internal_point"])

@@ -22,6 +22,7 @@ from ninedof.support.arguments import finite, path_argument, shown, table
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import write_whole
 from ninedof.support.units import amount
+from ninedof.tables.html import notebook
 
 INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
 STATES = (INSIDE, OUTSIDE, UNDECIDED)
@@ -49,7 +50,7 @@ class Reason(NamedTuple):
     part: str
     """The leg, pair of legs or determinant; "" where the limit has none."""
     pose: ProofPose
-    """Where all designs of the box break it; of a spread of lengths where the leg is longest."""
+    """The pose at which all designs of the box break it; of a spread of lengths where the leg is longest."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +69,8 @@ class AdmissibleSet:
     demands: tuple[tuple[str, str], ...]
     """All limits with their parts."""
     poses: Floats
-    """Where it is broken: the number of a listed pose or -1, then shift, tilt about x and y, and yaw. The same again
-    where the leg is shortest, of a spread of lengths. Shape (n, 14)."""
+    """The poses at which it is broken: the number of a listed pose or -1, then shift, tilt about x and y, and yaw. The
+    same again where the leg is shortest, of a spread of lengths. Shape (n, 14)."""
     shares: Mapping[str, float]
     """The shares of the volume: "inside", "outside", "undecided"."""
     designs: int
@@ -199,6 +200,9 @@ class AdmissibleSet:
         """Show the shares."""
         shares = ", ".join(f"{self.shares[name]:.2%} {name}" for name in STATES)
         return f"<AdmissibleSet of {', '.join(self.vary)}: {shares}>"
+
+    def _repr_html_(self) -> str:
+        return notebook(*self.sentences())
 
     def __str__(self) -> str:
         """Return it in sentences."""

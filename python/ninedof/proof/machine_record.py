@@ -15,6 +15,7 @@ from ninedof.support.arguments import flag, number, table, text, whole
 from ninedof.support.structs import made
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount, kind_unit
+from ninedof.tables.html import notebook
 
 FORMAT = "ninedof-machine-certificate-3"
 PROVED, VIOLATED, UNDECIDED = "proved", "violated", "undecided"
@@ -136,6 +137,9 @@ class MachineCertificate:
         proved = sum(limit.answer == PROVED for limit in self.limits)
         condition = f"condition number at most {self.condition[1]:.6f}"
         return f"<MachineCertificate: {proved} of {len(self.limits)} limits proved at {self.where}; {condition}>"
+
+    def _repr_html_(self) -> str:
+        return notebook(*self.sentences())
 
     @property
     def proved(self) -> bool:

@@ -1,4 +1,4 @@
-"""What is proved of all designs of a study: no condition number below a bound."""
+"""The proof that no design of a study has a condition number below a bound."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from ninedof.support.arguments import finite, path_argument
 from ninedof.support.files import write_whole
 from ninedof.support.structs import entries_of
 from ninedof.support.text import short_repr
+from ninedof.tables.html import notebook
 
 FILE = "optimum.certificate"
 
@@ -41,7 +42,7 @@ class OptimumProof:
     interrupted: bool = False
     """Whether Ctrl-C ended the search."""
     where: str = ""
-    """Where the condition number is the worst one: "over the region", "at its poses"; "" for the neutral pose."""
+    """The poses of the worst condition number: "over the region", "at its poses"; "" for the neutral pose."""
     certificate: bytes = field(default=b"", repr=False, compare=False)
     """A file that `ninedof check` and ninedof_check read; empty if nothing is proved, or if the search did not
     come to its end, of a class of plates at the neutral pose."""
@@ -58,6 +59,9 @@ class OptimumProof:
         if not self.left_out:
             return f"{sentence}."
         return f"{sentence}. The proof does without {', '.join(self.left_out)}: with them it holds all the more."
+
+    def _repr_html_(self) -> str:
+        return notebook(self.words)
 
     def gap(self, condition_number: float) -> float:
         """Return what is left open below a condition number, as a fraction of it."""

@@ -19,6 +19,7 @@ from ninedof.statics.dynamics import inverse_dynamics, masses_for_core
 from ninedof.support.arguments import Vector, shown, vector, whole
 from ninedof.support.arrays import Floats, one_or_each
 from ninedof.support.text import short_repr
+from ninedof.tables.html import notebook
 
 
 @short_repr
@@ -26,7 +27,7 @@ class Payload(NamedTuple):
     """The largest mass that the legs hold at every pose, and what limits it."""
 
     mass: float
-    """0 where the machine passes a limit without any payload, infinite where no leg reaches one."""
+    """0 where the machine violates a limit without any payload, infinite where no leg reaches one."""
     fits: bool
     """Whether the machine without the payload keeps the limits."""
     leg: str
@@ -34,7 +35,7 @@ class Payload(NamedTuple):
     side: str
     """"push" or "pull"; "" where no leg reaches a limit."""
     configuration: Configuration
-    """Where it does: the worst pose."""
+    """The worst pose: the leg reaches its limit there."""
     forces: Floats
     """Of the legs there under the payload, for the load that limits it; without it where it does not fit. (9,)."""
     load: int
@@ -44,8 +45,22 @@ class Payload(NamedTuple):
     limits: tuple[Floats, Floats]
     """Greatest forces of each leg, pushing and pulling, shapes (9,): those given, or of the study."""
     not_looked_at: tuple[str, ...]
-    """Limits of the study that a payload may pass: of powers, of forces at the neutral pose, and of forces at all poses
-    where others are given."""
+    """Limits of the study that a payload may violate: of powers, of forces at the neutral pose, and of forces at all
+    poses where others are given."""
+
+    @property
+    def words(self) -> str:
+        """The payload as a sentence."""
+        if not self.fits:
+            return f"no payload: {self.leg} exceeds its limit ({self.side}) without one"
+        if np.isinf(self.mass):
+            return "no limit: no leg reaches its force under any payload"
+        limit = self.limits[self.side == "pull"][LEGS.index(self.leg)]
+        first = f"{self.leg} reaches its limit of {limit:g} ({self.side}) first"
+        return f"largest payload {self.mass:.6g}, in kg where forces are in N: {first}"
+
+    def _repr_html_(self) -> str:
+        return notebook(self.words)
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values."""
@@ -62,7 +77,7 @@ def largest_payload(
     loads: ArrayLike | None = None,
     samples: int = SAMPLES,
 ) -> Payload:
-    """Return the greatest mass on the platform such that no leg force passes a limit at any pose, at rest.
+    """Return the greatest mass on the platform such that no leg force violates a limit at any pose, at rest.
 
     Leg forces are affine in the mass, so that the largest one at a pose has a closed form; over the region of a study
     it is searched as the numbers of `sheet` are: a sample, and descents from the worst of it. That is no proof.
@@ -76,7 +91,7 @@ def largest_payload(
         Greatest force with which a leg may push, for all legs or in the order of `leg_lengths`; in newtons for
         kilograms and a gravity of 9.81. By default the limits `force`, `external_force`, `upper_force` and
         `lower_force` of the study over its poses; a leg without any is not limited. `Payload.not_looked_at` names the
-        other limits of the study that a payload may pass: `sheet` with the payload's mass has forces and powers.
+        other limits of the study that a payload may violate: `sheet` with the payload's mass has forces and powers.
     pull : float or array_like of shape (9,), optional
         Greatest force with which it may pull; `force` by default.
     centre : (3,) floats
@@ -129,7 +144,7 @@ def largest_payload(
     numbers = _core.sheet_numbers(question, c)
     shares = numbers["payload"].reshape(len(c), len(rows), 2, 9)
     most = float(shares.max())
-    if most == np.inf:  # a limit is passed without a payload: where it is passed most
+    if most == np.inf:  # a limit is violated without a payload: where it is violated most
         own = numbers["force"].reshape(len(c), len(rows), 9)
         shares = np.stack([own - push, -own - most_pull], axis=2)
     pose, load, side, leg = map(int, np.unravel_index(int(np.argmax(shares)), shares.shape))

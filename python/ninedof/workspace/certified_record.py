@@ -17,6 +17,7 @@ from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import Saved
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount
+from ninedof.tables.html import notebook
 from ninedof.workspace.question import SETS
 
 AXES = ("x", "y", "z")
@@ -128,6 +129,9 @@ class CertifiedWorkspace(Saved):
         low, high = self.bounds
         boxes = f"{len(self.inner_low)} inner boxes, {len(self.open_low)} open"
         return f"<CertifiedWorkspace: volume {outward(low, False)} to {outward(high, True)}, {boxes}>"
+
+    def _repr_html_(self) -> str:
+        return notebook(*self.sentences())
 
     def state(self, points: Any) -> States:
         """Return what is proved of positions.

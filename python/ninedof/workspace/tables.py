@@ -95,7 +95,7 @@ def workspace_words(workspace: Any) -> Iterator[tuple[str, str]]:
 def share_words(region: Region, workspace: _core.RegionShare, unit: str) -> str:
     """Return a sentence on how much of a region keeps the limits."""
     words = f"region of the study, {region.worded(unit)}: {100.0 * workspace.share:.4g} % of it within these limits"
-    broken = f"; passed: {', '.join(name.replace('_', ' ') for name in workspace.passed)}" if workspace.passed else ""
+    broken = f"; violated: {', '.join(name.replace('_', ' ') for name in workspace.passed)}" if workspace.passed else ""
     return f"{words}, {workspace.looked_at} poses looked at{broken}"
 
 

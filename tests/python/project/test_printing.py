@@ -66,6 +66,7 @@ def shown(published):
         "Check": nd.check(result, perturbations=100),
         "LowerBound": nd.applicable_bounds(result)[0],
         "MachineCertificate": result.certify(),
+        "AdmissibleSet": nd.admissible(result, {"a2": (5.0, 5.1)}, time_limit=0.1),
         "OptimumProof": nd.OptimumProof(3.7, 3.7, True, 100, 0, 1.0, certificate=b"bytes" * 1000),
         "PathLimits": nd.path_limits(study, nd.follow(published, line, HOME), HOME),
         "RegionReport": nd.optimize(replace(study, objective={"region": {"ball": 0.1}}), starts=1).region,
@@ -123,7 +124,7 @@ def test_values(value, text):
     assert short(value) == text
 
 
-@pytest.mark.parametrize("name", ["Result", "Front", "WorkspaceMap", "SweepResult", "Sheet"])
+@pytest.mark.parametrize("name", ["Result", "Front", "WorkspaceMap", "SweepResult", "Sheet", "Followed"])
 def test_tables_of_a_notebook(shown, name):
     text = shown[name]._repr_html_()
     root = xml.etree.ElementTree.fromstring(text.replace("&times;", "x"))
@@ -135,6 +136,16 @@ def test_tables_of_a_notebook(shown, name):
         rows = table.findall("tbody/tr")
         head = table.find("thead/tr")
         assert {len(row) for row in rows} == {len(rows[0] if head is None else head)}
+
+
+@pytest.mark.parametrize(
+    "name", ["CertifiedWorkspace", "MachineCertificate", "OptimumProof", "Payload", "AdmissibleSet"]
+)
+def test_sentences_of_a_notebook(shown, name):
+    root = xml.etree.ElementTree.fromstring(shown[name]._repr_html_())
+    thing = shown[name]
+    sentences = list(thing.sentences()) if hasattr(thing, "sentences") else [thing.words]
+    assert [part.text for part in root.findall("p")] == sentences
 
 
 def test_tables_show_the_numbers(shown):

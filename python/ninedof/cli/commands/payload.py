@@ -65,16 +65,7 @@ def _of_kinds(most: list[float]) -> str:
 
 
 def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
-    if not found.fits:
-        yield f"no payload: {found.leg} passes its limit ({found.side}) without one, at the pose below"
-    elif np.isinf(found.mass):
-        yield "no limit: no leg reaches its force under any payload"
-    else:
-        limit = found.limits[found.side == "pull"][LEGS.index(found.leg)]
-        yield (
-            f"largest payload {found.mass:.6g}, in kg where forces are in N: {found.leg} reaches its limit of "
-            f"{limit:g} ({found.side}) first"
-        )
+    yield found.words if found.fits else f"{found.words}, at the pose below"
     if found.leg:
         yield f"worst pose: {chosen.words(found.configuration)}"
         rows = [(leg, load_text(force, found.forces)) for leg, force in zip(LEGS, found.forces.tolist(), strict=True)]
