@@ -1,4 +1,4 @@
-"""What limits of forces, rates and powers of legs are about: loads, masses and speeds of a study, and how O moves."""
+"""Loads, masses and speeds of a study, and the motion of O: for limits of forces, rates and powers of legs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ninedof.support.arguments import choice
 from ninedof.support.structs import Table, entry
 
 INTERNAL = ("least", "held", "shifted", "carried")
-"""How O moves with the platform."""
+"""The motion of O with the platform."""
 
 
 @dataclass(frozen=True)

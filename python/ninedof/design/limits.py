@@ -33,7 +33,7 @@ class Row(NamedTuple):
     default_low: float | None
     """min where none is given."""
     needs: tuple[str, ...]
-    """What a study must state for it: "loads", "speeds"."""
+    """Tables that a study must have for it: "loads", "speeds"."""
 
     @property
     def is_angle(self) -> bool:

@@ -401,7 +401,7 @@ class Study:
 
     @cached_property
     def leg_duty(self) -> LegDuty:
-        """What limits of the forces, rates and powers of legs are about."""
+        """Loads, masses, speeds and motion of O, for limits of the forces, rates and powers of legs."""
         masses = self.masses.seen_from(self.tool) if self.tool else self.masses
         return LegDuty(self.loads, masses, self.speeds, internal_motion(self.objective))
 

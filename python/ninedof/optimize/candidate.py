@@ -1,4 +1,4 @@
-"""What a result holds: local optima, and the report on the best one over its region."""
+"""Parts of a result: local optima, and the report on the best one over its region."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ninedof.support.text import short_repr
 
 ROBOT = ("geometry", "configuration", "configurations")  # those of a candidate
 DENSE = 100_000  # poses of a dense search
-PASSED = 1e-7  # by which a limit or the index may be passed between the poses, relative
+PASSED = 1e-7  # by which a limit or the index may be exceeded between the poses, relative
 
 
 class OfStudy:
@@ -172,21 +172,21 @@ class RegionReport:
     """The largest value of the index found."""
     objective_at: Pose
     margin: float
-    """The least margin of a limit found: below zero it is passed, in parts of it. Infinite without limits."""
+    """The least margin of a limit found: below zero it is violated, in parts of it. Infinite without limits."""
     limit: str
     """The name of that limit; "" without limits."""
     mean: RegionMean | None = None
     """Of an objective that is a mean over the region."""
     gain: float = math.inf
     """By how much the objective could still fall near this design, relative and to first order: it cannot be less than
-    at these poses, and what passes a limit between them is paid for at its price."""
+    at these poses, and what violates a limit between them is paid for at its price."""
     leg_ranges: tuple[tuple[float, float], ...] = ()
     """If O is placed at every pose and limits compare poses: the shortest and longest length of each leg (l, q, r)
     that O keeps in all of the region."""
 
     @property
     def keeps_limits(self) -> bool:
-        """Whether no limit is passed by more than 1e-7 of it, as far as a dense search of the region shows."""
+        """Whether no limit is violated by more than 1e-7 of it, as far as a dense search of the region shows."""
         return self.looked_at >= DENSE and self.margin >= -PASSED
 
     @property
@@ -194,9 +194,9 @@ class RegionReport:
         """The report in a sentence."""
         if self.looked_at == 0:
             return f"limits were imposed at {self._ruling} of the region; the design was not looked at between them"
-        verdict = f"{self.limit} is passed by {-self.margin:.1e} of it"
+        verdict = f"{self.limit} is violated by {-self.margin:.1e} of it"
         if self.margin >= -PASSED:
-            verdict = "no limit is passed"
+            verdict = "no limit is violated"
         average = "" if self.mean is None else f"{self.mean.words}; "
         return (
             f"{average}{self._ruling} of the region ruled; of {self.looked_at} looked at the worst has "

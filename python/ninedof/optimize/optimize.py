@@ -140,7 +140,7 @@ def optimize(
 
 @dataclass
 class _Run:
-    """What all studies of one call have in common."""
+    """Settings that all studies of one call have in common."""
 
     threads: int
     progress: Progress | None

@@ -1,4 +1,4 @@
-"""What an optimization goes on from: additional starts, and the finished pieces of a run that ended early.
+"""Pieces that an optimization goes on from: additional starts, and the finished pieces of a run that ended early.
 
 Each piece follows from those before it. So a run is continued by doing everything again with the pieces that were kept,
 which gives the same result, bit for bit.

@@ -54,7 +54,7 @@ class RegionMap:
     condition_number: Floats
     """The worst at each place, infinite where singular."""
     margin: Floats | None
-    """The least margin of a limit at a pose, negative where it is passed; None if the study has no such limit."""
+    """The least margin of a limit at a pose, negative where it is violated; None if the study has no such limit."""
     compared: dict[str, float]
     """The limits that compare poses, which no place of the map has: the least margin of each over the region, NaN where
     O is placed anew at every pose."""

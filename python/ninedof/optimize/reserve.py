@@ -108,7 +108,7 @@ def _shares(name: str, value: Any) -> Mapping[str, float]:
 @short_repr
 @dataclass(frozen=True)
 class Reserve(Table):
-    """What the search kept of each limit in the place of all of it."""
+    """The share of each limit that the search kept, in the place of all of it."""
 
     shares: Mapping[str, float] = entry(_shares, Fixed())
     """By label and side, "stroke_ratio max": the part of the limit; only of limits that need a reserve."""

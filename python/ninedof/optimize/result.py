@@ -182,7 +182,7 @@ class Result(OfStudy):
     def with_changes(self, **changes: float | str) -> Result:
         """Return what the result would be with other values of the variables of its best design.
 
-        Nothing is optimized, and limits and bounds of variables may be passed; `compare` shows which limits. A free
+        Nothing is optimized, and limits and bounds of variables may be violated; `compare` shows which limits. A free
         characteristic length and free offsets of O keep their values.
 
         Parameters
@@ -229,7 +229,7 @@ class Result(OfStudy):
         ----------
         **options
             condition_number : a bound of the condition number to be proved too. gap : relative width of the enclosure
-            of the worst one, 0.05. time_limit : seconds for it, 300. slack : by which limits may be passed, relative,
+            of the worst one, 0.05. time_limit : seconds for it, 300. slack : by which limits may be violated, relative,
             1e-6. tolerance : of joints and legs as built, those of the study if left out. threads : 0, one per
             processor. rule : where O is, where the study places it anew at every pose of a region; fitted to the best O
             if left out. resume : an earlier certificate to go on with. progress : called with boxes done, 0 and the

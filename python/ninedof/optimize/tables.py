@@ -36,7 +36,7 @@ def _price_sentence(study: Study, variables: Mapping[str, float], name: str, pri
         step /= 10.0
     gain = f"{step * price:.3g} %" if price >= LEAST_PRICE else f"less than {LEAST_PRICE:g} %"
     part = _part(study, variables, name, 0.01 * step)
-    return f"{step:g} % {_direction(study, variables, name)} {name}{part} buys {gain}"
+    return f"{step:g} % {_direction(study, variables, name)} {name}{part} gains {gain}"
 
 
 def reached_words(study: Study, variables: Mapping[str, float], active: Iterable[str]) -> str:

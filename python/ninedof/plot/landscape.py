@@ -49,7 +49,7 @@ class DesignCurves:
     neutral: tuple[ArrayLike, ArrayLike] | None = None
     """Condition number at the neutral pose along both, where the curves are the worst over several poses."""
     passed: tuple[ArrayLike, ArrayLike] | None = None
-    """Along both, whether a limit of the study is passed there. The ground ends at the last point where one is."""
+    """Along both, whether a limit of the study is violated there. The ground ends at the last point where one is."""
 
 
 def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Figure | None = None) -> Figure:
@@ -119,7 +119,7 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "", figure: Fi
                 )
             )
         keys += [style.key(**NEUTRAL, label="at the neutral pose")] * any(d.neutral is not None for d in designs)
-        keys += [Patch(color=style.GRID, label="a limit is passed at one of these poses")] * any(ground)
+        keys += [Patch(color=style.GRID, label="a limit is violated at one of these poses")] * any(ground)
         figure.legend(
             handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.0), ncols=2 if any(ground) else 4, handlelength=3.2
         )
@@ -132,7 +132,7 @@ def _curve(axes: Any, x: ArrayLike, y: ArrayLike, own: tuple[float, float], colo
 
 
 def _passed(axes: Any, design: DesignCurves, k: int) -> bool:
-    """Draw a grey ground where a limit is passed along one of the two; return whether it is in the picture."""
+    """Draw a grey ground where a limit is violated along one of the two; return whether it is in the picture."""
     if design.passed is None:
         return False
     x = np.asarray((design.zs, np.degrees(design.theta_z))[k])

@@ -33,7 +33,7 @@ def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, f
     followed : Followed
         As `ninedof.follow` returns it: time is in seconds where lengths have a unit, else in the unit of the path.
     margins : mapping of str to array_like of shape (n,), optional
-        Relative margins of further limits by name, negative where a limit is passed; drawn up to 100 %. As
+        Relative margins of further limits by name, negative where a limit is violated; drawn up to 100 %. As
         `ninedof.PathLimits.margins`.
     figure : matplotlib.figure.Figure or SubFigure, optional
         To draw in; a new one by default.

@@ -1,4 +1,4 @@
-"""What is proved of the assembly modes of given leg lengths."""
+"""The proof about the assembly modes of given leg lengths."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ninedof.support.text import short_repr
 
 @short_repr
 class ModesCertificate(NamedTuple):
-    """What is proved of the assembly modes of exactly these joints and lengths, by interval arithmetic.
+    """Proof about the assembly modes of exactly these joints and lengths, by interval arithmetic.
 
     Reference: Krawczyk's operator and bisection over the quaternions of each branch, docs/theory/position.md. O on both
     sides of both planes of internal joints is included. Where `complete`, the modes are all that exist.
@@ -29,7 +29,7 @@ class ModesCertificate(NamedTuple):
     boxes: Any
     """Number of boxes of rotations examined, shape (...)."""
     radius: Floats
-    """How far the exact mode is at most from the listed one, shape of the modes; infinite if it is not proved.
+    """The greatest distance of the exact mode from the listed one, shape of the modes; infinite if it is not proved.
 
     In every entry of Q, and in every coordinate of p and O divided by the longest leg.
     """

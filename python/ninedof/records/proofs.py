@@ -1,4 +1,4 @@
-"""What is proved of a run, beside its record: certify.json, certify-7.json of point 7, admissible-a2-b1.npz."""
+"""Proofs beside the record of a run: certify.json, certify-7.json of point 7, admissible-a2-b1.npz."""
 
 from __future__ import annotations
 

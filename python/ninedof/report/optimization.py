@@ -85,7 +85,7 @@ def _prices(result: Result, best: Candidate) -> Html:
         return joined(tag("h3", "Limits reached"), paragraphs(["No limit and no bound is reached."]))
     free = (f"{name} is on its bound or limit; it has no price" for name in best.active if name not in best.prices)
     sentences = [_sentence(words.replace("_", " ")) for words in (*best_prices(result), *free)]
-    return joined(tag("h3", "Limits reached, and what relaxing them buys"), bullets(sentences))
+    return joined(tag("h3", "Limits reached, and what relaxing them gains"), bullets(sentences))
 
 
 def _key_figures(result: Result, sheet: Sheet | None) -> list[tuple[object, object]]:

@@ -120,7 +120,7 @@ CAPTIONS = {
     "coordinates are in the sheet.",
     "mechanism": "The mechanism at its neutral pose.",
     "condition": "Along the height of O and along the twist, other variables as in the design: what the study asks "
-    "for, at its poses or those that ruled its region; grey where a limit is passed there.",
+    "for, at its poses or those that ruled its region; grey where a limit is violated there.",
     "region": "The region of the study: the worst condition number at each place, and the least margin of the limits "
     "at a pose. Those that compare poses have no margin there; theirs over the region are below.",
     "poses": "Condition number at each pose that was imposed, numbered as in the sheet.",

@@ -81,7 +81,8 @@ def _two(proofs: list[str], searched: list[str], meaning: str, status: str) -> H
 def _checked(result: Result) -> Iterator[str]:
     best = result.best
     if best is not None and result.status == Status.OPTIMAL:
-        yield f"Checked: no limit or bound is passed at the poses imposed by more than {best.constraint_violation:.1e}."
+        most = f"{best.constraint_violation:.1e}"
+        yield f"Checked: no limit or bound is violated at the poses imposed by more than {most}."
         yield (
             f"Checked: no direction lowers the objective to first order and keeps the limits; the residual is "
             f"{best.optimality_residual:.1e}, at most 1e-6."

@@ -1,4 +1,4 @@
-"""The limits of a study at each pose of a stack, and along a motion: values, margins, and when each is passed."""
+"""The limits of a study at each pose of a stack, and along a motion: values, margins, and when each is violated."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class PoseLimit(NamedTuple):
     value: Floats
     """Shape (n,), in the unit of the limit."""
     margin: Floats
-    """As `margin_of`, negative where the limit is passed; shape (n,)."""
+    """As `margin_of`, negative where the limit is violated; shape (n,)."""
 
     @property
     def label(self) -> str:
@@ -107,7 +107,7 @@ class PathLimits:
 
     @cached_property
     def breaks(self) -> tuple[LimitBreak, ...]:
-        """Stretches of time in which a limit is passed by more than 1e-6 of it; angles in radians."""
+        """Stretches of time in which a limit is violated by more than 1e-6 of it; angles in radians."""
         breaks: list[LimitBreak] = []
         for one in self.limits:
             tolerance = tolerance_of(kind_of(one.name), one.limit)
@@ -139,7 +139,7 @@ class PathLimits:
         return list(rows.values())
 
     def __repr__(self) -> str:
-        """Show the limits that are passed."""
+        """Show the limits that are violated."""
         names = ", ".join(sorted({entry.limit for entry in self.breaks}))
         return f"<PathLimits: {len(self.time)} poses, {'breaks ' + names if names else 'within limits'}>"
 

@@ -86,7 +86,7 @@ class LimitRow(NamedTuple):
 
     @property
     def violated(self) -> bool:
-        """Whether the limit is passed beyond the tolerance, or nothing is known of it."""
+        """Whether the limit is violated beyond the tolerance, or nothing is known of it."""
         return is_violated(self.margin, self.unit, self.limit)
 
 

@@ -19,7 +19,7 @@ EQUAL = 1e-9  # relative: triangles that differ by less are similar
 
 
 class ArchitectureClass(StrEnum):
-    """What makes a design singular at every pose; there are no other ways."""
+    """Causes that make a design singular at every pose; there are no others."""
 
     LOWER_ON_LINE = "lower_on_line"
     """The lower internal joints are on one line: det B is 0."""
@@ -55,7 +55,7 @@ class ArchitectureSingularity(NamedTuple):
     relative: float
     """The same over the longest side of the four triangles of joints."""
     dissimilarity: float
-    """How far the two external triangles are from similar ones, 0 to 1."""
+    """The distance of the two external triangles from similar ones, 0 to 1."""
     rotations: Floats
     """Rotations of the platform that make them as parallel as they can be, half a turn apart, shape (2, 3, 3)."""
 

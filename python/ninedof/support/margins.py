@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 
 TOLERANCE: float = _core.margin_tolerance
-"""A limit that is passed by no more is kept, as for `certify`: between the poses that were looked at, a design of the
-optimizer passes its limits by up to 1e-7."""
+"""A limit that is violated by no more is kept, as for `certify`: between the poses that were looked at, a design of the
+optimizer violates its limits by up to 1e-7."""
 MOST = 1e4  # per cent: from here on the number itself says little
 
 

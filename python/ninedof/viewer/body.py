@@ -86,7 +86,7 @@ def body_of(variant: Variant, question: dict[str, Any], unit: str, progress: Any
     positions = workspace(variant.geometry, progress=progress, **question)
     if not positions.volume > 0.0:
         start = "neutral pose" if set(CONES) & set(question["criteria"]) else "pose shown"
-        why = f", which passes {positions.home_limit}" if positions.home_limit else ""
+        why = f", which violates {positions.home_limit}" if positions.home_limit else ""
         return Body(f"No position that keeps all limits is connected with the {start}{why}.")
     surface = positions.surface()
     faces = np.concatenate([surface.faces[:, [0, 1, 2]], surface.faces[:, [0, 2, 3]]]).astype(np.uint32)

@@ -49,7 +49,7 @@ def legend_html(lines: Mapping[str, str]) -> str:
 
 
 def limits_html(numbers: Numbers, unit: str) -> str:
-    """Return a row for each limit: its value, the limit and the margin; those passed in red."""
+    """Return a row for each limit: its value, the limit and the margin; those violated in red."""
     if not numbers.limits:
         return _wrapped(f'<span style="{_FAINT}">A design file has no limits; a run has those of its study.</span>')
     head = "".join(f'<th style="text-align:{at};font-weight:500;{_FAINT}">{name}</th>' for name, at in _COLUMNS)

@@ -85,7 +85,7 @@ def test_a_limit_at_the_neutral_pose_is_named_on_the_screen(run):
     )
     status, out, _ = run("optimize study.toml --starts 4 --no-figures --out run")
     assert status == 0
-    assert "1 % more leg_ratio at neutral buys" in out
+    assert "1 % more leg_ratio at neutral gains" in out
     line = "pareto study.toml --against 'leg_ratio at neutral' --value 1.9 --value 2.1"
     status, out, err = run(f"{line} --starts 4 --json --no-figures --out front")
     assert status == 0
@@ -121,7 +121,7 @@ def test_study_over_poses_shows_prices_and_poses(run):
         "neutral condition",
         "worst over the poses",
         "best over the poses",
-        "more radius_ratio buys",
+        "more radius_ratio gains",
         "were followed to the end",
     ):
         assert part in text

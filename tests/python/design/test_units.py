@@ -113,5 +113,5 @@ def test_limits_and_prices_are_said_with_their_unit():
     )
     said = nd.optimize(study).summary()
     assert "a2 (500 mm)" in said
-    assert "1 % more a2 (5 mm) buys" in said
+    assert "1 % more a2 (5 mm) gains" in said
     assert "mm" not in nd.optimize(replace(study, unit="")).summary()

@@ -130,7 +130,7 @@ def test_limits_at_the_neutral_pose_bind_and_have_their_price():
     result = solved("neutral")
     assert "base_cone at neutral" in result.active
     assert "base_cone" not in result.active
-    assert "1 % more base_cone at neutral buys" in result.summary()
+    assert "1 % more base_cone at neutral gains" in result.summary()
 
     def optimum(factor):
         cone = [{"max_deg": 45} | UPRIGHT, {"max_deg": 30 * factor, "at": "neutral"} | UPRIGHT]

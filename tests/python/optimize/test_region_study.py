@@ -1,4 +1,4 @@
-"""Studies over a region: no limit is passed at poses that the solver did not choose.
+"""Studies over a region: no limit is violated at poses that the solver did not choose.
 
 Oracle: poses drawn and limits evaluated in numpy, by region_oracle.py. `check`, the search of the core, is no better.
 """
@@ -165,7 +165,7 @@ def test_limits_hold_between_the_poses(name):
 
 
 @pytest.mark.slow
-def test_what_a_dear_limit_buys_is_not_left_over():
+def test_what_a_dear_limit_gains_is_not_left_over():
     """Near the least stroke that a design can keep 1e-8 of it changes the condition number by 1e-6."""
     study = nd.Study(
         "symmetric",
@@ -241,7 +241,7 @@ def test_a_mean_is_stated_as_it_is_at_poses_that_the_optimizer_did_not_use():
 
 @pytest.mark.slow
 def test_check_finds_a_region_that_only_holds_at_listed_poses():
-    """Tilts about x and y alone: between those directions a limit is passed."""
+    """Tilts about x and y alone: between those directions a limit is violated."""
     result = solved("turns, frobenius")
     study = result.study
     listed = [{"rotation_deg": [a, b, 0]} for a, b in ((20, 0), (-20, 0), (0, 20), (0, -20))]

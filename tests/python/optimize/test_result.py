@@ -109,13 +109,13 @@ def test_prices_state_the_direction_that_relaxes_a_limit(result, constraint, wor
     study = dataclasses.replace(STUDY, constraints={"radius_ratio": constraint})
     best = dataclasses.replace(result.best, prices={"radius_ratio": 0.1234, "a1": 1e-9})
     first, last = price_words(study, best.variables, best.prices)
-    assert first == f"1 % {words} buys 0.123 %"
-    assert last.endswith("a1 buys less than 0.0005 %")  # a limit that is reached is never left out
+    assert first == f"1 % {words} gains 0.123 %"
+    assert last.endswith("a1 gains less than 0.0005 %")  # a limit that is reached is never left out
 
 
 @pytest.mark.parametrize(
     ("price", "words"),
-    [(9.9, "1 % more a2 (0.06 mm) buys 9.9 %"), (102.152, "0.01 % more a2 (0.0006 mm) buys 1.02 %")],
+    [(9.9, "1 % more a2 (0.06 mm) gains 9.9 %"), (102.152, "0.01 % more a2 (0.0006 mm) gains 1.02 %")],
 )
 def test_a_steep_price_is_named_for_a_smaller_step(result, price, words):
     study = dataclasses.replace(STUDY, variables={"a2": (1.0, 6.0)}, unit="mm", characteristic_length=1.0)
@@ -128,7 +128,7 @@ def test_prices_of_bounds_state_which_bound(result):
     best = dataclasses.replace(
         result.best, prices={"a2": 0.5, "zp": 0.25}, variables=result.best.variables | {"a2": 6.0, "zp": 2.0}
     )
-    assert price_words(study, best.variables, best.prices) == ["1 % more a2 buys 0.5 %", "1 % less zp buys 0.25 %"]
+    assert price_words(study, best.variables, best.prices) == ["1 % more a2 gains 0.5 %", "1 % less zp gains 0.25 %"]
 
 
 def test_a_result_can_be_written(result):

@@ -44,7 +44,7 @@ def test_condition_curves_mark_points_and_crossings():
 def test_curves_over_poses_have_the_neutral_one_beside_and_a_ground_where_a_limit_is_passed():
     figure = made("objective over poses")
     words = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert words == ["published: 3.9110", "at the neutral pose", "a limit is passed at one of these poses"]
+    assert words == ["published: 3.9110", "at the neutral pose", "a limit is violated at one of these poses"]
     for axes, ends in zip(figure.axes, ((1.5, 1.5 + 2.0 * 169 / 399), (-20.0 + 0.5 * 51, 20.0)), strict=True):
         (ground,) = [one for one in axes.collections if to_hex(one.get_facecolor()[0]) == style.GRID.lower()]
         spans = ground.get_paths()[0].vertices[:, 0]

@@ -53,7 +53,7 @@ def test_a_pose_beyond_a_limit_has_no_workspace_and_is_told():
     shown = body(state, 2.0)
     assert shown.mesh is None
     assert shown.words == (
-        "No position that keeps all limits is connected with the pose shown, which passes condition_number."
+        "No position that keeps all limits is connected with the pose shown, which violates condition_number."
     )
 
 

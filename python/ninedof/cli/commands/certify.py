@@ -39,7 +39,7 @@ class _Options(Options):
     gap: float = option("Relative width of the enclosure of the worst condition number.", 0.05)
     time: float = option("Seconds for the condition number; each limit has 5 at least.", 300.0)
     tolerance: str | None = option("Of joints and legs as built, a length, or max: the largest that is proved.")
-    slack: float = option("By which limits may be passed, relative.", 1e-6)
+    slack: float = option("By which limits may be violated, relative.", 1e-6)
     threads: int | None = option(THREADS)
     certificate: Path | None = option("Also write a file that `ninedof check` replays.")
 

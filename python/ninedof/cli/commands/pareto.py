@@ -96,7 +96,7 @@ def _study_of(study: Path | None) -> tuple[nd.Study, nd.Result | None]:
 
 
 def _dearest(run: nd.Result) -> str:
-    """Return the limit of a run whose relaxation buys most."""
+    """Return the limit of a run whose relaxation gains most."""
     prices = run.prices or {}
     names = [name for name in prices if split_label(name)[0] in names_with_max() or name == CONDITION_LIMIT]
     if not names:

@@ -1,4 +1,4 @@
-"""What is left of a machine when a leg fails: the result of `failure`."""
+"""The result of `failure`: a machine with one leg that fails."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class LockedLegs(NamedTuple):
 
     Infinite above 1e6: a search comes that near to a pose where a motion is lost, never onto it."""
     pose: int
-    """Where it is worst."""
+    """The worst place."""
     ratio: float
     """Of `remaining` to the worst of the machine with nine legs."""
     share: float | None
@@ -76,7 +76,7 @@ class FreeLeg(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Failure:
-    """What is left of a machine when a leg fails."""
+    """The machine with one leg that fails: condition numbers, limits and poses that are left."""
 
     geometry: Geometry
     configurations: Configuration
