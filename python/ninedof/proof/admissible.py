@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
@@ -16,7 +16,6 @@ from ninedof.proof.admissible_set import PIECES, STATES, AdmissibleSet, for_core
 from ninedof.proof.design_range import LONGEST, DesignRange, HasDesign, design_range
 from ninedof.support.arguments import executor_argument, finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS, Floats
-from ninedof.support.chunks import computed
 from ninedof.support.files import Arrays
 from ninedof.support.running import Progress, progress_argument
 from ninedof.support.structs import Fixed, options_of
@@ -103,28 +102,30 @@ def admissible(
 
     """
     chosen = options_of("admissible", AdmissibleArguments, options, resolution=0.01, threads=0)
-    asked = design_range(of, vary, chosen["at"], chosen["condition_number"])
+    question = design_range(of, vary, chosen["at"], chosen["condition_number"])
     seconds = LONGEST if chosen["time_limit"] is None else finite("time_limit", chosen["time_limit"], 0.0)
     resolution = finite("resolution", chosen["resolution"], 0.0, 1.0)
     threads = whole("threads", chosen["threads"], 0, MOST_THREADS)
     resume, executor, begin = chosen["resume"], chosen["executor"], perf_counter()
     executor_argument(executor)
-    if resume is not None and instance("resume", resume, AdmissibleSet).of.digest != asked.digest:
+    if resume is not None and instance("resume", resume, AdmissibleSet).of.digest != question.digest:
         raise ValueError("resume: got the designs of another question, expected those of this one")
-    earlier, progress = None if resume is None else resume.for_core(), progress_argument(chosen["progress"])
+    earlier, progress = None if resume is None else for_core(vars(resume)), progress_argument(chosen["progress"])
     how: dict[str, Any] = {"seconds": min(seconds, LONGEST), "resolution": resolution, "progress": progress}
     if executor is None:
-        found = _core.admissible_designs(asked.for_core(), threads=threads, undecided=ENOUGH, earlier=earlier, **how)
+        answer = _core.admissible_designs(
+            question.for_core(), threads=threads, undecided=ENOUGH, earlier=earlier, **how
+        )
     else:
-        found = by_roots(asked, executor, earlier, threads=threads or 1, **how)
+        answer = by_roots(question, executor, earlier, threads=threads or 1, **how)
     return AdmissibleSet(
-        asked,
-        **{name: found[name] for name in (*PIECES, "demands")},
-        shares=Fixed({name: found[name] for name in STATES}),
-        designs=found["looked_at"] + (0 if resume is None else resume.designs),
-        boxes=found["boxes"] + (0 if resume is None else resume.boxes),
+        question,
+        **{name: answer[name] for name in (*PIECES, "demands")},
+        shares=Fixed({name: answer[name] for name in STATES}),
+        designs=answer["looked_at"] + (0 if resume is None else resume.designs),
+        boxes=answer["boxes"] + (0 if resume is None else resume.boxes),
         seconds=perf_counter() - begin + (0.0 if resume is None else resume.seconds),
-        interrupted=found["interrupted"],
+        interrupted=answer["interrupted"],
     )
 
 
@@ -133,45 +134,13 @@ ROOTS = 64  # whatever the workers are: the answer does not depend on them
 COUNTS = ("looked_at", "boxes", "interrupted")
 
 
-@dataclass(frozen=True)
-class RootWork:
-    """The roots of a question. All are about the whole of its box: of the rest of it a root knows nothing."""
+def decided(root: Arrays, of: DesignRange, token: str, **how: Any) -> Arrays:
+    """Return the pieces of a root, decided as far as its time goes, and counts.
 
-    of: DesignRange
-    roots: Mapping[int, Arrays]
-    """The undecided pieces of each, by its number."""
-    seconds: float
-    """Of each root."""
-    resolution: float
-    threads: int
-    enough: float
-    """Share of the volume that may be left undecided, of each root."""
-    chunk: int = 1
-
-    @property
-    def points(self) -> int:
-        """Return the number of roots."""
-        return len(self.roots)
-
-    def question(self) -> dict[str, Any]:
-        """Return what the answer depends on; nothing of it is kept in a folder."""
-        return {"designs": self.of.digest}
-
-    def part(self, first: int, last: int) -> RootWork:
-        """Return the work with some of the roots."""
-        return replace(self, roots={k: self.roots[k] for k in range(first, last)})
-
-    def values(self, first: int, _: int) -> Arrays:
-        """Return the pieces of a root, decided as far as its time goes, and counts."""
-        found = _core.admissible_designs(
-            self.of.for_core(),
-            threads=self.threads,
-            seconds=self.seconds,
-            resolution=self.resolution,
-            undecided=self.enough,
-            earlier=for_core(self.roots[first]),
-        )
-        return {name: np.asarray(found[name]) for name in PIECES + COUNTS}
+    The token makes the call differ from those of other runs: Dask does not repeat equal calls.
+    """
+    answer = _core.admissible_designs(of.for_core(), earlier=for_core(root), **how)
+    return {name: np.asarray(answer[name]) for name in PIECES + COUNTS}
 
 
 def by_roots(
@@ -184,7 +153,12 @@ def by_roots(
     threads: int,
     progress: Progress | None,
 ) -> dict[str, Any]:
-    """Return what `_core.admissible_designs` does, by an executor. Ctrl-C leaves the roots that run undecided."""
+    """Return what `_core.admissible_designs` does, by an executor. Ctrl-C leaves the roots that run undecided.
+
+    All roots are about the whole of the box: of the rest of it a root knows nothing.
+    """
+    from concurrent.futures import as_completed  # when it is needed, as it takes time to load
+
     # Without time the core takes pieces apart and adds up their shares; a bad question raises here, not at a worker.
     without_time = partial(
         _core.admissible_designs, of.for_core(), threads=1, seconds=0.0, resolution=resolution, undecided=ENOUGH
@@ -192,17 +166,29 @@ def by_roots(
     begin = without_time(earlier=earlier)
     undecided = begin["state"] == 2
     roots = roots_of(of, {name: begin[name][undecided] for name in PIECES}, resolution)
-    found, interrupted = dict(roots), False
-    work = RootWork(of, roots, seconds, resolution, threads, ENOUGH / max(len(roots), 1))
+    pieces, interrupted = dict(roots), False
+    how: dict[str, Any] = {
+        "seconds": seconds,
+        "resolution": resolution,
+        "threads": threads,
+        "undecided": ENOUGH / max(len(roots), 1),
+    }
+    decide = partial(decided, of=of, token=os.urandom(8).hex(), **how)
+    progress, futures = progress or (lambda *_: None), {}
     try:
-        with computed(work, None, executor, progress) as (_, chunks):
-            for (first, _), values in chunks:
-                found[first] = values
+        progress(0, len(roots), None)
+        futures = {executor.submit(decide, root): k for k, root in roots.items()}
+        for done, future in enumerate(as_completed(futures), start=1):
+            pieces[futures[future]] = future.result()
+            progress(done, len(roots), None)
     except KeyboardInterrupt:
         interrupted = True
-    parts = [{name: begin[name][~undecided] for name in PIECES}, *found.values()]
+    finally:
+        for future in futures:
+            future.cancel()
+    parts = [{name: begin[name][~undecided] for name in PIECES}, *pieces.values()]
     out = without_time(earlier=for_core({name: np.concatenate([one[name] for one in parts]) for name in PIECES}))
-    counts = {name: sum(int(one[name]) for one in found.values() if name in one) for name in COUNTS}
+    counts = {name: sum(int(one[name]) for one in pieces.values() if name in one) for name in COUNTS}
     return out | counts | {"interrupted": interrupted or counts["interrupted"] > 0}
 
 

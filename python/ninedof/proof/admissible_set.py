@@ -20,7 +20,8 @@ from ninedof.proof.design_range import DesignRange, HasDesign, design_values
 from ninedof.proof.machine_record import ProofPose, outward
 from ninedof.support.arguments import finite, path_argument, shown, table
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.files import write_whole
+from ninedof.support.files import Saved, write_whole
+from ninedof.support.structs import Fixed, entries_of
 from ninedof.support.units import amount
 from ninedof.tables.html import notebook
 
@@ -54,8 +55,10 @@ class Reason(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class AdmissibleSet:
+class AdmissibleSet(Saved):
     """A box of designs, divided into pieces. Lengths in the unit of the study, angles in radians."""
+
+    FORMAT = "ninedof-admissible-1"
 
     of: DesignRange
     low: Floats
@@ -170,16 +173,16 @@ class AdmissibleSet:
         x = [finite(name, values[name]) for name in self.vary]
         half: list[float] = []
         if proportions is not None:
-            given = angles_in_radians(
+            widths = angles_in_radians(
                 self.study, table("proportions", proportions), lambda name, x: finite(f"proportions.{name}", x)
             )
-            if set(given) != set(self.vary):
+            if set(widths) != set(self.vary):
                 raise ValueError(f"proportions: got {shown(list(proportions))}, expected {', '.join(self.vary)}")
-            half = [given[name] for name in self.vary]
+            half = [widths[name] for name in self.vary]
 
         def room(of: DesignRange, seconds: float) -> tuple[dict[str, tuple[float, float]], int]:
-            found, low, high, broken = _core.room_around(of.for_core(), x, half, seconds=seconds)
-            return dict(zip(self.vary, zip(low, high, strict=True), strict=True)) if found else {}, broken
+            inside, low, high, broken = _core.room_around(of.for_core(), x, half, seconds=seconds)
+            return dict(zip(self.vary, zip(low, high, strict=True), strict=True)) if inside else {}, broken
 
         box, broken = room(self.of, AROUND_SECONDS)
         if box:
@@ -227,15 +230,26 @@ class AdmissibleSet:
             out.append(f"Excluded by: {by}.")
         return out
 
-    def for_core(self) -> dict[str, Any]:
-        """Return the pieces as the core takes them, for a run that goes on."""
-        return for_core(vars(self))
-
     def save_certificate(self, path: str | os.PathLike[str]) -> Path:
         """Write a file that `check_certificate` and the program ninedof_check replay: the question, boxes, reasons."""
         shares = [self.shares[name] for name in STATES]
-        data = _core.design_certificate(self.of.for_core(), self.for_core(), self.demands, shares)
+        data = _core.design_certificate(self.of.for_core(), for_core(vars(self)), self.demands, shares)
         return write_whole(path_argument("path", path), data)
+
+    def _saved(self) -> dict[str, Any]:
+        of = vars(self.of)
+        return super()._saved() | {
+            "study": self.study.to_dict(),
+            "of": {name: of[name] for name in of if name != "study"},
+        }
+
+    @classmethod
+    def _restored(cls, entries: dict[str, Any]) -> AdmissibleSet:
+        of = entries_of(DesignRange, entries["of"], skipped=["study"])
+        of |= {"study": Study.from_dict(entries["study"]), "at": Fixed(of["at"])}
+        others = entries_of(cls, entries, skipped=("of", *PIECES))
+        others |= {name: entries[name] for name in PIECES} | {"shares": Fixed(others["shares"])}
+        return cls(DesignRange(**of), **others)
 
     def _boxes(self, state: int) -> Floats:
         chosen = self.state == state

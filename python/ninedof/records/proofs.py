@@ -6,26 +6,13 @@ import os
 from pathlib import Path
 
 from ninedof.design.study import Study
-from ninedof.proof.admissible_set import PIECES, AdmissibleSet
+from ninedof.proof.admissible_set import AdmissibleSet
 from ninedof.proof.design_range import DesignRange
 from ninedof.proof.machine_record import FORMAT, MachineCertificate
 from ninedof.records.load import split
 from ninedof.support.arguments import path_argument
-from ninedof.support.files import (
-    Arrays,
-    from_json_array,
-    json_array,
-    json_bytes,
-    read_json,
-    read_npz,
-    write_npz,
-    write_whole,
-)
+from ninedof.support.files import json_bytes, read_json, write_whole
 from ninedof.support.store import folder_of
-from ninedof.support.structs import Fixed, entries_of
-
-ASKED = ("vary", "ranges", "condition_number", "moved")
-NUMBERS = ("designs", "boxes", "seconds", "interrupted")
 
 
 def certificate_file(run: str | os.PathLike[str]) -> Path:
@@ -71,40 +58,15 @@ def admissible_file(folder: Path, of: DesignRange) -> Path:
     return folder / f"admissible-{'-'.join(of.vary)}.npz"
 
 
-def save_admissible(found: AdmissibleSet, file: Path) -> Path:
-    """Write a set; return its path."""
-    others = {"question": found.of.digest, "demands": found.demands, "shares": dict(found.shares)}
-    others |= {name: getattr(found, name) for name in NUMBERS}
-    others["asked"] = {name: getattr(found.of, name) for name in ASKED} | {"at": dict(found.of.at)}
-    return write_npz(file, {name: getattr(found, name) for name in PIECES} | {"others": json_array(others)})
-
-
 def load_admissible(file: Path, of: DesignRange) -> AdmissibleSet | None:
     """Read the set of a question; None if there is none, or that of another question."""
-    if not file.exists():
-        return None
-    return _read(read_npz(file), of)
+    designs = AdmissibleSet.load(file) if file.exists() else None
+    return designs if designs is not None and designs.of.digest == of.digest else None
 
 
 def latest_admissible(run: str | os.PathLike[str], study: Study) -> AdmissibleSet | None:
     """Read the set of a study, of two variables or more, that was written last into a run; None without one."""
     folder = folder_of(split(os.fspath(run))[0])
-    for file in sorted(folder.glob("admissible-*.npz"), key=lambda one: one.stat().st_mtime, reverse=True):
-        arrays = read_npz(file)
-        asked = from_json_array(arrays["others"]).get("asked")
-        if asked is None or len(asked["vary"]) < 2:  # none in files of earlier versions
-            continue
-        entries = entries_of(DesignRange, asked, skipped=["study"])
-        of = DesignRange(study, **entries | {"at": Fixed(entries["at"])})
-        if (found := _read(arrays, of)) is not None:
-            return found
-    return None
-
-
-def _read(arrays: Arrays, of: DesignRange) -> AdmissibleSet | None:
-    others = from_json_array(arrays["others"])
-    if others["question"] != of.digest:
-        return None
-    entries = entries_of(AdmissibleSet, others, skipped=("of", *PIECES))
-    entries |= {name: arrays[name] for name in PIECES} | {"shares": Fixed(entries["shares"])}
-    return AdmissibleSet(of, **entries)
+    files = sorted(folder.glob("admissible-*.npz"), key=lambda one: one.stat().st_mtime, reverse=True)
+    sets = (AdmissibleSet.load(file) for file in files)
+    return next((one for one in sets if len(one.vary) > 1 and one.study.to_dict() == study.to_dict()), None)

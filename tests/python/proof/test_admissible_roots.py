@@ -118,6 +118,17 @@ def test_an_interruption_keeps_what_has_come_and_the_next_call_goes_on():
         nd.admissible(study, vary, **options | {"condition_number": 9.0}, executor=Here(), resume=some)
 
 
+def test_a_set_from_its_file_is_gone_on_with(tmp_path):
+    study, vary, options = ASKED["two variables"]
+    coarse = nd.admissible(study, vary, **options | {"resolution": 0.2})
+    loaded = nd.AdmissibleSet.load(coarse.save(tmp_path / "set"))
+    same(loaded, coarse)
+    assert loaded.of == coarse.of
+    assert loaded.of.digest == coarse.of.digest
+    fine = {"resolution": 0.05, "threads": 1}
+    same(*(nd.admissible(study, vary, **options | fine, resume=one) for one in (loaded, coarse)))
+
+
 def test_without_time_nothing_is_decided():
     study, vary, options = ASKED["two variables"]
     found = nd.admissible(study, vary, **options, executor=Here(), time_limit=0.0)

@@ -51,6 +51,7 @@ for kind, thing in {
     "SweepResult": it.swept,
     "WorkspaceMap": it.workspace,
     "CertifiedWorkspace": it.certified,
+    "AdmissibleSet": it.admissible_set,
 }.items():
     at(f"{kind}.save", lambda thing=thing, **a: thing().save(**a))(lambda: {"path": it.fresh(".npz")})
     at(f"{kind}.load", getattr(nd, kind).load)(lambda thing=thing: {"path": it.saved(thing())})

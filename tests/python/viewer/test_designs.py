@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 import ninedof as nd
 from ninedof.plot.admissible import INSIDE
-from ninedof.records.proofs import admissible_file, latest_admissible, save_admissible
+from ninedof.records.proofs import admissible_file, latest_admissible
 from ninedof.viewer.designs import DesignPicture
 
 STUDY = nd.Study(
@@ -125,7 +125,7 @@ def test_the_set_written_last_beside_a_run_is_shown(run, result, tmp_path):
         assert designs.of.condition_number == 9.0
         assert designs.of.at == pytest.approx(result.variables)
     other = nd.admissible(nd.Study(variables=STUDY.variables), ("a2", "b1"), at=result.variables, resolution=0.5)
-    save_admissible(other, admissible_file(folder, other.of))
+    other.save(admissible_file(folder, other.of))
     assert latest_admissible(folder, result.study).vary == ("a2", "zp")  # the newer one is of another study
 
 

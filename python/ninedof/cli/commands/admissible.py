@@ -14,7 +14,7 @@ from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.proof.admissible_set import NoRoom, room_words
 from ninedof.proof.design_range import MOST_VARIED, design_range
 from ninedof.records.load import split
-from ninedof.records.proofs import admissible_file, load_admissible, save_admissible
+from ninedof.records.proofs import admissible_file, load_admissible
 from ninedof.support.running import goes_on
 from ninedof.support.store import folder_of
 from ninedof.support.units import amount
@@ -70,9 +70,9 @@ def admissible(options: _Options) -> Answer:
         return _rows(screen, of, options, vary, at)
     if not vary:
         return _around_alone(screen, of, options, at)
-    asked = design_range(of, vary, at, options.condition)
-    file = None if folder is None else admissible_file(folder, asked)
-    earlier = None if file is None else load_admissible(file, asked)
+    question = design_range(of, vary, at, options.condition)
+    file = None if folder is None else admissible_file(folder, question)
+    earlier = None if file is None else load_admissible(file, question)
     if file is not None and earlier is None and file.exists():  # that of another question
         other = file.replace(file.with_name(f"{file.stem}-earlier{file.suffix}"))
         screen.print(f"the designs of another question are kept as {other}")
@@ -80,22 +80,22 @@ def admissible(options: _Options) -> Answer:
     how = _how(options) | {"at": at, "condition_number": options.condition, "resume": earlier}
     bars = screen.bar("boxes" if options.scheduler is None else "points", "designs")
     with executor_at(options.scheduler) as executor, bars as bar:
-        found = nd.admissible(of, vary, **how, executor=executor, progress=bar)
-    data: dict[str, Any] = {name: getattr(found, name) for name in ("shares", "excluded", "designs", "boxes")}
-    screen.print(*found.sentences())
+        designs = nd.admissible(of, vary, **how, executor=executor, progress=bar)
+    data: dict[str, Any] = {name: getattr(designs, name) for name in ("shares", "excluded", "designs", "boxes")}
+    screen.print(*designs.sentences())
     if file is not None:
         file.parent.mkdir(parents=True, exist_ok=True)
-        save_admissible(found, file)
-        figures = _draw(found, file) if len(found.vary) > 1 else []
+        designs.save(file)
+        figures = _draw(designs, file) if len(designs.vary) > 1 else []
         screen.print(f"designs {file}" + (f", figure {figures[0].stem} (PNG, SVG, PDF)" if figures else ""))
         data["file"] = str(file)
     if options.certificate is not None:
-        found.save_certificate(options.certificate)
+        designs.save_certificate(options.certificate)
         screen.print(f"certificate {options.certificate}")
         data["certificate"] = str(options.certificate)
     if options.around:
-        data |= _around(screen, found, options)
-    return Answer([], data, INTERRUPTED if found.interrupted else DONE)
+        data |= _around(screen, designs, options)
+    return Answer([], data, INTERRUPTED if designs.interrupted else DONE)
 
 
 def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: Mapping[str, Any]) -> Answer:
@@ -103,11 +103,11 @@ def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: 
     alone = "for a study with actuators: its answer is printed alone"
     options.refuse(alone, "condition", "around", "proportions", "certificate", "out", "scheduler")
     with screen.bar("boxes", "actuators") as bar:
-        found = nd.admissible_actuators(study, vary, at=at, **_how(options), progress=bar)
+        answer = nd.admissible_actuators(study, vary, at=at, **_how(options), progress=bar)
     heads = columns("legs", "actuator", "a design exists", "for example")
-    rows = [(one.kind, one.row.name, WORDS.get(one.state, one.state), _example(one, study)) for one in found.rows]
-    data = {"rows": [one.to_dict() for one in found.rows]}
-    return Answer([Table("", heads, rows)], data, INTERRUPTED if found.interrupted else DONE)
+    rows = [(one.kind, one.row.name, WORDS.get(one.state, one.state), _example(one, study)) for one in answer.rows]
+    data = {"rows": [one.to_dict() for one in answer.rows]}
+    return Answer([Table("", heads, rows)], data, INTERRUPTED if answer.interrupted else DONE)
 
 
 def _how(options: _Options) -> dict[str, Any]:
@@ -119,10 +119,10 @@ def _example(one: nd.AdmissibleRow, study: nd.Study) -> str:
     return ", ".join(amount(words, study.unit_of(name)) for name, words in values)
 
 
-def _draw(found: nd.AdmissibleSet, file: Path) -> list[Path]:
+def _draw(designs: nd.AdmissibleSet, file: Path) -> list[Path]:
     from ninedof import plot
 
-    return plot.save(plot.admissible(found), file.parent, file.stem)
+    return plot.save(plot.admissible(designs), file.parent, file.stem)
 
 
 def _of(options: _Options) -> tuple[nd.Study | nd.Result, Path | None]:
@@ -153,8 +153,8 @@ def _around_alone(screen: Screen, of: nd.Study | nd.Result, options: _Options, a
         names = f": {', '.join(free)}" if free else ""
         raise ValueError(f"--vary: got none with {len(free)} free variables{names}, expected one to four")
     options.refuse("with --around and no --vary: designs are not divided", "certificate", "out", "scheduler")
-    found = nd.admissible(of, free, at=at, condition_number=options.condition, time_limit=0.0)
-    return Answer([], _around(screen, found, options))
+    designs = nd.admissible(of, free, at=at, condition_number=options.condition, time_limit=0.0)
+    return Answer([], _around(screen, designs, options))
 
 
 def _proportions(text: str) -> dict[str, float]:
@@ -168,15 +168,15 @@ def _proportions(text: str) -> dict[str, float]:
     return out
 
 
-def _around(screen: Screen, found: nd.AdmissibleSet, options: _Options) -> dict[str, Any]:
+def _around(screen: Screen, designs: nd.AdmissibleSet, options: _Options) -> dict[str, Any]:
     """Print how far the design may go; that it lies on a limit is an answer too."""
     proportions = None if options.proportions is None else _proportions(options.proportions)
-    held = f", at {found.of.held}" if found.of.held else ""
+    held = f", at {designs.of.held}" if designs.of.held else ""
     try:
-        room = found.around(proportions=proportions)
+        room = designs.around(proportions=proportions)
     except NoRoom as error:
         words = f": {error.reason}" if error.reason else ""
-        screen.print(f"No box around {found.of.values(found.vary)}{held} is proved{words}.")
+        screen.print(f"No box around {designs.of.values(designs.vary)}{held} is proved{words}.")
         return {"around": None, "reason": error.reason}
-    screen.print(f"Proved around {found.of.values(found.vary)}{held}: {room_words(found.of, room)}.")
+    screen.print(f"Proved around {designs.of.values(designs.vary)}{held}: {room_words(designs.of, room)}.")
     return {"around": {name: list(ends) for name, ends in room.items()}}
