@@ -23,6 +23,7 @@ from ninedof.design.duty import DUTIES, About, Loads, Masses, Speeds, Tolerances
 from ninedof.design.leg_duty import LegDuty, internal_motion, require_stated
 from ninedof.design.limits import OF_LENGTHS, ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
+from ninedof.design.tables import limits_table, variables_table
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import (
     bound,
@@ -52,6 +53,7 @@ from ninedof.support.units import (
     unit_argument,
     unit_entry,
 )
+from ninedof.tables.html import notebook
 
 Bound = float | tuple[float, float]
 """A fixed value, or (low, high)."""
@@ -268,11 +270,11 @@ class Study:
         known_keys("study", data, ["unit", "actuators", *TABLES])
         tables = {name: table(name, data.get(name, {})) for name in TABLES}
         require_unit_at_top({name: entries for name, entries in tables.items() if name != "objective"})
-        given = data.get("actuators", ())
+        actuators = data.get("actuators", ())
         rows = (
-            given
-            if isinstance(given, bought.Rows)
-            else items("actuators", given, "rows with name, shortest and longest")
+            actuators
+            if isinstance(actuators, bought.Rows)
+            else items("actuators", actuators, "rows with name, shortest and longest")
         )
         if "actuators" in data and not rows:
             raise ValueError("actuators: got no rows, expected at least one actuator")
@@ -378,6 +380,9 @@ class Study:
     def words(self) -> str:
         """The objective in words, with the unit of lengths."""
         return self.objective.worded(self.unit)
+
+    def _repr_html_(self) -> str:
+        return notebook(f"Study: least {self.words}", variables_table(self), limits_table(self))
 
     def problem(self, over_region: bool = False) -> _core.Problem:
         """Return the study as the core's problem, validated there; of a region, without it, or to be solved over it."""

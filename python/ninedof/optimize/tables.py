@@ -11,6 +11,7 @@ import numpy as np
 from ninedof.design.poses import rule_words
 from ninedof.design.region_poses import configurations_at
 from ninedof.design.study import LENGTH, Study
+from ninedof.design.tables import listed_variables
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.idle import idle_names
@@ -124,7 +125,6 @@ def axis_hint(study: Study) -> str:
 
 SHOWN = 4  # candidates, side by side
 MOST_PLACED = 200  # poses at which O is placed for the sentence on it, a few milliseconds each
-MOST_FIXED = 8  # variables; of more, only the free ones are listed
 
 
 def candidates_table(result: Any) -> Table:
@@ -147,12 +147,6 @@ def candidates_table(result: Any) -> Table:
     count = len(result.candidates)
     title = "1 local optimum" if count == 1 else f"{count} distinct local optima, best first"
     return Table(title, [Column(), *(Column(head, "", RIGHT) for head in heads)], rows)
-
-
-def listed_variables(variables: Mapping[str, Any]) -> list[str]:
-    """Return the names of the variables that are listed: the fixed ones where they are few."""
-    free = [name for name, bound in variables.items() if isinstance(bound, tuple)]
-    return list(variables) if len(variables) - len(free) <= MOST_FIXED else free
 
 
 def _index_lines(result: Any) -> Iterator[Line]:

@@ -6,14 +6,12 @@ import math
 from collections.abc import Iterator
 
 from ninedof.design.actuators import price_words
-from ninedof.design.limits import Limit
 from ninedof.design.study import Study
-from ninedof.optimize.tables import listed_variables
+from ninedof.design.tables import end_text, limits_table, variables_table
 from ninedof.redundancy.rules import MEANING, WORDS
 from ninedof.sheet.pose_words import vector_words
 from ninedof.sheet.tables import load_words
-from ninedof.support.units import amount, degrees_of, per
-from ninedof.tables import Line, Table, columns
+from ninedof.support.units import amount, per
 from ninedof.tables.html import Html, html_of, joined, paragraphs
 
 MOST_NAMES = 12  # of a catalogue; the study file has them all
@@ -52,7 +50,7 @@ def sentences(study: Study) -> Iterator[str]:
     if isinstance(length, str):
         words = f"chosen for each design: {length.replace('_', ' ')}"
     elif isinstance(length, tuple):
-        words = amount(f"free from {_end(length[0])} to {_end(length[1])}", study.unit)
+        words = amount(f"free from {end_text(length[0])} to {end_text(length[1])}", study.unit)
     else:
         words = amount(f"{length:g}", study.unit)
     unit = f"in {study.unit}" if study.unit else "in one unit, which the study does not name"
@@ -90,42 +88,3 @@ def duty_sentences(study: Study) -> Iterator[str]:
     if built:
         joints, legs = (amount(f"{x:g}", unit) for x in (built.joints, built.legs))
         yield f"Tolerances, within which every machine keeps the limits: joint centres {joints}, leg lengths {legs}."
-
-
-def variables_table(study: Study) -> Table:
-    """Return the variables with their bounds."""
-    rows = []
-    for name in listed_variables(study.variables):
-        bound = study.variables[name]
-        low, *high = (_end(study.shown(name, end)) for end in (bound if isinstance(bound, tuple) else (bound,)))
-        rows.append(Line(name, [low, *(high or ["fixed"])], unit=study.unit_of(name)))
-    return Table("Variables", columns("variable", ">least", ">greatest"), rows)
-
-
-def limits_table(study: Study) -> Table:
-    """Return the limits; a note where there is none."""
-    several = bool(study.objective.poses) or study.objective.region is not None
-    rows = [_limit_row(limit, study.unit, several) for limit in study.limits]
-    heads = columns("limit", ">least", ">greatest", "how")
-    if not any(row[-1] for row in rows):
-        rows, heads = [row[:-1] for row in rows], heads[:-1]
-    notes = [] if rows else ["No limit is set beside these bounds and 0 < zs < zp."]
-    if any(limit.name.endswith(("force", "power")) for limit in study.limits):
-        notes.append("Forces: of each leg under every load; in N where masses are in kg.")
-    return Table("Limits", heads, rows, notes)
-
-
-def _limit_row(limit: Limit, unit: str, several: bool) -> tuple[str, ...]:
-    unit = limit.unit(unit)
-    sides = {side: amount(_end(degrees_of(x) if unit == "deg" else x), unit) for side, x in limit.sides.items()}
-    words = ["at the neutral pose" if limit.at == "neutral" else "at every pose"] * (several or limit.at == "neutral")
-    words += [f"{key} {_option(value)}" for key, value in limit.options.items() if key != "at"]
-    return limit.name.replace("_", " "), sides.get("min", ""), sides.get("max", ""), ", ".join(words)
-
-
-def _option(value: object) -> str:
-    return f"({', '.join(f'{x:g}' for x in value)})" if isinstance(value, list | tuple) else f"{value}"
-
-
-def _end(value: float) -> str:
-    return f"{value:.6g}" if math.isfinite(value) else "none"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -96,6 +96,17 @@ def _spreads(name: str, lengths: Floats, beside: Floats | None) -> list[tuple[st
     return list(zip(LEGS if numbers.shape[1] > 1 else [""], numbers.T, strict=True))
 
 
+def worst_of(limits: Iterable[PoseLimit]) -> list[tuple[PoseLimit, int]]:
+    """Return, for each side of each limit, the part with the least margin, and the pose where it has it."""
+    worst: dict[tuple[str, str], tuple[PoseLimit, int]] = {}
+    for one in limits:
+        key, k = (one.name, one.side), int(np.argmin(one.margin))
+        if key in worst and one.margin[k] >= worst[key][0].margin[worst[key][1]]:
+            continue
+        worst[key] = one, k
+    return list(worst.values())
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class PathLimits:
     """The limits of a study along a motion, over time."""
@@ -125,18 +136,14 @@ class PathLimits:
 
     def worst(self) -> list[dict[str, Any]]:
         """Return the least margin of each side of each limit as plain values; angles in degrees, as "limit_deg"."""
-        rows: dict[tuple[str, str], dict[str, Any]] = {}
-        for one in self.limits:
-            k = int(np.argmin(one.margin))
-            margin = float(one.margin[k])
-            if (key := (one.name, one.side)) in rows and rows[key]["margin"] <= margin:
-                continue
+        rows = []
+        for one, k in worst_of(self.limits):
             row = {"limit": one.limit, "value": float(one.value[k])}
             if one.name in CONES:
                 row = {f"{name}_deg": float(np.degrees(value)) for name, value in row.items()}
             names = {"name": one.name, "kind": kind_of(one.name), "part": one.part, "side": one.side}
-            rows[key] = names | row | {"margin": margin, "at": float(self.time[k])}
-        return list(rows.values())
+            rows.append(names | row | {"margin": float(one.margin[k]), "at": float(self.time[k])})
+        return rows
 
     def __repr__(self) -> str:
         """Show the limits that are violated."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from ninedof.design.limits import OF_LENGTHS, ROWS, kind_of, split_label
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS
-from ninedof.sheet.path_limits import PoseLimit, limits_at_poses
+from ninedof.sheet.path_limits import PoseLimit, limits_at_poses, worst_of
 from ninedof.sheet.rows import LimitRow
 from ninedof.singularity.singularity import SingularityMargins, singularity_margins
 from ninedof.support.arrays import Floats
@@ -89,18 +89,10 @@ def limits_at(variant: Variant, c: Configuration) -> list[PoseLimit]:
     return limits
 
 
-def _worst(limits: Sequence[PoseLimit]) -> list[LimitRow]:
-    worst: dict[tuple[str, str], PoseLimit] = {}
-    for one in limits:
-        key = (one.name, one.side)
-        if key not in worst or not one.margin[0] >= worst[key].margin[0]:
-            worst[key] = one
-    return [
-        LimitRow(
-            one.label, one.side, float(one.limit), float(one.value[0]), float(one.margin[0]), one.part, _kind(one.name)
-        )
-        for one in worst.values()
-    ]
+def _worst(limits: Sequence[PoseLimit]) -> Iterator[LimitRow]:
+    for one, _ in worst_of(limits):
+        value, margin = float(one.value[0]), float(one.margin[0])
+        yield LimitRow(one.label, one.side, float(one.limit), value, margin, one.part, _kind(one.name))
 
 
 def _of_design(variant: Variant, limits: Sequence[PoseLimit]) -> list[LimitRow]:

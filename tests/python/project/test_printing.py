@@ -124,7 +124,7 @@ def test_values(value, text):
     assert short(value) == text
 
 
-@pytest.mark.parametrize("name", ["Result", "Front", "WorkspaceMap", "SweepResult", "Sheet", "Followed"])
+@pytest.mark.parametrize("name", ["Result", "Front", "WorkspaceMap", "SweepResult", "Sheet", "Followed", "Study"])
 def test_tables_of_a_notebook(shown, name):
     text = shown[name]._repr_html_()
     root = xml.etree.ElementTree.fromstring(text.replace("&times;", "x"))
