@@ -14,7 +14,7 @@ from typing import Any
 
 import ninedof as nd
 from ninedof.design.duty import DUTIES
-from ninedof.support.structs import Table, keys
+from ninedof.support.structs import StudyTable, keys
 from ninedof.support.units import DEG
 
 PAGE = Path(__file__).resolve().parents[1] / "study-file.md"
@@ -54,7 +54,7 @@ def page() -> str:
 def table(source: Any) -> str:
     """Return the table of a class or function: a row for each parameter of its docstring."""
     defaults = {name: p.default for name, p in inspect.signature(source).parameters.items()}
-    known = keys(source) if isinstance(source, type) and issubclass(source, Table) else list(defaults)
+    known = keys(source) if isinstance(source, type) and issubclass(source, StudyTable) else list(defaults)
     lines = ["| key | value | if left out | meaning |", "| --- | --- | --- | --- |"]
     for names, kind, words in parameters(source):
         every = dict.fromkeys(key for name in names for key in (name, name + DEG) if key in known)

@@ -31,8 +31,7 @@ from ninedof.paper.published import published_variables
 from ninedof.records.design_file import hexagonal_design
 from ninedof.records.load import design_and_result
 from ninedof.redundancy.rules import RULES
-from ninedof.robot.configuration import arrays_of
-from ninedof.sheet.plain_values import poses_of
+from ninedof.robot.configuration import arrays_of, poses_of
 from ninedof.sheet.pose_words import pose_words
 from ninedof.support.arguments import vector
 from ninedof.support.arrays import Floats

@@ -110,8 +110,8 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     numbers = options.given(*(one.name for one in fields(options) if _is_of_criteria(one.name))).items()
     values = {plain_name(name): _radians(name, x) if name.endswith(DEG) else x for name, x in numbers}
     choice("--actuators", options.actuators, ACTUATORS)
-    asked = asked_criteria(chosen.result if options.study_limits else None, values, options.actuators)
-    if not asked.criteria:
+    limits = asked_criteria(chosen.result if options.study_limits else None, values, options.actuators)
+    if not limits.criteria:
         raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
     if options.method == "grid":
         options.refuse("with --method grid", "points", "seed")
@@ -121,7 +121,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     bounds = options.given("angle_deg", "tilt_deg", "torsion_deg")
     keywords: dict[str, Any] = {
         "archetype": options.archetype,
-        "criteria": asked.criteria,
+        "criteria": limits.criteria,
         "characteristic_length": length_at_home(chosen),
         "internal_point": _rule(options.internal_point, chosen, region, at, turns),
         "method": options.method,
@@ -133,7 +133,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
         keywords["region"] = {plain_name(name): _radians(name, value) for name, value in bounds.items()}
     proof = _proof(options, keywords["internal_point"])
     place = place_of(home, region, chosen.duty.tool, options.archetype)
-    return Question(keywords | place | _changed_place(options, place), asked, region, proof)
+    return Question(keywords | place | _changed_place(options, place), limits, region, proof)
 
 
 def _rule(text: str | None, chosen: Chosen, region: nd.Region | None, position: Any, turns: bool) -> Any:

@@ -13,7 +13,7 @@ from typing import Any
 from ninedof.design.duty import duty
 from ninedof.support.arguments import cleaned, finite, instance, items, number, path_argument, shown, text
 from ninedof.support.files import csv_table, finite_or_nan, read_text, require_entries
-from ninedof.support.structs import Table, entries, entry, within
+from ninedof.support.structs import StudyTable, entries, entry, within
 from ninedof.support.text import short_repr
 
 LEG_KINDS = ("external", "upper", "lower")
@@ -43,7 +43,7 @@ _greatest = partial(_above_zero, check=number)
 
 @short_repr
 @dataclass(frozen=True)
-class Actuator(Table):
+class Actuator(StudyTable):
     """A linear actuator that can be bought: a row of a catalogue.
 
     Parameters

@@ -16,7 +16,7 @@ from ninedof.robot.geometry import Geometry, triples
 from ninedof.statics.dynamics import GRAVITY, inertia_matrix
 from ninedof.support.arguments import Vector, finite, instance, items, shown, text, vector
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.structs import Table, entry, read
+from ninedof.support.structs import StudyTable, entry, read
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount, degrees_of, unit_argument
 
@@ -45,7 +45,7 @@ def _inertia(name: str, value: Any) -> Six:
 
 @short_repr
 @dataclass(frozen=True)
-class About(Table):
+class About(StudyTable):
     """The title block of a report.
 
     Parameters
@@ -68,7 +68,7 @@ class About(Table):
 
 @short_repr
 @dataclass(frozen=True)
-class Tool(Table):
+class Tool(StudyTable):
     """The frame in which the machine is used: its origin is the tool's point, p of every pose.
 
     Region, poses, paths, twists, loads, errors and the condition number belong to it. Limits of the design alone, such
@@ -152,7 +152,7 @@ class Tool(Table):
 
 @short_repr
 @dataclass(frozen=True)
-class Loads(Table):
+class Loads(StudyTable):
     """Loads on the platform, and gravity: by its direction, how the machine is mounted.
 
     Parameters
@@ -177,7 +177,7 @@ class Loads(Table):
 
 @short_repr
 @dataclass(frozen=True)
-class Masses(Table):
+class Masses(StudyTable):
     """Masses and inertias of the platform, of the two bodies of each leg, and of O.
 
     Parameters
@@ -228,7 +228,7 @@ class Masses(Table):
 
 @short_repr
 @dataclass(frozen=True)
-class Speeds(Table):
+class Speeds(StudyTable):
     """Greatest speeds and accelerations of the tool, in any direction.
 
     Parameters
@@ -259,7 +259,7 @@ class Speeds(Table):
 
 @short_repr
 @dataclass(frozen=True)
-class Tolerances(Table):
+class Tolerances(StudyTable):
     """Half widths of the errors of manufacture.
 
     Parameters
@@ -304,7 +304,7 @@ def tolerances_like(shape: Tolerances, size: float) -> Tolerances:
     return Tolerances(size * joints, size * legs)
 
 
-DUTIES: dict[str, type[Table]] = {
+DUTIES: dict[str, type[StudyTable]] = {
     "about": About,
     "tool": Tool,
     "loads": Loads,
@@ -315,6 +315,6 @@ DUTIES: dict[str, type[Table]] = {
 """The tables of a study file that say what the machine is for, by name."""
 
 
-def duty(kind: type[Table]) -> Callable[..., Any]:
+def duty(kind: type[StudyTable]) -> Callable[..., Any]:
     """Return the check of an argument that is such a table or a mapping of its entries, besides their defaults."""
     return lambda name, value, **defaults: value if isinstance(value, kind) else read(kind, value, name, **defaults)

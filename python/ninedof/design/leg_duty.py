@@ -13,14 +13,14 @@ from ninedof.design.objective import Objective
 from ninedof.design.poses import ZERO
 from ninedof.statics.dynamics import masses_for_core
 from ninedof.support.arguments import choice
-from ninedof.support.structs import Table, entry
+from ninedof.support.structs import StudyTable, entry
 
 INTERNAL = ("least", "held", "shifted", "carried")
 """The motion of O with the platform."""
 
 
 @dataclass(frozen=True)
-class LegDuty(Table):
+class LegDuty(StudyTable):
     """The duty of the legs of a machine, masses in the frame of geometries."""
 
     loads: Loads = entry(duty(Loads), Loads())

@@ -72,5 +72,5 @@ def with_scaled_limits(study: Study, factor: Callable[[str, str], float]) -> Stu
         scaled = replace(limit, low=limit.low * factor(limit.label, "min"), high=high)
         constraints.setdefault(limit.name, []).append(scaled)
     bounds = {name: getattr(study.objective, name) for name in CONDITION_LIMITS}
-    kept = {name: bound * factor(name, "max") for name, bound in bounds.items() if bound is not None}
-    return replace(study, constraints=constraints, objective=replace(study.objective, **kept))
+    bound_changes = {name: bound * factor(name, "max") for name, bound in bounds.items() if bound is not None}
+    return replace(study, constraints=constraints, objective=replace(study.objective, **bound_changes))

@@ -17,7 +17,7 @@ from ninedof.design.indices import objectives
 from ninedof.design.poses import Pose
 from ninedof.design.region import Region
 from ninedof.support.arguments import choice, finite, items, known_keys, number, text, whole
-from ninedof.support.structs import Table, entry, keys, within
+from ninedof.support.structs import StudyTable, entry, keys, within
 from ninedof.support.text import short_repr
 
 AGGREGATES = {
@@ -61,7 +61,7 @@ def _set(name: str, value: Any, shared: Mapping[str, Any]) -> tuple[Pose, ...]:
 
 @short_repr
 @dataclass(frozen=True)
-class Objective(Table):
+class Objective(StudyTable):
     """The number that an optimization minimizes. By default the condition number at the neutral pose.
 
     Parameters

@@ -15,7 +15,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.redundancy.rules import STUDY_RULES, where_o
 from ninedof.support.arguments import Vector, choice, finite, vector, vectors, whole
-from ninedof.support.structs import Check, Table, entry
+from ninedof.support.structs import Check, StudyTable, entry
 from ninedof.support.text import short_repr
 from ninedof.support.units import DEG, in_radians, scale
 
@@ -29,7 +29,7 @@ def _internal_point(name: str, value: Any) -> Vector | str:
 
 @short_repr
 @dataclass(frozen=True)
-class Pose(Table):
+class Pose(StudyTable):
     """A pose of the platform and of O, relative to the neutral pose of a design.
 
     Parameters

@@ -14,7 +14,7 @@ from ninedof.redundancy.rules import STUDY_RULES
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import Vector, choice, finite, instance, items, text, vector, vectors
 from ninedof.support.arrays import Floats
-from ninedof.support.structs import Table, entry
+from ninedof.support.structs import StudyTable, entry
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount, exact_degrees, half_turn, scale
 
@@ -35,7 +35,7 @@ def _corners(name: str, value: Any) -> tuple[Vector, ...]:
 
 @short_repr
 @dataclass(frozen=True)
-class Region(Table):
+class Region(StudyTable):
     """Every tilt and yaw at every position of a box, ball, cylinder or path: the poses a machine is built for.
 
     Limits hold and the index is the worst in all of it, not at listed poses. Q = exp(tilt) Rz(yaw) Q_neutral; the tilt

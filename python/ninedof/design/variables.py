@@ -15,12 +15,12 @@ from ninedof.support.arguments import finite, shown
 from ninedof.support.units import DEG, in_radians
 
 
-def angles_in_radians(study: Study, given: Mapping[str, Any], check: Callable[[str, Any], Any]) -> dict[str, Any]:
+def angles_in_radians(study: Study, changes: Mapping[str, Any], check: Callable[[str, Any], Any]) -> dict[str, Any]:
     """Return checked values of variables, numbers or pairs, with angles in radians under their own names.
 
     An angle without "_deg" of more than a turn was meant in degrees: it is refused.
     """
-    values = {name: check(name, value) for name, value in given.items()}
+    values = {name: check(name, value) for name, value in changes.items()}
     for name in study.angles:
         ends = values.get(name, 0.0)
         most = max(map(abs, ends if isinstance(ends, tuple) else (ends,)))
@@ -29,16 +29,16 @@ def angles_in_radians(study: Study, given: Mapping[str, Any], check: Callable[[s
     return in_radians(values, dict.fromkeys(study.angles, lambda _, value: value))
 
 
-def given_values(study: Study, own: Mapping[str, float], given: Mapping[str, Any], what: str) -> dict[str, float]:
+def given_values(study: Study, own: Mapping[str, float], changes: Mapping[str, Any], what: str) -> dict[str, float]:
     """Return values of variables that are given as numbers, or as texts such as "+10%" of those in `own`.
 
     `what` is the argument in the message of an unknown name.
     """
     names = [*study.variables, *([LENGTH] if LENGTH in own else [])]
-    for name in given:
+    for name in changes:
         if name not in [*names, *(f"{angle}{DEG}" for angle in study.angles)]:
             raise ValueError(f"{what}: got {shown(name)}, expected one of {', '.join(names)}")
-    return angles_in_radians(study, given, lambda name, value: _value(name, value, own))
+    return angles_in_radians(study, changes, lambda name, value: _value(name, value, own))
 
 
 def changed_variables(study: Study, own: Mapping[str, float], changes: Mapping[str, Any]) -> dict[str, float]:

@@ -16,7 +16,7 @@ from ninedof.export.model import Format, Model
 from ninedof.robot.plates import Plate, free_angles, plates_of, turn_words
 from ninedof.support.arrays import Floats
 from ninedof.support.extras import optional
-from ninedof.support.placing import Placing, around, rectangle, toward
+from ninedof.support.placing import LabelPlaces, around, rectangle, toward
 from ninedof.support.units import amount, with_unit
 
 INSUNITS = {"": 0, "in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6}
@@ -89,7 +89,7 @@ class _Drawing:
     def __init__(self, space: Any, origin: Floats, height: float, decimals: int, style: str) -> None:
         self.space, self.origin, self.height, self.decimals = space, origin, height, decimals
         self.styled: dict[str, Any] = {"dimstyle": style, "dxfattribs": {"layer": "DIMENSIONS"}}
-        self.places = Placing()
+        self.places = LabelPlaces()
 
     def plate(self, plate: Plate, model: Model) -> None:
         """Draw a plate with its dimensions, then names where they cover nothing."""

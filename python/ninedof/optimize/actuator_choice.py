@@ -11,7 +11,7 @@ from ninedof.design.actuators import LEG_KINDS, Actuator, price_words
 from ninedof.design.duty import duty
 from ninedof.design.study import Study
 from ninedof.support.arguments import items, number, text, whole
-from ninedof.support.structs import Table, entry
+from ninedof.support.structs import StudyTable, entry
 from ninedof.support.text import short_repr
 
 EACH = 3  # legs of a kind
@@ -23,7 +23,7 @@ def _texts(name: str, value: Any) -> tuple[str, ...]:
 
 @short_repr
 @dataclass(frozen=True)
-class Combination(Table):
+class Combination(StudyTable):
     """A row for each kind of legs, and the objective of the best design found with them."""
 
     external: Actuator = entry(duty(Actuator))
@@ -52,7 +52,7 @@ class Combination(Table):
 
 @short_repr
 @dataclass(frozen=True)
-class ActuatorChoice(Table):
+class ActuatorChoice(StudyTable):
     """The combination of rows that a result has, and the search that chose it."""
 
     chosen: Combination = entry(duty(Combination))

@@ -51,8 +51,8 @@ class ActuatorSearch:
     def result(self) -> Result:
         """Return the best design with its rows, that of an interrupted search, or why there is none."""
         try:
-            found = self._best_first() if all(self.rows) else []
-            result = self._chosen(found) if found else self._nothing_fits()
+            choices = self._best_first() if all(self.rows) else []
+            result = self._chosen(choices) if choices else self._nothing_fits()
         except SearchEnded as end:
             result = self._so_far(end.args[0])
         except KeyboardInterrupt:  # between two studies
@@ -63,7 +63,7 @@ class ActuatorSearch:
 
     def _best_first(self) -> list[Rows]:
         """Return the best combination and the next best; fewer where no others have a design."""
-        found: list[Rows] = []
+        choices: list[Rows] = []
         heap: list[tuple[float, float, list[int], Rows]] = []
 
         def push(value: float, rows: Rows) -> None:
@@ -76,7 +76,7 @@ class ActuatorSearch:
         push(self._value(root), nothing)
         if root.best is not None and self._is_within_price(guess := self._guess(root)):
             self._ask(guess)  # a design to begin with, should the search be interrupted
-        while heap and len(found) < 2:
+        while heap and len(choices) < 2:
             bound, *_, rows = heappop(heap)
             fixed = _fixed(rows)
             # The question about the last row alone is one that many combinations have in common.
@@ -84,13 +84,13 @@ class ActuatorSearch:
             if question is not None:
                 push(max(bound, self._value(self._ask(question), None not in question)), rows)
             elif None not in rows:
-                found.append(rows)
+                choices.append(rows)
             else:
                 for row in self.rows[g := len(fixed)]:
                     more = (*rows[:g], row, *rows[g + 1 :])
                     known = self.results.get(_only(more, [g]))
                     push(bound if known is None else max(bound, self._value(known)), more)
-        return found
+        return choices
 
     def _guess(self, root: Result) -> Rows:
         """Return the rows that are nearest to the best design of all."""
@@ -149,13 +149,13 @@ class ActuatorSearch:
         choice = ActuatorChoice(chosen, other, count, len(self.results), self.left_out, notes_of(self.study))
         return replace(result, actuators=choice, study=result.study.with_solver(self.study.starts))
 
-    def _chosen(self, found: Sequence[Rows]) -> Result:
-        rows, result = found[0], self.results[found[0]]
+    def _chosen(self, choices: Sequence[Rows]) -> Result:
+        rows, result = choices[0], self.results[choices[0]]
         names = ", ".join(row.name for row in rows if row)
         again = self._solved(result.study, result.candidates[:1], names, most_starts=self.study.starts)
         if self._value(again, complete=True) <= self._value(result, complete=True) * (1.0 + 1e-9):
             result = again
-        return self._with_choice(result, rows, found[1] if len(found) > 1 else None)
+        return self._with_choice(result, rows, choices[1] if len(choices) > 1 else None)
 
     def _so_far(self, ended: Result) -> Result:
         """Return the best complete combination that was solved before the end; none before the first."""

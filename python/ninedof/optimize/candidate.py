@@ -14,9 +14,8 @@ from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.sheet.plain_values import plain_fields
 from ninedof.support.arrays import Floats
-from ninedof.support.structs import Fixed, entries_of, from_core
+from ninedof.support.structs import Fixed, entries_of, from_core, plain_fields
 from ninedof.support.text import short_repr
 
 ROBOT = ("geometry", "configuration", "configurations")  # those of a candidate

@@ -21,7 +21,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.sheet.rows import limit_rows
 from ninedof.support.arguments import finite, flag, known_keys, table, text
 from ninedof.support.running import Progress, phase, progress_argument
-from ninedof.support.structs import Fixed, Table, entry
+from ninedof.support.structs import Fixed, StudyTable, entry
 from ninedof.support.text import short_repr
 
 PROOFS = 12  # about as many are needed for the largest tolerances
@@ -107,7 +107,7 @@ def _shares(name: str, value: Any) -> Mapping[str, float]:
 
 @short_repr
 @dataclass(frozen=True)
-class Reserve(Table):
+class Reserve(StudyTable):
     """The share of each limit that the search kept, in the place of all of it."""
 
     shares: Mapping[str, float] = entry(_shares, Fixed())
@@ -120,15 +120,17 @@ class Reserve(Table):
     def study(self, study: Study) -> Study:
         """Return the study that was solved: with limits that leave the reserve, and without tolerances."""
         labels = {"neutral_condition_limit": NEUTRAL_LIMIT}
-        kept = with_scaled_limits(study, lambda label, side: self.shares.get(f"{labels.get(label, label)} {side}", 1.0))
-        return replace(kept, tolerances=Tolerances())
+        tighter = with_scaled_limits(
+            study, lambda label, side: self.shares.get(f"{labels.get(label, label)} {side}", 1.0)
+        )
+        return replace(tighter, tolerances=Tolerances())
 
     @property
     def words(self) -> list[str]:
         """The reserve in sentences."""
         parts = [f"{name.replace('_', ' ')} {100.0 * abs(1.0 - share):.2g} %" for name, share in self.shares.items()]
-        kept = "verdict, prices and what is left to gain are with it; a smaller one may do"
-        out = [f"reserve for the tolerances: {', '.join(parts)}; {kept}"] if parts else []
+        others = "verdict, prices and what is left to gain are with it; a smaller one may do"
+        out = [f"reserve for the tolerances: {', '.join(parts)}; {others}"] if parts else []
         note = "proved of every machine within the tolerances" if self.proved else self.note
         return [*out, note] if note else out
 

@@ -25,11 +25,10 @@ from ninedof.proof.machine_file import machine_file
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.robot.configuration import Configuration
-from ninedof.sheet.plain_values import plain_fields
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arguments import instance, path_argument
 from ninedof.support.files import write_whole
-from ninedof.support.structs import entries_of, within
+from ninedof.support.structs import entries_of, plain_fields, within
 from ninedof.tables.html import notebook
 
 T = TypeVar("T")

@@ -42,7 +42,7 @@ PRINTED = {  # the names of the rows, and what the paper prints
 
 
 @dataclass(frozen=True)
-class Row:
+class PaperRow:
     """One design of the comparison."""
 
     title: str
@@ -64,17 +64,17 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class PaperComparison:
     """The published optimum beside ours, all lengths in units of l_c."""
 
-    reproduced: Row
+    reproduced: PaperRow
     """Base side 5.8124, platform side half of it, zs where k = 3.9110."""
     crossings: tuple[float, float]
     """Both such zs."""
-    best_zs: Row
+    best_zs: PaperRow
     """The same plates and height at the best zs."""
-    same_base_and_height: Row
-    same_class: Row | None
+    same_base_and_height: PaperRow
+    same_class: PaperRow | None
     """Base at most twice the platform: the answer to the paper's problem."""
     as_printed: float
     """The least condition number eq. (39) allows if a is the base, as eqs. (37)-(38) have it."""
@@ -83,7 +83,7 @@ class Comparison:
     why: str
     """Why the published point is not a minimum."""
 
-    def rows(self) -> tuple[Row, ...]:
+    def rows(self) -> tuple[PaperRow, ...]:
         """Return the designs that there are, from the published to the best."""
         published = (self.reproduced, self.best_zs, self.same_base_and_height)
         return published if self.same_class is None else (*published, self.same_class)
@@ -106,7 +106,7 @@ def compare(
     threads: int | None = None,
     progress: Progress | None = None,
     **others: Any,
-) -> Comparison:
+) -> PaperComparison:
     """Solve the paper's design problem and put the answers beside the published one.
 
     Parameters as in `optimize`; all but `threads` are those of the largest of the studies.
@@ -115,7 +115,7 @@ def compare(
     printed, same = (best_of(solved(name, threads)) for name in ("as printed", "same base and height"))
     result = optimize(Study.paper(), starts=starts, seed=seed, threads=threads, progress=progress, **others)
     best = result.best
-    return Comparison(
+    return PaperComparison(
         reproduced=_published_row("published, read so that it gives 3.9110", below),
         crossings=(below, above),
         best_zs=_published_row("the same at the best zs", best_zs),
@@ -127,17 +127,17 @@ def compare(
     )
 
 
-def _published_row(title: str, zs: float) -> Row:
+def _published_row(title: str, zs: float) -> PaperRow:
     return _row(title, published_variables(zs) | {"theta_z": 0.0}, ("a1", "b2", LIMIT.label))
 
 
-def _row(title: str, variables: Mapping[str, float], active: tuple[str, ...]) -> Row:
+def _row(title: str, variables: Mapping[str, float], active: tuple[str, ...]) -> PaperRow:
     point = Study.paper().evaluate(variables)
     g, c = point.geometry, point.configuration
     kappa = float(condition_number(g, c))
     legs = dict(zip("lqr", leg_lengths(g, c)[[0, 3, 6]].tolist(), strict=True))
     ratio = LIMIT.high * (1.0 - point.margins[LIMIT.label])
-    return Row(title, dict(variables), kappa, legs, ratio, 100.0 * (1.0 - kappa / KAPPA), active, g, c)
+    return PaperRow(title, dict(variables), kappa, legs, ratio, 100.0 * (1.0 - kappa / KAPPA), active, g, c)
 
 
 def _why(best_zs: float, same: Candidate) -> str:
@@ -183,7 +183,7 @@ def _short(value: float) -> str:
     return "0" if value == 0.0 else f"{value:.4f}"
 
 
-def comparison_words(c: Comparison) -> str:
+def comparison_words(c: PaperComparison) -> str:
     """Return the remarks below the table."""
     below, above = c.crossings
     return (

@@ -16,7 +16,7 @@ from ninedof.robot.configuration import Configuration, require_single
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.plates import Plate, free_angles, outlines, plates_of, turn_words
 from ninedof.support.arrays import Floats
-from ninedof.support.placing import Placing, around, rectangle, toward
+from ninedof.support.placing import LabelPlaces, around, rectangle, toward
 from ninedof.support.units import amount
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ class _Panel:
         low, high = middle - spans, middle + spans
         self.axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
         self.axes.set_axis_off()
-        self.places = Placing()
+        self.places = LabelPlaces()
         corners = rectangle(middle, *(2.0 * spans))
         self.places.words += [np.array(side) for side in pairwise([*corners, corners[0]])]  # stay inside
 

@@ -72,7 +72,7 @@ class Section:
     """The same plane of a map, to draw its boundary over what is certified."""
 
 
-def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure | None = None) -> Figure:
+def workspace(space: WorkspaceMap, sections: Sequence[Section], figure: Figure | None = None) -> Figure:
     """Return a figure of a workspace: sections above, what ends it and the spread of the condition number below.
 
     Colours are bands between contours at round values, the same in all sections. Where the condition number goes on
@@ -80,7 +80,7 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure |
 
     Parameters
     ----------
-    found : WorkspaceMap
+    space : WorkspaceMap
     sections : sequence of Section
         One to three, of its slices.
     figure : matplotlib.figure.Figure, optional
@@ -95,18 +95,18 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure |
     --------
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
-    >>> found = nd.workspace(g, ([-4, -4, 0], [4, 4, 8]), criteria={"leg_limits": (2.5, 6.5)})
-    >>> figure = nd.plot.workspace(found, [nd.plot.Section(found.slice("z", 5.4, smooth=True))])
+    >>> space = nd.workspace(g, ([-4, -4, 0], [4, 4, 8]), criteria={"leg_limits": (2.5, 6.5)})
+    >>> figure = nd.plot.workspace(space, [nd.plot.Section(space.slice("z", 5.4, smooth=True))])
 
     """
     style.counted("sections", sections, MOST_SECTIONS)
-    kinds = [kind_of(name) for name in found.limit_names]
+    kinds = [kind_of(name) for name in space.limit_names]
     upper = 3.37 if len(sections) < MOST_SECTIONS else 2.75  # inches
     with style.page(figure, style.TWO_COLUMNS, upper + LOWER, layout=_layout()) as figure:
         parts: Any = figure.subfigures(2, 1, height_ratios=[upper, LOWER])
         above, below = parts
-        bands, most = _bands(found.percentiles, sections)
-        turn, unit = (np.degrees, "deg") if found.of_angles else (np.asarray, found.unit)
+        bands, most = _bands(space.percentiles, sections)
+        turn, unit = (np.degrees, "deg") if space.of_angles else (np.asarray, space.unit)
         filled: Any = None
         ends: set[str] = set()
         panels = above.subplots(1, len(sections), squeeze=False)[0]
@@ -131,8 +131,8 @@ def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure |
         keys = [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in looks]
         _legend(figure, keys, sections, style.INK, 4)
         left, right = below.subplots(1, 2)
-        _shares(left, found.limits())
-        _distribution(right, found.percentiles)
+        _shares(left, space.limits())
+        _distribution(right, space.percentiles)
     return figure
 
 

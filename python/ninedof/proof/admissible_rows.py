@@ -84,13 +84,13 @@ def admissible_actuators(
     end = perf_counter() + (LONGEST if time_limit is None else finite("time_limit", time_limit, 0.0))
     progress = progress_argument(progress)
     kinds = {"all": LEG_KINDS} if study.actuators_for == "all" else {kind: (kind,) for kind in LEG_KINDS}
-    asked = [(kind, row) for kind in kinds for row in study.actuators]
+    rows = [(kind, row) for kind in kinds for row in study.actuators]
     out, interrupted = [], False
-    for n, (kind, row) in enumerate(asked):
+    for n, (kind, row) in enumerate(rows):
         question = design_range(study.with_actuators(dict.fromkeys(kinds[kind], row)), vary, at)
-        seconds = 0.0 if interrupted else max(end - perf_counter(), 0.0) / (len(asked) - n)
+        seconds = 0.0 if interrupted else max(end - perf_counter(), 0.0) / (len(rows) - n)
         words = part_of(progress, f"{row.name} for {kind} legs")
-        found = existence(question, seconds=seconds, resolution=resolution, threads=threads, progress=words)
-        out.append(AdmissibleRow(kind, row, found.state, found.design))
-        interrupted = interrupted or found.interrupted
+        answer = existence(question, seconds=seconds, resolution=resolution, threads=threads, progress=words)
+        out.append(AdmissibleRow(kind, row, answer.state, answer.design))
+        interrupted = interrupted or answer.interrupted
     return AdmissibleRows(tuple(out), interrupted)

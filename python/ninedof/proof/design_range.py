@@ -122,8 +122,8 @@ class DesignRange:
     @property
     def digest(self) -> str:
         """Digest of the question: another run goes on with the same question only."""
-        asked = (METHOD, self.study.to_dict(), self.vary, self.ranges, sorted(self.at.items()), self.condition_number)
-        return sha256(repr(asked).encode()).hexdigest()
+        parts = (METHOD, self.study.to_dict(), self.vary, self.ranges, sorted(self.at.items()), self.condition_number)
+        return sha256(repr(parts).encode()).hexdigest()
 
     @property
     def words(self) -> str:
@@ -146,11 +146,11 @@ def design_range(
     study, values = _asked(of, at)
     expected = f"names of one to {most} variables"
     pairs = vary.items() if isinstance(vary, Mapping) else [(name, None) for name in items("vary", vary, expected)]
-    given = {text("vary", name): ends for name, ends in pairs}
-    if not 1 <= len(given) <= most:
+    varied = {text("vary", name): ends for name, ends in pairs}
+    if not 1 <= len(varied) <= most:
         raise ValueError(f"vary: got {shown(vary)}, expected {expected}")
-    ends = angles_in_radians(study, {name: two for name, two in given.items() if two is not None}, _ends)
-    names = tuple(dict.fromkeys(map(plain_name, given)))
+    ends = angles_in_radians(study, {name: two for name, two in varied.items() if two is not None}, _ends)
+    names = tuple(dict.fromkeys(map(plain_name, varied)))
     ranges = tuple(_range(study, name, ends.get(name)) for name in names)
     known, moved = set(values), list[str]()
     for name, (low, high) in zip(names, ranges, strict=True):

@@ -26,8 +26,8 @@ def machine_file(
             )
     bound = certificate.condition[1]
     alone = replace(study, characteristic_length=float(characteristic_length))
-    asked = DesignRange(alone, (), (), variables, bound if math.isfinite(bound) else None)
-    return _core.machine_certificate(asked.for_core(), slack=certificate.slack)
+    question = DesignRange(alone, (), (), variables, bound if math.isfinite(bound) else None)
+    return _core.machine_certificate(question.for_core(), slack=certificate.slack)
 
 
 def require_replayable(study: Study, tolerances: Tolerances) -> None:

@@ -8,10 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ninedof.sheet.plain_values import plain_fields
 from ninedof.support.arguments import finite, path_argument
 from ninedof.support.files import write_whole
-from ninedof.support.structs import entries_of
+from ninedof.support.structs import entries_of, plain_fields
 from ninedof.support.text import short_repr
 from ninedof.tables.html import notebook
 

@@ -23,7 +23,7 @@ from ninedof.optimize.optimize import trace
 from ninedof.optimize.region_map import region_map
 from ninedof.optimize.result import Result
 from ninedof.paper import published
-from ninedof.paper.comparison import Comparison
+from ninedof.paper.comparison import PaperComparison
 from ninedof.plot import DesignCurves
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -43,7 +43,9 @@ HALVINGS = 24  # of a step of it, to the edge of a limit
 FEWEST_TRACED = 10  # however many poses each run evaluates
 
 
-def figures_of(run: Result | Comparison, say: Say, convergence: bool = False) -> Callable[[Path], list[Path]] | None:
+def figures_of(
+    run: Result | PaperComparison, say: Say, convergence: bool = False
+) -> Callable[[Path], list[Path]] | None:
     """Return a function that draws the figures into a folder; None for an interrupted run or one without an optimum.
 
     The convergence follows hundreds of starts to their ends, which takes longer than the optimization: drawn if asked.

@@ -48,7 +48,7 @@ def legs_csv(motion: Followed) -> bytes:
     return _csv(columns)
 
 
-def plain(motion: Followed, limits: PathLimits | None) -> dict[str, Any]:
+def motion_values(motion: Followed, limits: PathLimits | None) -> dict[str, Any]:
     """Return a motion with the limits of a study as plain values; angles in degrees, as "worst_deg"."""
     out = motion.to_dict()
     if limits is None:

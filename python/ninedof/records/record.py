@@ -20,7 +20,7 @@ from typing import Any
 from ninedof.design.study import Study
 from ninedof.motion import Followed
 from ninedof.optimize.result import Result, result_from
-from ninedof.paper.comparison import Comparison
+from ninedof.paper.comparison import PaperComparison
 from ninedof.pareto import Front
 from ninedof.pareto.limits import with_limit, without_degrees
 from ninedof.proof.optimum_proof import FILE as CERTIFICATE
@@ -77,7 +77,7 @@ def _of_now() -> Path:
 FORMAT = "ninedof-record-4"
 FILE = "record.json"
 
-Run = Result | Comparison | Front | WorkspaceMap | SweepResult | Followed
+Run = Result | PaperComparison | Front | WorkspaceMap | SweepResult | Followed
 Draw = Callable[[Path], Sequence[Path]]
 """Called with the directory after the record was written; draws figures there and returns their paths."""
 
@@ -132,7 +132,7 @@ def write_run(
     says of a sweep, an atlas or a motion, whose arrays lie beside it; `limits` those of a study along a motion.
     """
     folder = Path(directory)
-    result = run.result if isinstance(run, Comparison) else run
+    result = run.result if isinstance(run, PaperComparison) else run
     if getattr(result, "interrupted", False) and (folder / FILE).is_file():
         if draw is not None:
             draw(folder)
@@ -160,7 +160,7 @@ def write_drawn(record: Record, folder: Path, draw: Draw | None) -> Path:
 def _record_of(run: Run, question: Mapping[str, Any], results: Mapping[str, Any]) -> Record:
     if isinstance(run, Result):
         return Record("optimization", run.study, {"optimization": run.to_dict()})
-    if isinstance(run, Comparison):
+    if isinstance(run, PaperComparison):
         return Record("comparison", run.result.study, run.to_dict())
     if isinstance(run, Front):
         front = {**run.to_dict(), "results": [result.to_dict() for result in run.results]}

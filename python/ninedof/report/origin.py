@@ -64,11 +64,11 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
 
 def of_question(question: Mapping[str, Any], record: Any) -> Html:
     """Return what was asked of a run without a study."""
-    asked = paragraphs(["" if record.command else "The record does not hold what was asked."])
+    text = paragraphs(["" if record.command else "The record does not hold what was asked."])
     if question:
         words = paragraphs(["Everything that was asked, as the record of the run has it:"])
-        asked = joined(words, listing(_flat(encode(question))))
-    return joined(_made_by(record), asked, _versions(record, []))
+        text = joined(words, listing(_flat(encode(question))))
+    return joined(_made_by(record), text, _versions(record, []))
 
 
 def _with_few_poses(text: str) -> str:

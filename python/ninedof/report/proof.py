@@ -28,8 +28,8 @@ STATUS = {
 def of_result(result: Result, certificate: MachineCertificate | None) -> Html:
     """Return what is established of an optimization and what is not; `certificate`: what `ninedof certify` proved."""
     proofs = [*(certificate.sentences() if certificate else ()), *_checked(result)]
-    kept = result.reserve is not None and result.reserve.proved  # of every machine within the tolerances
-    between = not kept and (certificate is None or not certificate.proved)
+    as_built = result.reserve is not None and result.reserve.proved  # of every machine within the tolerances
+    between = not as_built and (certificate is None or not certificate.proved)
     return _two(proofs, list(_searched(result, between)), STATUS[result.status], result.status)
 
 
@@ -37,8 +37,8 @@ def of_front(front: Front) -> Html:
     """Return the same of a front: each of its points is an optimization."""
     counts = {status: sum(r.status == status for r in front.results) for status in Status}
     proofs = [f"{count} of {len(front)} limits: {s}, {STATUS[s]}." for s, count in counts.items() if count]
-    kept = sum(r.reserve is not None and r.reserve.proved for r in front.results)
-    proofs += [f"{kept} of {len(front)} limits: proved of every machine within the tolerances."] * bool(kept)
+    proved = sum(r.reserve is not None and r.reserve.proved for r in front.results)
+    proofs += [f"{proved} of {len(front)} limits: proved of every machine within the tolerances."] * bool(proved)
     searched = [
         "Each point is a local optimum, the best that its starts and those from neighbouring limits found. That none "
         "is better is not proved.",

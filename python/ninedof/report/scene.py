@@ -68,18 +68,18 @@ def _pose(words: str, g: Geometry, c: Configuration, length: float) -> dict[str,
 
 def worst_poses(sheet: Sheet) -> list[tuple[str, Configuration]]:
     """Return the neutral pose and the worst poses of a sheet, each with all that is worst there."""
-    said: dict[int, list[str]] = {0: []}
-    said.setdefault(sheet.condition_number.pose, []).append("worst condition number")
-    said.setdefault(sheet.clearance.pose, []).append(f"least clearance, {' and '.join(sheet.clearance.legs)}")
+    names: dict[int, list[str]] = {0: []}
+    names.setdefault(sheet.condition_number.pose, []).append("worst condition number")
+    names.setdefault(sheet.clearance.pose, []).append(f"least clearance, {' and '.join(sheet.clearance.legs)}")
     if len(sheet.configurations) > 1:
         lengths = leg_lengths(sheet.geometry, sheet.configurations)
         most = max(range(9), key=lambda k: sheet.legs[k].stroke_ratio)
         for words, pick in (("shortest", np.argmin), ("longest", np.argmax)):
-            said.setdefault(int(pick(lengths[:, most])), []).append(f"{sheet.legs[most].name} {words}")
+            names.setdefault(int(pick(lengths[:, most])), []).append(f"{sheet.legs[most].name} {words}")
     for name, det in sheet.determinants.items():
-        said.setdefault(det.pose, []).append(f"least |det {name[-1].upper()}|")
-    neutral = ["neutral pose", *(said.pop(0) if len(sheet.configurations) > 1 else [])]
-    rows = [(0, neutral), *said.items()]
+        names.setdefault(det.pose, []).append(f"least |det {name[-1].upper()}|")
+    neutral = ["neutral pose", *(names.pop(0) if len(sheet.configurations) > 1 else [])]
+    rows = [(0, neutral), *names.items()]
     return [(", ".join(words), sheet.configurations[k]) for k, words in rows]
 
 
@@ -151,15 +151,15 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
             most_evaluations=EVALUATIONS,
             progress=stop,
         )
-        found = whole = search(**keywords)
-        if found.volume > 0.0 and (tight := _box_of(found)) is not None:
+        positions = whole = search(**keywords)
+        if positions.volume > 0.0 and (tight := _box_of(positions)) is not None:
             with suppress(TimeoutError):  # the first one serves
-                found = search(**keywords | {"box": tight})
+                positions = search(**keywords | {"box": tight})
     except TimeoutError:
         return None, f"The workspace takes longer than a report may: {how}."
     except ValueError as error:  # such as limits that leave a leg no length
         return None, f"The workspace is not shown: {error}."
-    body = body_of(found)
+    body = body_of(positions)
     if body is None:
         return None, f"No position was found that keeps all limits, at a coarse look: {how}."
     rule = keywords["internal_point"]

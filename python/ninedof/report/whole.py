@@ -73,11 +73,11 @@ def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCer
 
 
 def _text(page_: Page, record: Record, folder: Path | None, name: str, run: Any) -> str:
-    asked = record.question
-    if isinstance(asked, Study):
-        study = asked
+    question = record.question
+    if isinstance(question, Study):
+        study = question
     else:  # title block, tool and unit, as far as it states them
-        study = Study(**{name: asked[name] for name in ("about", "tool", "unit") if name in asked})
+        study = Study(**{name: question[name] for name in ("about", "tool", "unit") if name in question})
     with TemporaryDirectory() as spare:
         have = {} if folder is None else dict.fromkeys(stems(folder), folder)
         have = _drawn(page_, run, study, have, Path(spare)) | have

@@ -12,6 +12,7 @@ from ninedof import _core
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_leading, frozen
+from ninedof.support.structs import rows_of
 
 
 class Flat(NamedTuple):
@@ -183,6 +184,11 @@ def _flat(position: Floats, rotation: Floats, internal_point: Floats) -> Flat:
 def arrays_of(configuration: Configuration) -> dict[str, Floats]:
     """Return the arrays of a configuration by name."""
     return {name: getattr(configuration, name) for name in Flat._fields}
+
+
+def poses_of(configuration: Configuration) -> list[dict[str, Any]]:
+    """Return a stack of poses, one after the other."""
+    return rows_of(arrays_of(configuration))
 
 
 def broadcast_flat(

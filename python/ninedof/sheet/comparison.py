@@ -11,17 +11,17 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ninedof.design.study import LENGTH
-from ninedof.sheet.plain_values import plain as plain_values
 from ninedof.sheet.rows import LimitRow, limit_amount
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.sheet.tables import over, pose_of
 from ninedof.support.arguments import shown
 from ninedof.support.margins import margin_words
+from ninedof.support.structs import plain
 from ninedof.support.units import amount, metres, unit_entry
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table
 from ninedof.tables.html import notebook
 from ninedof.tables.numbers import ROUNDING, WORDS
-from ninedof.tables.table import plain
+from ninedof.tables.table import plain_text
 
 MOST = 3  # designs: more do not fit on 80 columns
 NAMES = ("A", "B", "C")
@@ -99,15 +99,15 @@ class Comparison:
         return {
             **unit_entry(self.unit),
             "names": list(self.names),
-            "numbers": plain_values(self.numbers),
+            "numbers": plain(self.numbers),
             "limits": limits,
-            "differences": plain_values(self.differences),
+            "differences": plain(self.differences),
             "outside": list(self.outside),
         }
 
     def __str__(self) -> str:
         """Show all tables as text."""
-        return "\n".join(map(plain, self.parts()))
+        return "\n".join(map(plain_text, self.parts()))
 
     def __repr__(self) -> str:
         """Show the worst condition number of each."""

@@ -17,10 +17,10 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.robot.idle import idle_legs
-from ninedof.sheet.plain_values import rows_of
 from ninedof.singularity.singularity import mechanisms_of
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import is_violated
+from ninedof.support.structs import rows_of
 from ninedof.support.units import amount, kind_unit
 from ninedof.tables.numbers import load_text, short
 

@@ -17,7 +17,6 @@ from ninedof.design.region_poses import o_is_placed, posed
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.sheet.plain_values import plain_fields, rows_of
 from ninedof.sheet.pose_words import turn_deg
 from ninedof.sheet.region_look import SAMPLES, Looked, RegionSearch, look_over, robot_of
 from ninedof.sheet.request import (
@@ -39,10 +38,10 @@ from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import masses_for_core
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats, all_finite, one_or_each
-from ninedof.support.structs import options_of
+from ninedof.support.structs import options_of, plain_fields, rows_of
 from ninedof.support.units import per, unit_argument, with_unit
 from ninedof.tables.html import notebook
-from ninedof.tables.table import plain
+from ninedof.tables.table import plain_text
 
 
 class Extreme(NamedTuple):
@@ -169,7 +168,7 @@ class Sheet:
     def summary(self) -> str:
         """Return the sheet as lines of text, without joints and forces; angles in degrees."""
         parts = (*summary_parts(self), worst_table(self), *([limits_table(self)] if self.limits else []))
-        return "\n".join(map(plain, parts))
+        return "\n".join(map(plain_text, parts))
 
     def __repr__(self) -> str:
         """Show the count of poses and the worst condition number."""

@@ -66,12 +66,12 @@ def text(name: str, value: Any) -> str:
     return value
 
 
-def known_keys(where: str, given: Any, known: Iterable[str]) -> None:
+def known_keys(where: str, entries: Any, known: Iterable[str]) -> None:
     """Raise unless `given` is a mapping with known keys only."""
     names = list(known)
-    if not isinstance(given, Mapping):
-        raise ValueError(f"{where}: got {shown(given)}, expected a mapping of names")
-    for key in given:
+    if not isinstance(entries, Mapping):
+        raise ValueError(f"{where}: got {shown(entries)}, expected a mapping of names")
+    for key in entries:
         if key not in names:
             hint = did_you_mean(key, names)
             raise ValueError(f"{where}: got the entry {shown(key)}, expected only {', '.join(names)}{hint}")

@@ -42,7 +42,7 @@ def meet(one: Floats, other: Floats) -> bool:
     return True
 
 
-class Placing:
+class LabelPlaces:
     """The words and lines that a drawing has so far."""
 
     def __init__(self) -> None:

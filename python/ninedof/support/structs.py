@@ -7,6 +7,7 @@ import types
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import MISSING, Field, field, fields, is_dataclass
+from enum import StrEnum
 from typing import Any, NoReturn, Self, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from ninedof.support.arguments import LARGEST, flag, items, known_keys, number, shown_key, table, text, whole
@@ -113,7 +114,7 @@ def entry(check: Check, default: Any = MISSING, angle: bool = False) -> Any:
     return field(default=default, metadata=metadata)
 
 
-class Table:
+class StudyTable:
     """Base of the tables: each entry has a check, a default and, for an angle, a name in degrees too.
 
     The class is the schema: its docstring has the sentence of each entry, from which docs/study-file.md has its tables.
@@ -168,11 +169,35 @@ def keys(kind: type) -> list[str]:
     return [name for one in entries(kind) for name in (one.name, one.name + DEG)[: 1 + one.metadata["angle"]]]
 
 
+OPTIONAL = ("unit", "tool", "masses")
+"""Fields that are left out where a result has none."""
+
+
+def plain_fields(result: Any, *skipped: str) -> dict[str, Any]:
+    """Return the fields of a dataclass as plain values, but for some, and for those that follow from others."""
+    names = [one.name for one in fields(result) if one.name not in skipped and not one.metadata.get("derived")]
+    values = {name: getattr(result, name) for name in names}
+    return {name: plain(value) for name, value in values.items() if name not in OPTIONAL or value}
+
+
 def plain(value: Any) -> Any:
-    """Return a value as a file has it: tables as mappings, tuples as lists."""
-    if isinstance(value, Table):
+    """Return a value with its parts: those with names as mappings, other tuples as lists, arrays as they are."""
+    if hasattr(value, "to_dict"):
         return value.to_dict()
+    if hasattr(value, "_asdict"):
+        value = value._asdict()
+    if is_dataclass(value):
+        return plain_fields(value)
+    if isinstance(value, StrEnum):
+        return str(value)
+    if isinstance(value, dict):
+        return {key: plain(one) for key, one in value.items()}
     return [plain(one) for one in value] if isinstance(value, tuple) else value
+
+
+def rows_of(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return the rows of a table of columns."""
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
 @contextmanager

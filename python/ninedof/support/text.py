@@ -53,15 +53,15 @@ def _call(thing: Any) -> str:
 def _fields(thing: Any) -> list[tuple[str, Any]]:
     if not is_dataclass(thing):
         return [(name, getattr(thing, name)) for name in thing._fields]
-    found = []
+    pairs = []
     for one in fields(thing):
         value = getattr(thing, one.name)
         default = one.default_factory() if one.default_factory is not MISSING else one.default
         plain = isinstance(value, PLAIN) and not isinstance(value, Enum)
         same = value is default or (plain and type(default) is type(value) and default == value)
         if one.repr and not same:
-            found.append((one.name, value))
-    return found
+            pairs.append((one.name, value))
+    return pairs
 
 
 def _array(values: NDArray[Any]) -> str:
@@ -118,14 +118,14 @@ def one_line(text: str) -> str:
 NON_FINITE = ("inf", "-inf", "nan")
 
 
-def plain(value: Any) -> Any:
+def json_values(value: Any) -> Any:
     """Return plain JSON values: arrays and tuples become lists, non-finite numbers words."""
     if isinstance(value, Mapping):
-        return {str(key): plain(v) for key, v in value.items()}
+        return {str(key): json_values(v) for key, v in value.items()}
     if isinstance(value, list | tuple):
-        return [plain(v) for v in value]
+        return [json_values(v) for v in value]
     if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist())
+        return json_values(value.tolist())
     if isinstance(value, float) and not math.isfinite(value):
         return repr(float(value))
     return value
@@ -133,7 +133,7 @@ def plain(value: Any) -> Any:
 
 def encode(value: Any, *, indent: int | None = 2, sort_keys: bool = False) -> str:
     """Return JSON text of a value."""
-    return json.dumps(plain(value), indent=indent, sort_keys=sort_keys, allow_nan=False)
+    return json.dumps(json_values(value), indent=indent, sort_keys=sort_keys, allow_nan=False)
 
 
 def decode(text: str) -> Any:

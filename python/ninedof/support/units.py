@@ -100,15 +100,15 @@ def exact_degrees(*radians: float) -> tuple[float, ...] | None:
     return degrees if same else None
 
 
-def in_radians(given: Mapping[str, Any], checks: Mapping[str, Callable[[str, Any], Any]]) -> dict[str, Any]:
+def in_radians(entries: Mapping[str, Any], checks: Mapping[str, Callable[[str, Any], Any]]) -> dict[str, Any]:
     """Return a mapping with the entries `angle`_deg in radians, under their own names; ValueError if both are given.
 
     `checks` has for each angle by name the check of its value: numbers in any nesting of tuples.
     """
-    out = dict(given)
+    out = dict(entries)
     for name, check in checks.items():
-        if (key := name + DEG) in given:
-            if name in given:
+        if (key := name + DEG) in entries:
+            if name in entries:
                 raise ValueError(f"{name}: got both {name} and {key}, expected one of the two")
             out[name] = _radians(check(key, out.pop(key)))
     return out

@@ -16,7 +16,7 @@ from ninedof.support.chunks import MOST_CHUNK, chunk_argument, computed
 from ninedof.support.extras import versions
 from ninedof.support.files import Arrays
 from ninedof.support.running import Progress
-from ninedof.support.text import plain
+from ninedof.support.text import json_values
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.survey import (
     BOUNDS,
@@ -147,7 +147,7 @@ def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
         },
         coords={RADIUS_RATIO: ratio_edges(), "condition_number": condition_edges(), "variable": np.array(HEXAGONAL)},
         units=dict.fromkeys(("histogram", "best", "number", RADIUS_RATIO, "condition_number"), "1") | {"design": "l_c"},
-        attributes=plain({**work.question(), **versions()}),
+        attributes=json_values({**work.question(), **versions()}),
     )
 
 

@@ -19,7 +19,7 @@ from ninedof.support.extras import versions
 from ninedof.support.files import Arrays, naming, part_name
 from ninedof.support.running import Progress
 from ninedof.support.store import Store
-from ninedof.support.text import plain
+from ninedof.support.text import json_values
 from ninedof.support.units import DEG, unit_entry
 from ninedof.sweep.axis import Grid
 from ninedof.sweep.result import SweepResult
@@ -120,7 +120,7 @@ class GridWork:
             dims={i.name: (*swept, i.dimension) if i.dimension else swept for i in self.indices},
             coords={axis.name: axis.values() for axis in self.grid.axes} | labels,
             units={name: (unit or "length") if of == "length" else of for name, of in labelled.items()},
-            attributes=plain(
+            attributes=json_values(
                 {**unit_entry(unit), **self._arguments(), "index": [i.name for i in self.indices], **versions()}
             ),
         )

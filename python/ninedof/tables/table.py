@@ -93,10 +93,10 @@ def grouped(rows: Iterable[Sequence[Any]], count: int = 3) -> Iterator[Sequence[
         yield row
 
 
-def plain(part: Part) -> str:
+def plain_text(part: Part) -> str:
     """Return a part as lines of plain text."""
     if isinstance(part, tuple):
-        return "\n".join(map(plain, part))
+        return "\n".join(map(plain_text, part))
     if not isinstance(part, Table):
         return part
     rows = [row for group in part.texts() for row in group]

@@ -96,9 +96,9 @@ class DesignPicture:
         return [self.found.vary[k] in self.found.study.angles for k in pair]
 
 
-def designs_of(machine: Machine, design: Any, found: AdmissibleSet | None) -> AdmissibleSet | None:
+def designs_of(machine: Machine, design: Any, designs: AdmissibleSet | None) -> AdmissibleSet | None:
     """Return the set to show beside a machine, which is of its study: the one given, or that of the run of a path."""
-    if found is None:
+    if designs is None:
         if machine.result is None or not isinstance(design, str | os.PathLike):
             return None
         try:
@@ -106,12 +106,12 @@ def designs_of(machine: Machine, design: Any, found: AdmissibleSet | None) -> Ad
         except ValueError as error:  # a damaged file: the machine is shown without it
             logging.getLogger("ninedof").warning("%s", error)
             return None
-    study = instance("designs", found, AdmissibleSet).study
+    study = instance("designs", designs, AdmissibleSet).study
     if machine.result is None or _asked(study) != _asked(machine.result.study):
         raise ValueError("designs: got a set of another study, expected one of the study of the result")
-    if len(found.vary) < 2:
-        raise ValueError(f"designs: got a set of {found.vary[0]} alone, expected two to four variables")
-    return found
+    if len(designs.vary) < 2:
+        raise ValueError(f"designs: got a set of {designs.vary[0]} alone, expected two to four variables")
+    return designs
 
 
 def _asked(study: Study) -> dict[str, Any]:

@@ -183,6 +183,6 @@ def machine_of(design: Any = None) -> Machine:
         design = hexagonal_design(published_variables())
     elif isinstance(design, str | os.PathLike):
         name, design = os.fspath(design), load(design)
-    found, result = design_and_result(design, name)
-    single(found.geometry, found.configuration)
-    return Machine(found, result)
+    point, result = design_and_result(design, name)
+    single(point.geometry, point.configuration)
+    return Machine(point, result)

@@ -101,7 +101,7 @@ def certified_workspace(
     geometry, arguments = robot_and_arguments(geometry, {"box": box, **options})
     unit = unit_argument(arguments["unit"])
     require_certifiable(arguments["archetype"], arguments["internal_point"])
-    asked = question_of(geometry, arguments["box"], arguments)
+    problem = question_of(geometry, arguments["box"], arguments)
     settings = _core.CertifySettings(
         gap=finite("gap", gap, *GAPS),
         seconds=FOREVER if time_limit is None else finite("time_limit", time_limit, 0.0, FOREVER),
@@ -111,8 +111,8 @@ def certified_workspace(
     begin = perf_counter()
     return from_core(
         CertifiedWorkspace,
-        _core.certified_workspace(asked, settings, progress),
-        connected=connected(asked),
+        _core.certified_workspace(problem, settings, progress),
+        connected=connected(problem),
         archetype=arguments["archetype"],
         seconds=perf_counter() - begin,
         estimate=None,

@@ -210,8 +210,8 @@ class CertifiedWorkspace(Saved):
         if self.estimate is not None and self.volume[1] > 0.0:
             volume, error = self.estimate
             low, high = self.bounds
-            said = "lies between the bounds" if low <= volume <= high else "lies outside the bounds"
-            yield f"The estimate, {volume:.6g} ± {error:.2g}, {said}."
+            verdict = "lies between the bounds" if low <= volume <= high else "lies outside the bounds"
+            yield f"The estimate, {volume:.6g} ± {error:.2g}, {verdict}."
         boxes = f"{len(self.inner_low)} inner boxes, {len(self.open_low)} open ones, {self.looked} looked at"
         reached = self.end == "gap" and self.connected  # by all poses; home's piece may need more
         yield f"{boxes} in {self.seconds:.3g} s; {OF_ALL if reached else ENDS[self.end]}."

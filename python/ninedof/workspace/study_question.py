@@ -82,8 +82,8 @@ def design_question(design: HasRobot, archetype: str = "constant_orientation") -
     }
     if study is None:
         return arguments, []
-    asked = asked_criteria(design)
-    return arguments | {"criteria": asked.criteria}, asked.left
+    of_study = asked_criteria(design)
+    return arguments | {"criteria": of_study.criteria}, of_study.left
 
 
 def robot_and_arguments(design: Geometry | HasRobot, arguments: Mapping[str, Any]) -> tuple[Geometry, dict[str, Any]]:

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 import ninedof as nd
 from ninedof.motion.tables import drives_table, motion_tables, motion_words
-from ninedof.tables.table import plain
+from ninedof.tables.table import plain_text
 
 HOME = nd.Configuration.neutral(3.9828, 2.4432)
 MASSES = nd.Masses(
@@ -93,7 +93,7 @@ def test_the_table_names_units_and_legs_that_never_carry(published):
     line = nd.Trajectory.line(HOME, (0.0, 0.0, 0.4), points=51, unit="m")
     lift = nd.follow(published, line, HOME, masses=nd.Masses(platform=2.0))
     assert lift.unloaded_legs == ("l1", "l2", "l3")
-    text = plain(drives_table(lift.to_dict()))
+    text = plain_text(drives_table(lift.to_dict()))
     assert "power" in text
     assert "(W)" in text
     words = [sentence for _, sentence in motion_words(lift, lift.to_dict())]
@@ -132,7 +132,7 @@ def test_of_several_loads_forces_are_those_of_each_and_drives_the_largest(lifted
     assert_allclose(rows["l1_power_2"], every.leg_powers[1, :, 0], atol=1e-12)
     table = drives_table(every.to_dict())
     assert "each figure the largest of 3 loads" in table.title
-    assert "all" not in plain(table)  # the largest do not add up
+    assert "all" not in plain_text(table)  # the largest do not add up
     with pytest.raises(ValueError, match="load: got stacks"):
         nd.follow(g, lifted.trajectory, HOME, load=(force[:, :, None], None), **how)
 

@@ -21,7 +21,7 @@ from ninedof.sheet.path_limits import limits_at_poses
 from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.tables import limits_table
 from ninedof.support.margins import is_violated, margin_of, margin_words, tolerance_of
-from ninedof.tables.table import plain
+from ninedof.tables.table import plain_text
 from ninedof.viewer.html import limits_html
 from ninedof.viewer.machine import Variant
 from ninedof.viewer.numbers import numbers_of
@@ -116,7 +116,7 @@ def test_every_place_has_the_same_text(seed):
     (shown,) = limits_table(found).texts()
     assert [row[5] for row in shown] == every
     assert (
-        re.findall(r"((?:over |below )?-?[\d.]+(?: %)?)(?: +violated)?$", plain(limits_table(found)), re.MULTILINE)
+        re.findall(r"((?:over |below )?-?[\d.]+(?: %)?)(?: +violated)?$", plain_text(limits_table(found)), re.MULTILINE)
         == every
     )
     latex = [

@@ -64,8 +64,8 @@ def accuracy(options: _Options) -> Answer:
         heads, rows = heads[:3], [row[:3] for row in rows]
     sizes = {"legs": (legs, options.leg_error), "joints": (joints, options.joint_error)}
     words = (
-        amount(f"{name} {size:g}", unit) + " of the study" * (given is None and size > 0.0)
-        for name, (size, given) in sizes.items()
+        amount(f"{name} {size:g}", unit) + " of the study" * (option_value is None and size > 0.0)
+        for name, (size, option_value) in sizes.items()
     )
     parts: list[Any] = [f"tolerances: {', '.join(words)}", Table("Errors of first order", heads, rows)]
     data: dict[str, Any] = {
@@ -88,10 +88,10 @@ def _allotted(options: _Options, at: DesignAtPoses) -> Answer:
     options.refuse("with --within: it is about all poses of the study", "samples", "all_poses", *POSE)
     turn = None if options.within_deg is None else math.radians(options.within_deg)
     design, unit = at.machine, at.unit
-    kept = tolerances_for(design, options.within, turn, options.weights)
+    tolerances = tolerances_for(design, options.within, turn, options.weights)
     rows = [
-        Line("joint centres, radius", [f"{kept.joints:.4g}"], unit=unit),
-        Line("leg lengths, plus or minus", [f"{kept.legs:.4g}"], unit=unit),
+        Line("joint centres, radius", [f"{tolerances.joints:.4g}"], unit=unit),
+        Line("leg lengths, plus or minus", [f"{tolerances.legs:.4g}"], unit=unit),
     ]
     limits = [] if options.within is None else [f"p errs by at most {amount(f'{options.within:g}', unit)}"]
     limits += [] if turn is None else [f"the platform turns by at most {options.within_deg:g}°"]
@@ -100,8 +100,10 @@ def _allotted(options: _Options, at: DesignAtPoses) -> Answer:
         "the neutral pose" if study is None else "the region" if study.objective.region else "the poses of the study"
     )
     title = f"Tolerances with which {' and '.join(limits)}, to first order, over {where}"
-    notes = ["Both hold together: joints and legs may be off by so much at once."] * (min(kept.joints, kept.legs) > 0.0)
-    return Answer([Table(title, columns("", ">"), rows, notes)], unit_entry(unit) | kept.to_dict())
+    notes = ["Both hold together: joints and legs may be off by so much at once."] * (
+        min(tolerances.joints, tolerances.legs) > 0.0
+    )
+    return Answer([Table(title, columns("", ">"), rows, notes)], unit_entry(unit) | tolerances.to_dict())
 
 
 def _rows(bounds: ErrorBounds, at: DesignAtPoses) -> Iterator[tuple[Any, ...]]:

@@ -34,11 +34,11 @@ class _Options(PosesOptions):
 
 def forces(options: _Options) -> Answer:
     """Print the forces in the legs that balance loads on the platform, positive where a leg pushes."""
-    given = loads_option(options.load)
+    own = loads_option(options.load)
     at = options.at()
     duty = at.duty
     weight, masses = weight_of(duty, None, None, None), masses_of(duty)
-    loads = np.array(given or duty.loads.wrenches or np.zeros((int(masses is not None), 6)))
+    loads = np.array(own or duty.loads.wrenches or np.zeros((int(masses is not None), 6)))
     if not len(loads):
         raise ValueError("--load: got none, expected one, or a run whose study has [loads] or [masses]")
     balance = nd.inverse_dynamics(at.geometry, at.c, masses=masses, gravity=duty.loads.gravity, load=loads[:, None])
@@ -48,8 +48,8 @@ def forces(options: _Options) -> Answer:
     rows = [(leg, *map(spread, least[:, k], most[:, k], size[:, None])) for k, leg in enumerate(LEGS)]
     parts: list[Any] = [load_words(k, row, at.unit) for k, row in enumerate(loads, start=1)]
     parts += weight_words(weight, duty.tool, masses_besides_platform(duty) is not None)
-    if masses is not None or not given:
-        parts.append(f"from the study: {', '.join(['[loads]'] * (not given) + ['[masses]'] * (masses is not None))}")
+    if masses is not None or not own:
+        parts.append(f"from the study: {', '.join(['[loads]'] * (not own) + ['[masses]'] * (masses is not None))}")
     parts.append(Table("Forces, + pushes", heads, list(grouped(rows))))
     for k, each in enumerate(result, start=1):
         if (names := unloaded_names(each)) and len(names) < len(LEGS):

@@ -12,7 +12,7 @@ from ninedof.cli.options import option, several, struct
 from ninedof.cli.posed import POSE, PoseOptions, length_at_home, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.proof.machine_record import outward
-from ninedof.sheet.plain_values import poses_of
+from ninedof.robot.configuration import poses_of
 from ninedof.sheet.pose_words import decimals_of, fixed, turn_deg
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry, with_unit

@@ -15,7 +15,7 @@ from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, s
 from ninedof.cli.screen import Screen, bold, exit_status
 from ninedof.optimize.result import with_fixed_design
 from ninedof.optimize.tables import agreement_words, best_prices, candidates_table, proof_words
-from ninedof.paper.comparison import Comparison, compare, comparison_table, comparison_words
+from ninedof.paper.comparison import PaperComparison, compare, comparison_table, comparison_words
 from ninedof.proof.optimum import left_out_of
 from ninedof.records.record import run_folder, write_run
 from ninedof.sheet.tables import limits_table
@@ -62,7 +62,7 @@ def optimize(options: _Options) -> Answer:
         limit = math.inf if options.time is None else options.time
         how: dict[str, Any] = {"threads": options.threads, "certify": options.certify, "time_limit": limit}
         run = _solve(study, file, how | {"out": directory}, screen)
-    if isinstance(run, Comparison):
+    if isinstance(run, PaperComparison):
         result, answer = run.result, Answer(_comparison_parts(run), run.to_dict())
     else:
         result, answer = run, Answer(_result_parts(run), {"optimization": run.to_dict()})
@@ -87,7 +87,7 @@ def optimize(options: _Options) -> Answer:
     return Answer([], {**data, "record": str(record)}, exit_status(result, timed=options.time is not None))
 
 
-def _solve(study: nd.Study, file: Path | None, how: dict[str, Any], screen: Screen) -> Comparison | nd.Result:
+def _solve(study: nd.Study, file: Path | None, how: dict[str, Any], screen: Screen) -> PaperComparison | nd.Result:
     if file is None:
         with screen.bar("starts", "the paper's problem") as bar:
             return compare(study.starts, study.seed, progress=bar, **how)
@@ -101,7 +101,7 @@ def _solve(study: nd.Study, file: Path | None, how: dict[str, Any], screen: Scre
         return nd.optimize(replace(study), progress=bar, **how)  # without the notes, which were printed
 
 
-def _comparison_parts(comparison: Comparison) -> Iterator[Any]:
+def _comparison_parts(comparison: PaperComparison) -> Iterator[Any]:
     yield comparison_table(row.to_dict() for row in comparison.rows())
     yield comparison_words(comparison)
     if comparison.result.proof is not None:

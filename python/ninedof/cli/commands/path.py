@@ -28,7 +28,7 @@ from ninedof.cli.options import (
 from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.motion.tables import motion_tables, motion_words
-from ninedof.records.motion import plain
+from ninedof.records.motion import motion_values
 from ninedof.records.record import run_folder, write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
@@ -114,7 +114,7 @@ def path(options: _Options) -> None:
             gravity=gravity,
         )
     of_study = nd.path_limits(study, result, home) if study else None
-    motion = plain(result, of_study)
+    motion = motion_values(result, of_study)
     parts: list[Any] = [*motion_tables(motion), *(bold(*words) for words in motion_words(result, motion))]
     if masses is not None and options.mass is None:
         stated = [*stated, "[masses]"]

@@ -47,13 +47,13 @@ def payload(options: _Options) -> Answer:
     chosen = named_design(options.design)
     loads = loads_option(options.load) or None
     centre = options.centre or (0.0, 0.0, 0.0)
-    found = largest_payload(chosen.machine, options.force, options.pull, centre, loads)
-    parts = [*_parts(found, chosen), _meant(found, chosen, centre, loads)]
+    result = largest_payload(chosen.machine, options.force, options.pull, centre, loads)
+    parts = [*_parts(result, chosen), _meant(result, chosen, centre, loads)]
     if options.force is None:
-        parts.append(f"from the study: force {_of_kinds(found.limits[0].tolist())}")
-    if found.not_looked_at:
-        parts.append(f"limits of the study that are not looked at: {', '.join(found.not_looked_at)}")
-    return Answer(parts, found.to_dict(), DONE if found.fits else NO_RESULT)
+        parts.append(f"from the study: force {_of_kinds(result.limits[0].tolist())}")
+    if result.not_looked_at:
+        parts.append(f"limits of the study that are not looked at: {', '.join(result.not_looked_at)}")
+    return Answer(parts, result.to_dict(), DONE if result.fits else NO_RESULT)
 
 
 def _of_kinds(most: list[float]) -> str:
@@ -64,24 +64,24 @@ def _of_kinds(most: list[float]) -> str:
     return ", ".join(kinds) + "; the others are not limited" * (len(kinds) < 3)
 
 
-def _parts(found: Payload, chosen: Chosen) -> Iterator[Any]:
-    yield found.words if found.fits else f"{found.words}, at the pose below"
-    if found.leg:
-        yield f"worst pose: {chosen.words(found.configuration)}"
-        rows = [(leg, load_text(force, found.forces)) for leg, force in zip(LEGS, found.forces.tolist(), strict=True)]
-        under = "with the payload" if found.fits else "without a payload"
+def _parts(result: Payload, chosen: Chosen) -> Iterator[Any]:
+    yield result.words if result.fits else f"{result.words}, at the pose below"
+    if result.leg:
+        yield f"worst pose: {chosen.words(result.configuration)}"
+        rows = [(leg, load_text(force, result.forces)) for leg, force in zip(LEGS, result.forces.tolist(), strict=True)]
+        under = "with the payload" if result.fits else "without a payload"
         yield Table(f"Leg forces there, {under}, + pushes", columns("leg", ">force"), list(grouped(rows)))
-    if found.region is not None:
-        yield f"searched, not proved: {found.region.looked_at} poses of the region looked at, {found.region.region}"
+    if result.region is not None:
+        yield f"searched, not proved: {result.region.looked_at} poses of the region looked at, {result.region.region}"
 
 
-def _meant(found: Payload, chosen: Chosen, centre: Vector, loads: list[list[float]] | None) -> str:
+def _meant(result: Payload, chosen: Chosen, centre: Vector, loads: list[list[float]] | None) -> str:
     """Return where the payload is, and what acts beside it."""
     study = chosen.duty
     at = f"{amount(vector_words(centre), chosen.unit)} in the frame of the plate (--centre)"
     at += ", not at the tool's point" * (bool(chosen.tool) and tuple(centre) != chosen.tool.position)
     rows = loads or study.loads.wrenches
-    beside = [load_words(found.load + 1, rows[found.load], chosen.unit)] if rows else []
+    beside = [load_words(result.load + 1, rows[result.load], chosen.unit)] if rows else []
     beside += ["the masses of the study"] if masses_of(study) is not None else []
     return (
         f"the payload is a point mass at {at}; gravity {vector_words(study.loads.gravity)}; "

@@ -172,8 +172,8 @@ def _variables(name: str | None, chosen: Chosen, over: list[str]) -> tuple[str, 
     if chosen.result is not None and chosen.result.best is not None:
         fits[chosen.result.study.family] = chosen.result.best.variables
     for family in FAMILIES:
-        if family not in fits and (found := variables_of(family, chosen.geometry, chosen.configuration)) is not None:
-            fits[family] = found
+        if family not in fits and (own := variables_of(family, chosen.geometry, chosen.configuration)) is not None:
+            fits[family] = own
     for family, values in fits.items():
         if set(over) <= set(FAMILIES[family]):
             return family, values

@@ -101,12 +101,12 @@ def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -
 
 
 def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
-    asked = asked_lines(question.keywords, chosen.configuration, question.asked.own, question.asked.left, chosen.unit)
-    yield next(asked)
+    lines = asked_lines(question.keywords, chosen.configuration, question.asked.own, question.asked.left, chosen.unit)
+    yield next(lines)
     if question.asked.actuators:
         yield question.asked.actuators
     if question.asked.replaced:
         yield f"limits of the study that options replace: {', '.join(question.asked.replaced)}"
-    yield from asked
+    yield from lines
     yield workspace_table(result)
     yield from (bold(*words) for words in workspace_words(result))

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from ninedof.design.duty import Masses
-from ninedof.robot.configuration import Configuration
+from ninedof.robot.configuration import Configuration, poses_of
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.failure.tables import failure_parts, free_table, locked_table
-from ninedof.sheet.plain_values import plain_fields, poses_of
 from ninedof.sheet.region_look import RegionSearch
 from ninedof.sheet.sheet import Extreme
 from ninedof.support.arrays import Floats
+from ninedof.support.structs import plain_fields
 from ninedof.tables.html import notebook
-from ninedof.tables.table import plain
+from ninedof.tables.table import plain_text
 
 
 class LockedLegs(NamedTuple):
@@ -114,7 +114,7 @@ class Failure:
 
     def summary(self) -> str:
         """Return tables and sentences as lines of text."""
-        return "\n".join(map(plain, failure_parts(self)))
+        return "\n".join(map(plain_text, failure_parts(self)))
 
     def __repr__(self) -> str:
         """Show the worst condition numbers."""
