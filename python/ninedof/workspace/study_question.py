@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,7 +23,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.sheet.sheet import sheet
 from ninedof.support.arrays import Floats
 from ninedof.support.structs import Fixed
-from ninedof.workspace.question import DEFAULTS, LEG_LIMITS, ROWS, criteria_of
+from ninedof.workspace.question import DEFAULTS, LEG_LIMITS, criteria_of
 
 EASE = 1e-9
 """Share by which limits are eased: an optimum lies on some of them, and rounding would put its home pose outside."""
@@ -175,38 +175,30 @@ def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[s
     criteria: dict[str, Any] = {}
     left: list[str] = []
     for limit in study.limits:
-        name = limit.name
+        name, row = limit.name, limit.row
         if limit.at != "poses" or name not in PARTS:
             left.append(limit.label)
             continue
         unit = study.zp(home) if limit.of == "zp" else 1.0
         low, high = unit * limit.low * (1.0 - EASE), unit * limit.high * (1.0 + EASE)
-        if name in OF_LENGTHS:
-            criteria[name] = (low, high)
-        elif ROWS[name].kind == "sign":
-            criteria[name] = True
-        elif (criterion := _criterion(name, low, high, limit.axis_in(study.tool))) is not None:  # not a min of 0
-            criteria[name] = criterion
-            if ROWS[name].needs:
-                criteria[name] = {"max": high, "duty": study.leg_duty.to_dict()}
+        ends = {"min": low, "max": min(high, math.pi) if row.is_angle else high}
+        entries: dict[str, Any] = {side: ends[side] for side in row.sides if 0.0 < ends[side] < math.inf}
+        if name in OF_LENGTHS or row.kind == "sign":
+            criteria[name] = (low, high) if name in OF_LENGTHS else True
+        elif entries:  # not a min of 0
+            if axis := limit.axis_in(study.tool):
+                entries["axis"] = axis
+            if row.needs:
+                entries["duty"] = study.leg_duty.to_dict()
             if name == CLEARANCE:
                 pairs = zip(PARTS[name], exempt_pairs(g), exempt_pairs(g, study), strict=True)
                 exempt = [pair for pair, meet, always in pairs if always or not meet]
                 if len(exempt) < len(PARTS[name]):  # joints coincide that do not in every design of the study
-                    criteria[name] = {"min": low, "exempt": exempt}
+                    entries["exempt"] = exempt
+            criteria[name] = entries if len(entries) > 1 else next(iter(entries.values()))
     if study.objective.condition_limit is not None:
         criteria["condition_number"] = study.objective.condition_limit * (1.0 + EASE)
     return criteria, left
-
-
-def _criterion(name: str, low: float, high: float, axis: Sequence[float]) -> Any:
-    """Return a limit at poses as a criterion: a number where that says all of it, None without a side that limits."""
-    row = ROWS[name]
-    ends = {"min": low, "max": min(high, math.pi) if row.is_angle else high}
-    entries: dict[str, Any] = {side: ends[side] for side in row.sides if 0.0 < ends[side] < math.inf}
-    if entries and axis:
-        entries["axis"] = axis
-    return entries if len(entries) > 1 else next(iter(entries.values()), None)
 
 
 def with_leg_limits(limits: Mapping[str, Any]) -> dict[str, Any]:
