@@ -48,7 +48,7 @@ class DesignCurves:
     """Name of what the curves are, for the axes."""
     neutral: tuple[ArrayLike, ArrayLike] | None = None
     """Condition number at the neutral pose along both, where the curves are the worst over several poses."""
-    passed: tuple[ArrayLike, ArrayLike] | None = None
+    violated: tuple[ArrayLike, ArrayLike] | None = None
     """Along both, whether a limit of the study is violated there. The ground ends at the last point where one is."""
 
 
@@ -133,17 +133,17 @@ def _curve(axes: Any, x: ArrayLike, y: ArrayLike, own: tuple[float, float], colo
 
 def _passed(axes: Any, design: DesignCurves, k: int) -> bool:
     """Draw a grey ground where a limit is violated along one of the two; return whether it is in the picture."""
-    if design.passed is None:
+    if design.violated is None:
         return False
     x = np.asarray((design.zs, np.degrees(design.theta_z))[k])
-    passed, (low, high) = np.asarray(design.passed[k], dtype=bool), axes.get_xlim()
-    axes.fill_between(x, 0, 1, where=passed, transform=axes.get_xaxis_transform(), color=style.GRID, lw=0, zorder=0)
+    violated, (low, high) = np.asarray(design.violated[k], dtype=bool), axes.get_xlim()
+    axes.fill_between(x, 0, 1, where=violated, transform=axes.get_xaxis_transform(), color=style.GRID, lw=0, zorder=0)
     axes.set_xlim(low, high)
     own = (design.point[0], np.degrees(design.point[1]))[k]
-    around = x[passed & (x >= own)].min(initial=np.inf) - x[passed & (x <= own)].max(initial=-np.inf)
+    around = x[violated & (x >= own)].min(initial=np.inf) - x[violated & (x <= own)].max(initial=-np.inf)
     if 0.0 < around < THINNEST * (high - low):
         axes.set_title(f"{axes.get_title(loc='left').removesuffix(ALONE)}{ALONE}")
-    return bool(passed[(x >= low) & (x <= high)].any())
+    return bool(violated[(x >= low) & (x <= high)].any())
 
 
 def _crop(axes: Any, factor: float, own: Sequence[float]) -> None:

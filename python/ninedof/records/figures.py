@@ -180,7 +180,7 @@ def _over_poses(result: Result) -> list[DesignCurves]:
         point=(own, twist, best.objective),
         index="condition number" if is_condition else index,
         neutral=(zs_kappa, twist_kappa) if is_condition else None,
-        passed=(list(map(_is_passed, lifted)), list(map(_is_passed, turned))),
+        violated=(list(map(_is_violated, lifted)), list(map(_is_violated, turned))),
     )
     return [curves]
 
@@ -192,18 +192,18 @@ def _along(
     row = sorted(((x, point_at(x)) for x in (*grid.tolist(), own)), key=itemgetter(0))
     edges = []
     for low, high in pairwise(row):
-        if _is_passed(low[1]) == _is_passed(high[1]):
+        if _is_violated(low[1]) == _is_violated(high[1]):
             continue
         for _ in range(HALVINGS):
             middle = 0.5 * (low[0] + high[0])
             there = (middle, point_at(middle))
-            low, high = (there, high) if _is_passed(there[1]) == _is_passed(low[1]) else (low, there)
+            low, high = (there, high) if _is_violated(there[1]) == _is_violated(low[1]) else (low, there)
         edges += [low, high]
     places, points = zip(*sorted(row + edges, key=itemgetter(0)), strict=True)
     return np.array(places), points
 
 
-def _is_passed(point: DesignPoint) -> bool:
+def _is_violated(point: DesignPoint) -> bool:
     return any(is_violated(margin) for margin in point.margins.values())
 
 

@@ -122,8 +122,8 @@ class PathLimits:
         breaks: list[LimitBreak] = []
         for one in self.limits:
             tolerance = tolerance_of(kind_of(one.name), one.limit)
-            passed = _core.stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, tolerance)
-            breaks += [LimitBreak(*entry) for entry in passed]
+            stretches = _core.stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, tolerance)
+            breaks += [LimitBreak(*entry) for entry in stretches]
         return tuple(sorted(breaks, key=lambda stretch: (stretch.begin, stretch.limit)))
 
     @property

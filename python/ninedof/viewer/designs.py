@@ -35,15 +35,15 @@ class DesignPicture:
     `top` is the height of the platform in the scene: it covers none of the picture, seen from the first camera.
     """
 
-    def __init__(self, found: AdmissibleSet, top: float = 0.0) -> None:
-        self.found = found
+    def __init__(self, designs: AdmissibleSet, top: float = 0.0) -> None:
+        self.designs = designs
         with style.settings():
-            figure = figure_of(found)
+            figure = figure_of(designs)
             figure.set_dpi(DPI)
             canvas: Any = FigureCanvasAgg(figure)
             canvas.draw()
         self.pixels = np.array(canvas.buffer_rgba())[..., :3]
-        self._planes = list(zip(figure.axes, combinations(range(len(found.vary)), 2), strict=False))
+        self._planes = list(zip(figure.axes, combinations(range(len(designs.vary)), 2), strict=False))
         self._resolution = np.array(self.pixels.shape[1::-1], dtype=np.float64)
         self.size: Floats = self._resolution * min(HEIGHT / self._resolution[1], WIDTH / self._resolution[0])
         self.centre: Floats = (max(ABOVE, top - BELOW) + 0.5 * self.size[1]) * UP - BEHIND * NORMAL
@@ -60,14 +60,14 @@ class DesignPicture:
             if axes.bbox.contains(*pixel):
                 values = axes.transData.inverted().transform(pixel)
                 chosen = zip(pair, np.where(self._in_degrees(pair), np.radians(values), values).tolist(), strict=True)
-                return dict(self.found.of.at) | {self.found.vary[k]: value for k, value in chosen}
+                return dict(self.designs.of.at) | {self.designs.vary[k]: value for k, value in chosen}
         return None
 
     def marks(self, variables: Mapping[str, float]) -> list[Floats | None]:
         """Return where a design is in each plane, in the frame of the picture, y down; None outside of the plane."""
         out: list[Floats | None] = []
         for axes, pair in self._planes:
-            values = np.array([variables[self.found.vary[k]] for k in pair])
+            values = np.array([variables[self.designs.vary[k]] for k in pair])
             pixel = axes.transData.transform(np.where(self._in_degrees(pair), np.degrees(values), values))
             x, y = self.size * (pixel / self._resolution - 0.5)
             out.append(np.array([x, -y, 0.0]) if axes.bbox.padded(1.0).contains(*pixel) else None)
@@ -75,7 +75,7 @@ class DesignPicture:
 
     def words(self, variables: Mapping[str, float]) -> str:
         """Return what is proved of a design."""
-        of = self.found.of
+        of = self.designs.of
         held = [name for name in of.study.variables if name not in of.vary]
         other = [name for name in held if abs(variables[name] - of.at[name]) > 1e-9 * max(1.0, abs(of.at[name]))]
         if other:
@@ -83,7 +83,7 @@ class DesignPicture:
         x = [variables[name] for name in of.vary]
         if not all(low <= value <= high for value, (low, high) in zip(x, of.ranges, strict=True)):
             return f"The design shown is not in the ranges of the set. {HINT}"
-        state, bound = self.found.state_of([x])[0], of.condition_number
+        state, bound = self.designs.state_of([x])[0], of.condition_number
         most = "" if bound is None else f"a condition number of at most {bound:g}"
         words = {
             INSIDE: f"Proved: the design shown keeps every limit{most and f' and {most}'} at every pose.",
@@ -93,7 +93,7 @@ class DesignPicture:
         return f"{words.get(state, 'Of the design shown nothing is proved.')}{drawn} {HINT}"
 
     def _in_degrees(self, pair: Sequence[int]) -> list[bool]:
-        return [self.found.vary[k] in self.found.study.angles for k in pair]
+        return [self.designs.vary[k] in self.designs.study.angles for k in pair]
 
 
 def designs_of(machine: Machine, design: Any, designs: AdmissibleSet | None) -> AdmissibleSet | None:
@@ -125,7 +125,7 @@ def add_picture(api: Any, picture: DesignPicture, ball: Any) -> dict[str, Any]:
     plain = {"cast_shadow": False, "receive_shadow": False}
     nodes = {"/designs": api.add_image("/designs", picture.pixels, width, height, format="png", **place, **plain)}
     vertices, faces = ball
-    for k in range(len(picture.marks(picture.found.of.at))):
+    for k in range(len(picture.marks(picture.designs.of.at))):
         name = f"/designs/{k}"
         nodes[name] = api.add_mesh_simple(name, 0.04 * vertices, faces, color=(20, 20, 20), **plain)
     return nodes

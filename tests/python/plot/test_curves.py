@@ -41,7 +41,7 @@ def test_condition_curves_mark_points_and_crossings():
         plot.condition_curves([])
 
 
-def test_curves_over_poses_have_the_neutral_one_beside_and_a_ground_where_a_limit_is_passed():
+def test_curves_over_poses_have_the_neutral_one_beside_and_a_ground_where_a_limit_is_violated():
     figure = made("objective over poses")
     words = [text.get_text() for text in figure.legends[0].get_texts()]
     assert words == ["published: 3.9110", "at the neutral pose", "a limit is violated at one of these poses"]
@@ -57,8 +57,8 @@ def test_curves_over_poses_have_the_neutral_one_beside_and_a_ground_where_a_limi
 def test_the_legend_of_a_long_question_lies_in_the_figure():
     name = "worst condition number over the 20 poses that ruled the region"
     zs, theta, k = np.array([1.5, 2.0, 2.5]), np.array([-0.1, 0.0, 0.1]), [4.1, 4.0, 4.1]
-    passed = [True, False, False], [True, False, False]
-    design = plot.DesignCurves(name, zs, k, theta, k, (2.0, 0.0, 4.0), passed=passed, neutral=(k, k))
+    violated = [True, False, False], [True, False, False]
+    design = plot.DesignCurves(name, zs, k, theta, k, (2.0, 0.0, 4.0), violated=violated, neutral=(k, k))
     figure = plot.condition_curves([design])
     figure.draw_without_rendering()
     box = figure.legends[0].get_window_extent()
@@ -68,8 +68,8 @@ def test_the_legend_of_a_long_question_lies_in_the_figure():
 
 def test_a_design_that_limits_leave_no_room_is_said_to_be_allowed():
     zs, theta = np.array([2.0, 2.4, 2.400001, 3.0]), np.array([-0.1, 0.0, 0.1])
-    passed = [True, False, True, True], [False, False, True]
-    design = plot.DesignCurves("it", zs, 4.0 + zs, theta, 6.4 + theta, (2.4, 0.0, 6.4), passed=passed)
+    violated = [True, False, True, True], [False, False, True]
+    design = plot.DesignCurves("it", zs, 4.0 + zs, theta, 6.4 + theta, (2.4, 0.0, 6.4), violated=violated)
     titles = [axes.get_title(loc="left") for axes in plot.condition_curves([design]).axes]
     assert titles == ["along zs", "along theta_z"]
     close = np.array([2.399999, *zs[1:]])

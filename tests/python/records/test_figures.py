@@ -117,12 +117,12 @@ def test_the_ground_of_limits_ends_at_the_limits():
     result = nd.optimize(nd.Study("symmetric", constraints=limits, objective={"region": region}, starts=2))
     (curves,) = _over_poses(result)
     solved, best, edges = result.solved, result.variables, 0
-    for own, places, name, passed in zip(
-        curves.point[:2], (curves.zs, curves.theta_z), ("zs", ""), curves.passed, strict=True
+    for own, places, name, violated in zip(
+        curves.point[:2], (curves.zs, curves.theta_z), ("zs", ""), curves.violated, strict=True
     ):
-        assert not passed[np.abs(places - own).argmin()]
+        assert not violated[np.abs(places - own).argmin()]
         step = np.diff(places).max()
-        for k in np.flatnonzero(np.diff(passed)):
+        for k in np.flatnonzero(np.diff(violated)):
             assert places[k + 1] - places[k] < 1e-6 * step
             edges += 1
             if name:

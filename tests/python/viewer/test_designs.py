@@ -120,7 +120,7 @@ def test_the_set_written_last_beside_a_run_is_shown(run, result, tmp_path):
         assert viewer.designs is None
     assert run(f"admissible {record} --vary a2 --vary zp --resolution 0.2 --condition 9")[0] == 0
     with nd.view(str(folder), port=0) as viewer:
-        designs = viewer.designs.found
+        designs = viewer.designs.designs
         assert designs.vary == ("a2", "zp")
         assert designs.of.condition_number == 9.0
         assert designs.of.at == pytest.approx(result.variables)
