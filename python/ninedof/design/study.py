@@ -382,7 +382,8 @@ class Study:
         return self.objective.worded(self.unit)
 
     def _repr_html_(self) -> str:
-        return notebook(f"Study: least {self.words}", variables_table(self), limits_table(self))
+        limits = [limits_table(self)] if self.limits else []
+        return notebook(f"Study: least {self.words}", variables_table(self), *limits)
 
     def problem(self, over_region: bool = False) -> _core.Problem:
         """Return the study as the core's problem, validated there; of a region, without it, or to be solved over it."""
