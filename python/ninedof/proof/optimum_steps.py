@@ -132,12 +132,12 @@ class StepByStep:
             return False
         how: dict[str, Any] = {"seconds": max(self._end - perf_counter(), 0.0), "threads": self._threads}
         question = range_to_prove(self._study, target)
-        found = existence(question, certificate=True, progress=self._progress, **how)
-        self._count(found.designs, found.left, found.interrupted)
-        if found.state == NONE:
-            self._bound, self._certificate, self._left_out = target, found.certificate, ()
-        self._better = target if found.state == EXISTS else None
-        return found.state == NONE
+        answer = existence(question, certificate=True, progress=self._progress, **how)
+        self._count(answer.designs, answer.left, answer.interrupted)
+        if answer.state == NONE:
+            self._bound, self._certificate, self._left_out = target, answer.certificate, ()
+        self._better = target if answer.state == EXISTS else None
+        return answer.state == NONE
 
     def _proof(self, aim: float) -> OptimumProof:
         """Return what is proved."""
