@@ -78,6 +78,17 @@ int wrong_slopes(const PoseRow& row, const Case& one) {
   return out;
 }
 
+/// All numbers at once are those of each item.
+int wrong_numbers(const PoseRow& row, const Case& one) {
+  const PosedPoints here = posed_points(one.g, one.here), home = posed_points(one.g, one.home);
+  const PointLook look(here, home, one.options);
+  std::array<double, leg_pairs> all;
+  row.numbers(look, all.data());
+  int out = 0;
+  for (int item = 0; item < row.items; ++item) out += all[at_index(item)] != row.number(look, item);
+  return out;
+}
+
 /// The forms of a row at places of a box, and the numbers there.
 template <class T>
 int wrong_forms(const PoseRow& row, const Case& one, double half, Random& random) {
@@ -173,6 +184,7 @@ std::string broken_by(const PoseRow& row) {
   for (int n = 0; n < cases(12); ++n) {
     const Case one(random, n);
     if (wrong_slopes(row, one) > 0) return "slopes";
+    if (row.numbers != nullptr && wrong_numbers(row, one) > 0) return "numbers";
     if (row.form != nullptr) {
       if (wrong_moves<PoseForm>(row, one) > 0) return "moves";
       for (const double half : {1e-6, 0.02, 0.2})
@@ -198,7 +210,7 @@ T too_sure(T u) {
 
 /// An error in one function of a row; false where the row does not have it.
 using Plant = bool (*)(PoseRow&);
-constexpr std::array<Plant, 11> plants{
+constexpr std::array<Plant, 12> plants{
     [](PoseRow& row) {
       row.slopes = [](const PointLook& look, int item, PointSlopes& slopes) {
         const double value = sound.slopes(look, item, slopes);
@@ -210,6 +222,13 @@ constexpr std::array<Plant, 11> plants{
     [](PoseRow& row) {
       row.number = [](const PointLook& look, int item) { return sound.number(look, item) * (1.0 + 1e-6); };
       return true;
+    },
+    [](PoseRow& row) {
+      row.numbers = [](const PointLook& look, double* out) {
+        sound.numbers(look, out);
+        out[sound.items - 1] *= 1.0 + 1e-12;
+      };
+      return sound.numbers != nullptr;
     },
     [](PoseRow& row) {
       row.part = [](int) { return std::string(); };
