@@ -379,6 +379,11 @@ TEST_SUITE("law") {
       REQUIRE(limit_parts(name).size() == static_cast<std::size_t>(row.items));
     }
     CHECK(limits_over_lengths() == std::vector<std::string>{"leg_ratio", "stroke_ratio", "stroke"});
+    CHECK(limit_body("base_cone") == "base");
+    CHECK(limit_body("platform_cone_internal") == "platform");
+    CHECK(limit_body("leg_length") == "");
+    for (const LimitRow& row : limit_rows()) CHECK(limit_kind_from(to_string(row.info.kind)) == row.info.kind);
+    CHECK_THROWS_AS(limit_kind_from("colour"), InvalidArgument);
     CHECK_THROWS_WITH_AS(LimitNumbers("height", one.g, one.home, 1.0), doctest::Contains("height"), InvalidArgument);
     Triple same = one.g.base_internal();
     same[1] = one.g.base_external()[2];
