@@ -114,6 +114,14 @@ struct WrongItems : SpreadRow {
 }  // namespace
 
 TEST_SUITE("spread_row") {
+  TEST_CASE("a shortest length that may be 0 leaves no upper end of a ratio") {
+    const Interval open = length_ratio(Interval(2.0, 3.0), Interval(0.0, 4.0));
+    CHECK(open.hi == infinity);
+    CHECK(open.lo <= 0.5);
+    CHECK(open.lo > 0.5 - 1e-15);
+    CHECK(length_ratio(3.0, 2.0) == 1.5);
+  }
+
   TEST_CASE("every row of lengths over all poses keeps the law, and a planted error breaks it") {
     for (const std::string& name : limits_over_lengths()) {
       CAPTURE(name);

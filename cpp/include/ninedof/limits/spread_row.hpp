@@ -10,19 +10,15 @@
 
 namespace ninedof {
 
-namespace detail {
-
 template <class T>
 T length_ratio(const T& longest, const T& shortest) {
   return longest / shortest;
 }
 /// A shortest length whose enclosure touches 0 leaves no upper end.
 inline Interval length_ratio(const Interval& longest, const Interval& shortest) {
-  return {std::max(below(longest.lo / shortest.hi), 0.0),
-          shortest.lo > 0.0 ? above(longest.hi / shortest.lo) : std::numeric_limits<double>::infinity()};
+  return {std::max(detail::below(longest.lo / shortest.hi), 0.0),
+          shortest.lo > 0.0 ? detail::above(longest.hi / shortest.lo) : std::numeric_limits<double>::infinity()};
 }
-
-}  // namespace detail
 
 struct SpreadRow {
   bool ratio = true;     ///< the quotient of the two lengths; else their difference
@@ -31,7 +27,7 @@ struct SpreadRow {
   /// The number that people read.
   template <class T>
   T of(const T& longest, const T& shortest) const {
-    return ratio ? detail::length_ratio(longest, shortest) : longest - shortest;
+    return ratio ? length_ratio(longest, shortest) : longest - shortest;
   }
   int items() const { return each_leg ? 9 : 1; }
   double number(const Vec9& longest, const Vec9& shortest, int leg) const {
