@@ -88,8 +88,9 @@ class ActuatorSearch:
             else:
                 for row in self.rows[g := len(fixed)]:
                     more = (*rows[:g], row, *rows[g + 1 :])
-                    known = self.results.get(_only(more, [g]))
-                    push(bound if known is None else max(bound, self._value(known)), more)
+                    known = [one for one in (_only(more, [g]), more) if one in self.results]  # more: the guess
+                    values = (self._value(self.results[one], None not in one) for one in known)
+                    push(max([bound, *values]), more)
         return choices
 
     def _guess(self, root: Result) -> Rows:

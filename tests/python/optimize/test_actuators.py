@@ -2,8 +2,10 @@
 
 import itertools
 import math
+import random
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -220,3 +222,53 @@ def test_who_does_not_choose_rows_refuses_them():
     for call in (lambda: nd.pareto(study, "base_cone"), lambda: nd.admissible(study, ("a2", "b1"))):
         with pytest.raises(ValueError, match="study: got one with actuators, expected the run of `optimize`"):
             call()
+
+
+def test_the_best_of_all_combinations_comes_first_whatever_is_solved_early(monkeypatch):
+    """The guess was taken with its bound: rows without a design, or a wrong next best. Values are invented."""
+    rows = [nd.Actuator(name, 1.0 + k, 2.0 + k) for k, name in enumerate("ABC")]
+    for seed, count in itertools.product(range(300), (1, 3)):
+        rng = random.Random(seed)
+        values = {some: rng.choice([math.inf, rng.uniform(4.0, 9.0)]) for some in itertools.product(rows, repeat=count)}
+
+        def solved(some, values=values):
+            least = min(v for full, v in values.items() if all(a in (None, b) for a, b in zip(some, full, strict=True)))
+            return SimpleNamespace(best=None if least == math.inf else some, least=least)
+
+        search = ActuatorSearch(REGION, None)
+        search.groups, search.rows = [("external",)] * count, [rows] * count
+        guess = tuple(rng.choice(rows) for _ in range(count))
+        monkeypatch.setattr(search, "_guess", lambda root, guess=guess: guess)
+        monkeypatch.setattr(search, "_value", lambda result, complete=False: result.least)
+        monkeypatch.setattr(search, "_ask", lambda some, s=search, f=solved: s.results.setdefault(some, f(some)))
+        found = [values[some] for some in search._best_first()]
+        assert found == [value for value in sorted(values.values())[:2] if value < math.inf]
+
+
+@pytest.mark.slow
+def test_rows_without_a_design_that_were_solved_early_are_not_the_best():
+    """The rows nearest to the best design of all have none here: the search ended with an error."""
+    limits = {name: {"max_deg": 45.0} for name in ("base_cone", "platform_cone")}
+    rows = (("SA6", 7.0, 11.0, 900.0, 6.0), ("SA8", 9.0, 14.5, 900.0, 5.0), ("SA10", 11.0, 18.5, 1200.0, 5.0),
+            ("SA12", 14.0, 23.0, 1200.0, 4.5), ("SA16", 18.0, 30.0, 1500.0, 4.0))  # fmt: skip
+    study = nd.Study(
+        unit="in",
+        family="hexagonal",
+        characteristic_length=6.0,
+        variables={"a1": 0.0, "a2": (6.0, 34.0), "b1": (3.0, 14.0), "b2": 0.0, "zp": (12.0, 28.0), "zs": (3.0, 25.0)}
+        | {"theta_z": 0.0},
+        constraints=limits | {"leg_clearance": {"radius": 0.6}, "power": {"max": 4000.0}, "singularity_free": {}},
+        objective={"poses": nd.poses.box(half=(2.0, 2.0, 1.5))},
+        tool={"position": [0.0, 0.0, -3.5]},
+        loads={"wrenches": [[0.0, 0.0, 40.0, 0.0, 0.0, 300.0]]},
+        masses={"platform": 14.0, "centre": [0.0, 0.0, -1.0], "cylinder": 1.4, "rod": 0.6, "cylinder_centre": 4.0}
+        | {"rod_centre": 4.0},
+        speeds={"linear": 3.0, "angular_deg": 15.0},
+        actuators=[nd.Actuator(name, *ends, force=force, rate=rate) for name, *ends, force, rate in rows],
+        starts=2,
+    )
+    result = nd.optimize(study)
+    assert result.status == nd.Status.OPTIMAL
+    alone = nd.optimize(study.with_actuators(result.actuators.chosen.rows))
+    assert alone.objective == pytest.approx(result.objective, rel=1e-6)
+    assert result.actuators.next_best.objective >= result.objective
