@@ -108,6 +108,12 @@ class Tool(StudyTable):
         where = amount(f"({at})", unit_argument(unit))
         return [f"tool at {where}"] * bool(self) + [f"tool turned ({turn})°"] * any(self.rotation)
 
+    def remark(self, unit: str = "") -> list[str]:
+        """Return that p is the tool's point, a sentence; none where it is the plate's origin."""
+        at = amount(f"({', '.join(f'{x:.5g}' for x in self.position)})", unit_argument(unit))
+        of = "p, poses, speeds, moments and errors are of the tool's point"
+        return [f"{of}, {at}, in the frame of the plate"] * bool(self)
+
     def seen(self, point: Vector) -> Vector:
         """Return a point of the platform's frame in the tool's frame."""
         return self.turned(np.subtract(vector("point", point), self.position))
@@ -217,6 +223,11 @@ class Masses(StudyTable):
     cylinder_inertia: float = entry(positive_or_zero, 0.0)
     rod_inertia: float = entry(positive_or_zero, 0.0)
     internal_point: float = entry(positive_or_zero, 0.0)
+
+    def __bool__(self) -> bool:
+        """Whether anything has a mass or an inertia."""
+        places = ("centre", "cylinder_centre", "rod_centre")
+        return any(np.any(value) for name, value in vars(self).items() if name not in places)
 
     def seen_from(self, tool: Tool) -> Masses:
         """Return the same masses with centre and inertia in the tool's frame, that of geometries and poses."""

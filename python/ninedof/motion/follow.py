@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -89,6 +90,8 @@ class Followed(Saved):
     """Name of the length unit; "" without one."""
     force_unit: str = ""
     """"N" for masses in kilograms and lengths with a unit; "": that of the load, or what goes with the masses."""
+    study_breaks: tuple[LimitBreak, ...] | None = None
+    """Stretches in which other limits of the study are violated, see `path_limits`; None where none was held."""
 
     @property
     def time(self) -> Floats:
@@ -102,10 +105,14 @@ class Followed(Saved):
 
     @cached_property
     def breaks(self) -> tuple[LimitBreak, ...]:
-        """Stretches of time in which a leg violates its limit (by more than 1e-6 of it), and singularities passed."""
+        """Stretches of time in which limits are violated, of legs by more than 1e-6 of it, and singularities passed.
+
+        Other limits than those of legs are held for a design of a study: `study_breaks`.
+        """
         determinants = np.stack(self.singularity_margins)
         entries = _core.limit_breaks(self.time, self.leg_lengths, *self.limits, determinants)
-        return tuple(LimitBreak(*entry) for entry in entries)
+        breaks = [*(LimitBreak(*entry) for entry in entries), *(self.study_breaks or ())]
+        return tuple(sorted(breaks, key=lambda one: (one.begin, one.limit)))
 
     @property
     def idle_legs(self) -> tuple[str, ...]:
@@ -196,8 +203,13 @@ class Followed(Saved):
 
     def __repr__(self) -> str:
         """Show the number of poses and what is not kept."""
-        limits = ", ".join(sorted({entry.limit for entry in self.breaks}))
-        return f"<Followed: {len(self.time)} poses, {'breaks ' + limits if limits else 'within limits'}>"
+        if breaks := sorted({entry.limit for entry in self.breaks}):
+            words = f"breaks {', '.join(breaks)}"
+        elif self.study_breaks is not None:
+            words = "within limits"
+        else:
+            words = "legs within their lengths" if np.isfinite(self.limits[1]).any() else "no limits given"
+        return f"<Followed: {len(self.time)} poses, {words}>"
 
     def _repr_html_(self) -> str:
         return notebook(repr(self), *motion_tables(self.to_dict()))
@@ -215,6 +227,8 @@ class Followed(Saved):
         c = Configuration(path.position, path.rotation, entries.pop("o"))
         entries["limits"] = tuple(entries["limits"])
         entries["singularity_margins"] = SingularityMargins(*entries["singularity_margins"])
+        if (breaks := entries.get("study_breaks")) is not None:
+            entries["study_breaks"] = tuple(LimitBreak(*one) for one in breaks)
         return cls(geometry=g, trajectory=path, configurations=c, **entries)
 
 
@@ -227,7 +241,7 @@ def follow(
     characteristic_length: float | str | None = None,
     load: tuple[ArrayLike | None, ArrayLike | None] = (None, None),
     masses: Any = None,
-    gravity: ArrayLike = GRAVITY,
+    gravity: ArrayLike | None = None,
 ) -> Followed:
     """Return lengths, rates and accelerations of the legs along a trajectory, and what limits it.
 
@@ -239,7 +253,8 @@ def follow(
     ----------
     geometry : Geometry, Result or Design
         A design stands for its geometry, its home and its characteristic length, one of a study, as a Result, also for
-        the leg lengths that the study permits and for the rule for O of its region.
+        the leg lengths that the study permits, the rule for O of its region, its loads, masses and gravity; all limits
+        of its study are held along the path, as `path_limits` does.
     trajectory : Trajectory
     home : Configuration
         The neutral configuration, a single one: it says where O is. Needed with a Geometry.
@@ -258,12 +273,13 @@ def follow(
         design its own.
     load : (force, moment), optional
         On the platform at its origin, base axes, for the leg forces: each of shape (3,) or (n, 3), or None. Several
-        loads, each on its own: (k, 1, 3) or (k, n, 3).
+        loads, each on its own: (k, 1, 3) or (k, n, 3). None by default, of a study its wrenches.
     masses : Masses, optional
         Weights and inertia of all bodies in the motion are added to the load, as in `inverse_dynamics`: in newtons for
-        kilograms where the path has a length unit, time in seconds. None by default.
+        kilograms where the path or the design has a length unit, time in seconds. In the frame of the geometry, that of
+        the tool. None by default, of a study its masses.
     gravity : array_like, shape (3,)
-        Force per mass, base axes; (0, 0, -9.81) by default. Of the masses only.
+        Force per mass, base axes; (0, 0, -9.81) by default, of a study its own. Of the masses only.
 
     Returns
     -------
@@ -288,30 +304,39 @@ def follow(
 
     """
     instance("trajectory", trajectory, Trajectory)
-    rule, lc, design = internal_point, characteristic_length, geometry
+    rule, lc, design, ends = internal_point, characteristic_length, geometry, items("load", load, "force and moment", 2)
+    study: Any = None if isinstance(design, Geometry) else getattr(design, "study", None)
+    own: str = "" if isinstance(design, Geometry) else getattr(study or design, "unit", "")
+    if own and trajectory.unit and own != trajectory.unit:
+        raise ValueError(f"trajectory: got lengths in {trajectory.unit}, expected {own} as in the design")
+    path, unit = trajectory, trajectory.unit or own
     if isinstance(design, Geometry):
         g = design
     else:
         g, home = robot_of(design), design.configuration if home is None else home
         limits = getattr(design, "permitted_lengths", None) if limits is None else limits
         lc = design.characteristic_length if lc is None else lc
-        if (study := getattr(design, "study", None)) and study.objective.region and rule is None:
-            rule = study.objective.region.internal_point
+    if study:
+        rule = study.objective.region.internal_point if rule is None and study.objective.region else rule
+        ends = ends if any(end is not None for end in ends) else wrenches_along(study.loads.wrenches)
+        masses = study.masses.seen_from(study.tool) if masses is None and study.masses else masses
+        gravity = study.loads.gravity if gravity is None else gravity
     rule, lc = "carried" if rule is None else rule, 1.0 if lc is None else lc
     if home is None:
         raise ValueError("home: got none, expected the neutral configuration of a Geometry")
     single(g, home, "home")
     rule = choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
     lc = length_at(g, home, lc)
-    path, bounds, ends, forces = trajectory, leg_limits(limits), items("load", load, "force and moment", 2), None
-    gravity_for_core(gravity, path.unit)  # refuses what is no gravity, even where nothing weighs
+    bounds, forces = leg_limits(limits), None
+    gravity = GRAVITY if gravity is None else gravity
+    gravity_for_core(gravity, unit)  # refuses what is no gravity, even where nothing weighs
     motion = _core.follow(g, home, path.time, path.position, path.rotation, rule, bounds, lc)
     poses, margins = (motion.pop(name) for name in ("tracked", "singularity_margins"))
     c = Configuration(path.position, path.rotation, motion.pop("internal_point"))
     if masses is not None or any(end is not None for end in ends):
         v, a = motion["velocity"], motion["acceleration"]
-        forces = inverse_dynamics(g, c, v, a, masses, gravity, _loads(*ends), path.unit).forces
-    return Followed(
+        forces = inverse_dynamics(g, c, v, a, masses, gravity, _loads(*ends), unit).forces
+    followed = Followed(
         geometry=g,
         trajectory=path,
         configurations=c,
@@ -322,10 +347,20 @@ def follow(
         leg_forces=forces,
         tracked=poses == len(path),
         tracked_until=float(path.time[poses - 1]),
-        unit=path.unit,
-        force_unit="N" if masses is not None and path.unit else "",
+        unit=unit,
+        force_unit="N" if masses is not None and unit else "",
         **motion,
     )
+    held = getattr(design, "path_limits", None)  # of a study; a geometry has none
+    return replace(followed, study_breaks=held(followed, home).breaks) if study and held else followed
+
+
+def wrenches_along(wrenches: Sequence[Sequence[float]]) -> tuple[Floats | None, Floats | None]:
+    """Return force and moment for `follow` of wrenches, moment first, each a load on its own; None without any."""
+    if not wrenches:
+        return None, None
+    rows = np.array(wrenches)[:, None] if len(wrenches) > 1 else np.array(wrenches[0])
+    return rows[..., 3:], rows[..., :3]
 
 
 def _loads(force: Any, moment: Any) -> Floats:

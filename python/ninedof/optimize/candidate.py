@@ -12,8 +12,10 @@ from ninedof.design.design_point import DERIVED, DesignPoint, robot_at
 from ninedof.design.poses import Pose
 from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
+from ninedof.motion.follow import Followed
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.support.arrays import Floats
 from ninedof.support.structs import Fixed, entries_of, from_core, plain_fields
 from ninedof.support.text import short_repr
@@ -46,6 +48,10 @@ class OfStudy:
             return None
         study: Study = self.study
         return study.leg_limits(self.configuration, (self.region and self.region.leg_ranges) or None)
+
+    def path_limits(self, followed: Followed, home: Configuration | None = None) -> PathLimits:
+        """Return the limits of its study along a motion of it, from its own neutral configuration by default."""
+        return path_limits(self.study, followed, self.configuration if home is None else home)
 
 
 @short_repr

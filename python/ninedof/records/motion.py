@@ -50,16 +50,10 @@ def legs_csv(motion: Followed) -> bytes:
 
 def motion_values(motion: Followed, limits: PathLimits | None) -> dict[str, Any]:
     """Return a motion with the limits of a study as plain values; angles in degrees, as "worst_deg"."""
-    out = motion.to_dict()
-    if limits is None:
-        return out
-    out["limits"] = limits.worst()
-    for broken in limits.breaks:
-        row = broken._asdict()
-        if broken.limit.startswith(CONES):
+    out = motion.to_dict() | ({} if limits is None else {"limits": limits.worst()})
+    for row in out["breaks"]:
+        if row["limit"].startswith(CONES):
             row["worst_deg"] = math.degrees(row.pop("worst"))
-        out["breaks"].append(row)
-    out["breaks"].sort(key=lambda row: (row["begin"], row["limit"]))
     return out
 
 

@@ -24,7 +24,7 @@ from ninedof.paper.comparison import PaperComparison
 from ninedof.pareto import Front
 from ninedof.pareto.limits import with_limit, without_degrees
 from ninedof.proof.optimum_proof import FILE as CERTIFICATE
-from ninedof.records.motion import write_tables
+from ninedof.records.motion import motion_values, write_tables
 from ninedof.sheet.path_limits import PathLimits
 from ninedof.support.extras import versions
 from ninedof.support.files import json_bytes, read_json, write_whole
@@ -168,7 +168,7 @@ def _record_of(run: Run, question: Mapping[str, Any], results: Mapping[str, Any]
     if isinstance(run, WorkspaceMap):
         return Record("workspace", question, {"workspace": run.to_dict()})
     if isinstance(run, Followed):
-        return Record("motion", question, results or {"motion": run.to_dict()})
+        return Record("motion", question, results or {"motion": motion_values(run, None)})
     own = {name: value for name, value in run.attributes.items() if name not in versions()}
     question = {**question, **own}
     return Record("atlas" if run.attributes.get("kind") == "atlas" else "sweep", question, results)

@@ -21,9 +21,6 @@ from ninedof.robot.idle import IDLE
 from ninedof.support.arguments import Vector, choice, finite, shown, vector
 from ninedof.support.arrays import Floats, as_floats
 
-WEIGHTS = ("platform", "inertia", "cylinder", "rod", "cylinder_inertia", "rod_inertia", "internal_point")
-"""Entries of masses of which one is not 0 where a machine has any."""
-
 
 def duty_of(design: Any) -> Study:
     """Return the study of a design with the poses that it was solved for; without one, one with its unit and tool."""
@@ -86,9 +83,7 @@ def masses_of(study: Study, mass: float | None = None, centre: Vector | None = N
         masses = replace(masses, platform=mass)
     if centre is not None:
         masses = replace(masses, centre=centre)
-    if not any(np.any(getattr(masses, name)) for name in WEIGHTS):
-        return None
-    return masses.seen_from(study.tool)
+    return masses.seen_from(study.tool) if masses else None
 
 
 def masses_besides_platform(study: Study) -> Masses | None:

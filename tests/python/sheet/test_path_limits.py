@@ -100,3 +100,45 @@ def test_rows_as_text_have_the_unit_of_their_limit():
     assert rows[1] == ("leg_clearance", "min", "20 mm", "30 mm", "50.00 %", "0.5")
     assert rows[2][2:4] == ("20", "30")
     assert rows[3][4] == "0.2500"
+
+
+def test_a_path_of_a_result_has_loads_masses_and_all_limits_of_its_study(tmp_path):
+    """It said "within limits" of the legs alone, and had no forces."""
+    study = nd.Study(
+        unit="mm",
+        family="hexagonal",
+        variables={"a1": 0.0, "a2": 580.0, "b1": 290.0, "b2": 0.0, "zp": 400.0, "zs": 240.0, "theta_z": 0.0},
+        characteristic_length=100.0,
+        constraints={"base_cone": {"max_deg": 1.5}, "force": {"max": 1000.0}, "leg_length": (1.0, 900.0)},
+        objective={"region": {"box": [1.0, 1.0, 1.0]}},
+        tool={"position": [0.0, 0.0, -10.0]},
+        loads={"gravity": [0.0, 9.81, 0.0], "wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -90.0], [0.0] * 6]},
+        masses={"platform": 3.0, "centre": [0.0, 0.0, 5.0]},
+    )
+    result = nd.optimize(study)
+    home, masses = result.configuration, study.masses.seen_from(study.tool)
+    line = nd.Trajectory.line(home, [0.5, 0.0, 0.0], points=51)
+    along = nd.follow(result, line)
+    by_hand = nd.follow(
+        result.geometry,
+        nd.Trajectory.line(home, [0.5, 0.0, 0.0], points=51, unit="mm"),
+        home,
+        "shifted",
+        load=(np.array([[[0.0, 0.0, -90.0]], [[0.0] * 3]]), None),
+        masses=masses,
+        gravity=study.loads.gravity,
+    )
+    assert (along.leg_forces == by_hand.leg_forces).all()
+    assert (along.unit, along.force_unit, along.load_count) == ("mm", "N", 2)
+    assert repr(along) == "<Followed: 51 poses, within limits>"
+    assert repr(by_hand) == "<Followed: 51 poses, no limits given>"
+    far = nd.Trajectory.line(home, [20.0, 0.0, 0.0], points=51)
+    broken = nd.follow(result, far)
+    assert broken.breaks == nd.path_limits(study, broken, home).breaks != ()
+    assert "breaks base_cone l" in repr(broken)
+    assert repr(nd.follow(result.geometry, far, home, limits=(1.0, 900.0))).endswith("legs within their lengths>")
+    nd.save(broken, tmp_path / "path")
+    assert nd.load(tmp_path / "path").breaks == broken.breaks
+    assert "worst_deg" in (tmp_path / "path" / "record.json").read_text()
+    with pytest.raises(ValueError, match="trajectory: got lengths in in, expected mm as in the design"):
+        nd.follow(result, nd.Trajectory.line(home, [20.0, 0.0, 0.0], points=51, unit="in"))
