@@ -10,6 +10,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.records.figures import figures_of
+from ninedof.records.proofs import certificate_file, save_certificate
 from ninedof.records.record import write_run
 
 pytestmark = pytest.mark.skipif(chromium.PROGRAM is None, reason="needs the program chromium")
@@ -149,15 +150,39 @@ POSES = [
     *nd.poses.box(half=(30.0, 30.0, 20.0), tilt_deg=(5, 0, 10)),
 ]
 POSED = replace(LOADED, objective={"poses": POSES[:31]})
+OF_KINDS = {"external": (14.0, 23.0, 1200.0, 4.5), "upper": (7.0, 11.0, 900.0, 6.0), "lower": (14.0, 23.0, 1200.0, 4.5)}
+CERTIFIED = replace(
+    LOADED,
+    unit="in",
+    characteristic_length=6.0,
+    about={"project": "Drill head positioner", "author": "J. Doe", "revision": "B"},
+    variables={"a1": 0.0, "a2": (6.0, 34.0), "b1": (3.0, 14.0), "b2": 0.0, "zp": (12.0, 28.0), "zs": (3.0, 25.0)}
+    | {"theta_z": 0.0},
+    constraints={"base_cone": {"max_deg": 45.0}, "platform_cone": {"max_deg": 45.0}, "leg_clearance": {"radius": 0.6}}
+    | {"power": {"max": 4000.0}, "singularity_free": {}}
+    | {f"{kind}_length": row[:2] for kind, row in OF_KINDS.items()}
+    | {f"{kind}_force": {"max": row[2]} for kind, row in OF_KINDS.items()}
+    | {f"{kind}_rate": {"max": row[3]} for kind, row in OF_KINDS.items()},
+    objective={"region": {"box": [2.0, 2.0, 1.5], "tilt_deg": 8.0}},
+    tool={"position": [0.0, 0.0, -3.5]},
+    loads={"wrenches": [[0.0, 0.0, 40.0, 0.0, 0.0, 300.0]]},
+    masses={"platform": 14.0, "centre": [0.0, 0.0, -1.0], "cylinder": 1.4, "rod": 0.6},
+    speeds={"linear": 3.0, "angular_deg": 15.0},
+    tolerances={"joints": 0.001, "legs": 0.0005},
+)
 
 
 @pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize(
-    "study", [ORDINARY, LOADED, POSED], ids=["ordinary", "loads and limits of them", "dozens of poses too"]
+    "study",
+    [ORDINARY, LOADED, POSED, CERTIFIED],
+    ids=["ordinary", "loads and limits of them", "dozens of poses too", "a certificate too"],
 )
 def test_a_report_has_at_most_four_pages_and_no_table_is_torn_or_cut(browser, tmp_path, study):
     result = nd.optimize(study)
     write_run(result, tmp_path, figures_of(result, lambda _: None))
+    if study is CERTIFIED:
+        save_certificate(result.certify(time_limit=20.0), certificate_file(tmp_path))
     made = nd.report(tmp_path)
     for width in DESKTOP:
         browser.open(made, width, 1000)
