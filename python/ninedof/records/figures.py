@@ -87,7 +87,7 @@ def _figures(
         lines = () if region is None else region_lines(region, c)
         plate = tool.plate(c)
         zp, zs = (amount(f"{point[2]:.4f}", note) for point in (plate.position, plate.internal_point))
-        panels.append(plot.Robot(name, g, c, kappa, f"{worst}zp = {zp}, zs = {zs}", lines))
+        panels.append(plot.Robot(name, g, c, kappa, f"{worst}zp = {zp}, zs = {zs}", lines, tool))
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
     files += plot.save(plot.drawing(*designs[-1][1:3], note, tool), directory, "drawing")
     say("drawing the condition number along zs and theta_z")

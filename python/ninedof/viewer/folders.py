@@ -47,7 +47,8 @@ def build(panel: Panel) -> None:
     panel.text("legend", lambda: legend_html(lines_shown(panel.state)))
     family = panel.state.machine.family.replace("_", " ")
     design = f"Design: {family}" if family else "Design"
-    for title, folder in {"Platform": _platform, "Internal point O": _internal_point}.items():
+    body = "Tool's point" if panel.state.machine.design.tool else "Platform"
+    for title, folder in {body: _platform, "Internal point O": _internal_point}.items():
         with panel.gui.add_folder(title):
             folder(panel)
     if (designs := panel.viewer.designs) is not None:
@@ -92,9 +93,10 @@ def _coordinate(panel: Panel, k: int, label: str, reach: float, hint: str) -> No
 
 
 def _platform(panel: Panel) -> None:
-    reach = REACH * panel.state.machine.size
+    reach, tool = REACH * panel.state.machine.size, bool(panel.state.machine.design.tool)
+    of = "tool's point" if tool else "platform's origin"
     for k in range(3):
-        _coordinate(panel, k, with_unit("{}", panel.unit), reach, "Position of the platform's origin, base frame")
+        _coordinate(panel, k, with_unit("{}", panel.unit), reach, f"Position of the {of}, base frame")
     for k in range(3, 6):
         _coordinate(panel, k, "rotation {} (°)", TURN, "Rotation vector from the neutral orientation, base axes")
     panel.button("Home", "home", panel.state.go_home, "Back to the neutral pose")

@@ -33,7 +33,7 @@ LABEL_AT = {"l": 0.5, "q": 0.4, "r": 0.5}  # of the length of a leg
 THICK = 0.045  # of a plate
 O_COLOUR, PATH_COLOUR, EDGES_DARK = "#FFC22E", "#AA3377", "#C8D0D8"
 PARTS = {
-    "labels": {f"/labels/{name}" for name in (*LEGS, "O")},
+    "labels": {f"/labels/{name}" for name in (*LEGS, "O", "tool")},
     "handles": {"/platform gizmo", "/O gizmo"},
     "axes": {"/base axes", "/platform axes"},
     "region": {"/region"},
@@ -79,6 +79,13 @@ class Scene:
         for name, size in GIZMOS.items():  # apart from each other, so that either can be taken
             if f"/{name} gizmo" not in held:
                 self._set(f"/{name} gizmo", scale=max(size * min(1.0, apart / sum(GIZMOS.values())), LEAST))
+        if tool := state.machine.design.tool:
+            plate = tool.plate(c).position
+            line = np.array([plate, c.position])
+            self._lines("/tool", line.tobytes(), [line], style.REGION)
+            if self._outdated("", "/labels/tool"):
+                self.nodes["/labels/tool"] = self._api.add_label("/labels/tool", "tool", anchor="top-left")
+            self._set("/labels/tool", position=self.scale * c.position)
         self._legs(points, numbers.legs_out)
         self._joints(points[:12], numbers.cones_passed)
         self._ellipsoid(state.ellipsoid(), c)

@@ -277,6 +277,30 @@ def test_the_drawing_has_the_twist_and_the_tool_on_the_plates_as_they_are_made()
     assert np.ravel(mark.get_data()) == pytest.approx(at[[0, 2]])
 
 
+@pytest.mark.slow(sanitized=True)
+def test_names_of_legs_in_the_front_do_not_lie_on_each_other():
+    """The platform's internal joints are near O: q2 was under q3, "qq3". A thin line leads to such a name."""
+    radii = {"base_external_radius": 476.095, "base_internal_radius": 500.0, "base_internal_angle": -3.03654}
+    radii |= {"platform_external_radius": 220.0, "platform_external_angle": 0.873511, "zp": 700.0, "zs": 619.951}
+    radii |= {"platform_internal_radius": 64.9328, "platform_internal_angle": -2.663182}
+    point = nd.Study(family="symmetric", constraints={}).evaluate(radii)
+    figure = plot.drawing(point.geometry, point.configuration, "mm")
+    boxes = {text.get_text(): text.get_window_extent().shrunk(0.8, 0.7) for text in figure.axes[2].texts}
+    named = [boxes[name] for name in (*LEGS, "O")]
+    assert not [1 for k, box in enumerate(named) for other in named[:k] if box.overlaps(other)]
+
+
+def test_the_mechanism_shows_the_tool():
+    tool = nd.Tool((0.2, 0.0, -1.0), (0.0, 0.3, 0.5))
+    g, c = tool.robot(G, STANDING)
+    figure = plot.mechanism(plot.Robot("", g, c, tool=tool))
+    (line,) = [one for one in figure.axes[0].lines if one.get_marker() == "v"]
+    assert np.transpose(line.get_data_3d()) == pytest.approx(np.array([STANDING.position, c.position]))
+    assert "tool" in [text.get_text() for text in figure.legends[0].get_texts()]
+    without = plot.mechanism(plot.Robot("", G, STANDING))
+    assert "tool" not in [text.get_text() for text in without.legends[0].get_texts()]
+
+
 # --- The body of a workspace ------------------------------------------------------------------------------------------
 
 

@@ -92,6 +92,18 @@ def test_closing_ends_a_search_for_a_workspace():
     assert free_of_threads(before) is True
 
 
+def test_a_tool_is_drawn_and_the_sliders_are_said_to_be_of_its_point():
+    tool = nd.Tool((0.0, 0.0, -1.0))
+    g, c = tool.robot(nd.Geometry.hexagonal(0.0, 5.8124, 2.9062, 0.0), nd.Configuration.neutral(3.9828, 2.3745))
+    with nd.view(nd.Design(g, c, 1.0, "", tool), port=0) as viewer, viewer.lock:
+        viewer.update(settled=True)
+        assert {"/tool", "/labels/tool"} <= set(viewer.scene.nodes)
+        handles = viewer._server.gui._container_handle_from_uuid.values()
+        folders = [getattr(one, "label", "") for one in handles]
+    assert "Tool's point" in folders
+    assert "Platform" not in folders
+
+
 def test_only_what_changed_is_sent():
     with nd.view(port=0) as viewer, viewer.lock:
         viewer.update(settled=True)

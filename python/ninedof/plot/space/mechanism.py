@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -20,10 +20,14 @@ from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.robot.plates import distinct, outlines, points_of
 from ninedof.support.arrays import Floats
 
+if TYPE_CHECKING:
+    from ninedof.design.duty import Tool
+
 DASHES = {"l": "-", "q": (0, (4.5, 0.9)), "r": (0, (1.6, 0.7))}  # told apart without colours
 WIDTHS = {"l": 2.0, "q": 1.6, "r": 1.6}
 POINT_O = {"marker": "D", "color": style.INK, "ms": 4.2, "mec": "white", "mew": 0.7, "ls": ""}
 """A diamond: a ring beside the letter O would be read as a second one."""
+TOOL = {"color": style.REGION, "lw": 1.6, "marker": "v", "ms": 5.0, "mec": "white", "mew": 0.5}
 _LEGEND = {"handlelength": 1.5, "columnspacing": 1.2}
 
 
@@ -40,6 +44,8 @@ class Robot:
     """A second line of the caption, such as the sizes."""
     lines: Sequence[ArrayLike] = ()
     """The outline of a region of poses, lines of points (n, 3)."""
+    tool: Tool | None = None
+    """Whose point and axes geometry and configuration are about; None without one."""
 
     def points(self) -> Floats:
         """Return base joints, platform joints in the base frame (external before internal), and O: shape (13, 3)."""
@@ -48,7 +54,12 @@ class Robot:
 
     def corners(self) -> tuple[Floats, Floats]:
         """Return the corners of the box about it and the lines."""
-        return scene.corners(np.vstack([self.points(), *map(np.asarray, self.lines)]))
+        return scene.corners(np.vstack([self.points(), *map(np.asarray, self.lines), *self.tool_line()]))
+
+    def tool_line(self) -> list[Floats]:
+        """Return the line from the plate's origin to the tool's point, shape (2, 3); none without a tool."""
+        plate = self.tool.plate(self.configuration) if self.tool else None
+        return [] if plate is None else [np.array([plate.position, self.configuration.position])]
 
 
 def mechanism(
@@ -97,7 +108,9 @@ def mechanism(
         if robot.title:
             ax.set_title(robot.title, loc="center", pad=0)
         if legend:
-            ax.legend(handles=_keys(), loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=3, **_LEGEND)
+            ax.legend(
+                handles=_keys(bool(robot.tool)), loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=3, **_LEGEND
+            )
     figure: Figure = ax.figure
     return figure
 
@@ -134,7 +147,7 @@ def mechanisms(robots: Sequence[Robot], unit: str = "", figure: Figure | None = 
         tall = style.inches(figure)[1]
         for k, robot in enumerate(robots):
             axes = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d")
-            mechanism(Robot("", robot.geometry, robot.configuration, lines=robot.lines), unit, axes, (low, high), False)
+            mechanism(replace(robot, title=""), unit, axes, (low, high), False)
             scene.fit(axes, low, high, (k * share, keys / tall, share, 1.0 - (words + keys) / tall))
             middle, kappa = (k + 0.5) * share, robot.condition_number
             text = "" if kappa is None else f"condition number {kappa:.4f}"
@@ -142,7 +155,10 @@ def mechanisms(robots: Sequence[Robot], unit: str = "", figure: Figure | None = 
             figure.text(middle, 1.0 - 0.16 / tall, robot.title, size=style.TITLE_SIZE, weight="bold", **options)
             figure.text(middle, 1.0 - 0.3 / tall, text, size=style.TEXT_SIZE, **options)
             figure.text(middle, 1.0 - 0.43 / tall, robot.note, size=style.SMALL_SIZE, color=style.MUTED, **options)
-        names = _keys() + [style.key(style.REGION, lw=0.8, label="region of poses")] * lines
+        names = (
+            _keys(any(robot.tool for robot in robots))
+            + [style.key(style.REGION, lw=0.8, label="region of poses")] * lines
+        )
         columns = 3 if single else 4 if lines else 6
         figure.legend(handles=names, loc="lower center", bbox_to_anchor=(0.5, 0.0), ncols=columns, **_LEGEND)
     return figure
@@ -174,7 +190,9 @@ def draw(axes: Any, robot: Robot, clear_of: Sequence[Floats] = ()) -> None:
     axes.plot(*joints.T, "o", color=style.INK, ms=3.2, mec="white", mew=0.5, zorder=21)
     axes.plot(*o[:, None], **POINT_O, zorder=22)
     away = 0.05 * np.ptp(axes.get_xlim())
-    write_names(axes, legs, o, away, outlines(base), clear_of)
+    for line in robot.tool_line():
+        axes.plot(*line.T, zorder=23, markevery=[1], **TOOL)
+    write_names(axes, legs, o, away, outlines(base), [*clear_of, *robot.tool_line()])
 
 
 def legs_of(points: Floats) -> list[Leg]:
@@ -182,13 +200,14 @@ def legs_of(points: Floats) -> list[Leg]:
     return list(zip(LEGS, points[[0, 1, 2, 12, 12, 12, 3, 4, 5]], points[[*range(6, 12), 12, 12, 12]], strict=True))
 
 
-def _keys() -> list[Any]:
+def _keys(tool: bool) -> list[Any]:
     words = {"l": "external legs l", "q": "upper internal q", "r": "lower internal r"}
     return [
         *(style.key(style.LEG_COLOURS[k], lw=WIDTHS[k], ls=DASHES[k], label=label) for k, label in words.items()),
         Patch(color=style.BASE, label="base"),
         Patch(color=style.PLATFORM, label="platform"),
         style.key(**POINT_O, label="internal point O"),
+        *([style.key(**TOOL, label="tool")] if tool else []),
     ]
 
 
