@@ -358,6 +358,30 @@ class Study:
         )
 
     @property
+    def has_free_variables(self) -> bool:
+        """Whether a variable has a range, a length is sought, or O is placed at some pose."""
+        region, poses = self.objective.region, self.objective.poses
+        placed = [pose.internal_point for pose in poses] + ([region.internal_point] if region else [])
+        length = isinstance(self.characteristic_length, tuple)
+        return length or "best" in placed or any(isinstance(ends, tuple) for ends in self.variables.values())
+
+    @property
+    def gravity_note(self) -> str:
+        """The sentence to print first where masses are no kilograms, by gravity, or it is in another unit; else ""."""
+        size = math.hypot(*self.loads.gravity)
+        if not (self.unit and self.masses) or size == 0.0 or 1.5 <= size <= 30.0:
+            return ""
+        return (
+            f"gravity is {size:g}: with a unit of lengths masses are kilograms, forces newtons and gravity is in m/s², "
+            "9.81 on earth, whatever the unit. Give pounds as kilograms: 1 lb is 0.45359237 kg, 1 lbf is 4.4482216 N"
+        )
+
+    @property
+    def notes(self) -> list[str]:
+        """The sentences to print first, of what was left out and of units that do not go together."""
+        return [note for note in (self.length_note, self.gravity_note) if note]
+
+    @property
     def angles(self) -> tuple[str, ...]:
         """Names of the variables that are angles, in radians; in files and on screens in degrees."""
         return tuple(name for name, kind in variable_kinds(self.family).items() if kind == "angle")

@@ -104,8 +104,8 @@ def optimize(
 
     """
     instance("study", study, Study)
-    if study.length_note:
-        warnings.warn(study.length_note, stacklevel=2)
+    for note in study.notes:
+        warnings.warn(note, stacklevel=2)
     progress_argument(progress)
     study = study.with_solver(starts, seed)
     count = thread_argument(threads)

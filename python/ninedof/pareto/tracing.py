@@ -97,8 +97,8 @@ def pareto(
     thread_argument(threads)
     whole("points", points, 2, MOST_POINTS)
     plain, degrees = without_degrees(against)
-    if study.length_note:
-        warnings.warn(study.length_note, stacklevel=2)
+    for note in study.notes:
+        warnings.warn(note, stacklevel=2)
     study, limit = resolve(replace(study), plain)  # a copy has no note of its own
     fixed = None if values is None else _values(values, limit, degrees)
     begin, interrupted, limits = perf_counter(), False, fixed

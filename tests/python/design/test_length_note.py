@@ -47,3 +47,19 @@ def test_the_command_says_it_first(command, run, tmp_path):
     said = " ".join(out.split())
     assert said.startswith("characteristic_length is not given: 1 mm assumed. A turn of 1 rad then counts as much")
     assert said.count("characteristic_length is not given") == 1
+
+
+def test_gravity_that_is_of_other_masses_than_kilograms_is_said_too(run, tmp_path):
+    """Pounds, or inches per second squared, gave wrong forces without a word."""
+    fixed = {**SIDES, "zp": 500.0, "zs": 300.0}
+    for size, told in ((1.0, True), (386.1, True), (9.81, False), (1.62, False), (0.0, False)):
+        duty = {"masses": {"platform": 5.0}, "loads": {"gravity": [0.0, 0.0, -size]}, "characteristic_length": 150.0}
+        assert bool(nd.Study(variables=fixed, unit="in", **duty).gravity_note) is told
+        assert nd.Study(variables=fixed, **duty).gravity_note == ""
+        assert nd.Study(variables=fixed, unit="in", **duty | {"masses": {}}).gravity_note == ""
+    study = nd.Study(variables=fixed, unit="in", **duty | {"loads": {"gravity": [0.0, 0.0, -1.0]}})
+    with pytest.warns(UserWarning, match="gravity is 1: with a unit of lengths masses are kilograms"):
+        nd.optimize(study)
+    study.save(tmp_path / "study.toml")
+    _, out, errors = run(f"optimize {tmp_path / 'study.toml'} --no-figures --no-report --out {tmp_path / 'run'}")
+    assert (out + errors).count("gravity is 1:") == 1
