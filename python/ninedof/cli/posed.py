@@ -40,6 +40,7 @@ from ninedof.support.units import unit_entry
 POSE = ("position", "rotation_deg", "internal_point")  # options that say where to look
 NO_SIDE = 1e-12  # a determinant that is zero but for rounding
 SAME = 1e-9  # relative: poses that differ by less coincide
+ALIKE = 1e-3  # the same, of what the poses that ruled over a region span
 
 
 @dataclass(frozen=True)
@@ -178,9 +179,19 @@ class DesignAtPoses(Chosen):
     c: nd.Configuration
 
     def first(self, k: int) -> int:
-        """Return the first pose that coincides with one: poses of a study may, and are named and printed once."""
-        rows = np.hstack([x.reshape(len(self.c), -1) for x in arrays_of(self.c).values()])
-        return int(np.argmax(np.abs(rows - rows[k]).max(axis=1) <= SAME * np.abs(rows[k]).max()))
+        """Return the first pose that coincides with one: poses of a study may, and are named and printed once.
+
+        Those that ruled over a region coincide where they are equal to a thousandth of what they span.
+        """
+        rows = [x.reshape(len(self.c), -1) for x in arrays_of(self.c).values()]
+        size = SAME * max(np.abs(x[k]).max() for x in rows)
+        spans = [np.ptp(x, axis=0).max() if self._region else 0.0 for x in rows]
+        near = [np.abs(x - x[k]).max(axis=1) <= max(size, ALIKE * span) for x, span in zip(rows, spans, strict=True)]
+        return int(np.argmax(np.all(near, axis=0)))
+
+    @property
+    def _region(self) -> bool:
+        return self.study is not None and self.study.objective.region is not None
 
     def where(self, k: int) -> str:
         """Return " at pose 3", nothing where there is one pose."""
@@ -193,12 +204,20 @@ class DesignAtPoses(Chosen):
         c = self.c
         if len(c) > 1:
             first = f"{len(c)} poses of the study; pose 0 is the neutral one"
+            if self._region:
+                count = len({self.first(k) for k in range(len(c))})
+                first = (
+                    f"{count} poses of the region, those that ruled its condition number or a limit, and the neutral "
+                )
+                first += "one, pose 0; extremes over the region: ninedof sheet"
             last = [f"pose {k}: {self.words(c[k])}" for k in sorted(set(used))]
         else:
             first, last = f"at {self.words(c[0])}", []
         beyond = beyond_words(self.geometry, self.configuration, c)
         return Answer(
-            [first, *beyond, *parts, *last], unit_entry(self.unit) | {"poses": poses_of(c)} | dict(data), status
+            [first, *self.tool.remark(self.unit), *beyond, *parts, *last],
+            unit_entry(self.unit) | {"poses": poses_of(c)} | dict(data),
+            status,
         )
 
 

@@ -114,6 +114,8 @@ class Result(OfStudy):
     @property
     def agreement(self) -> str:
         """Sentence on starts that arrived, were followed and given up, and on optima that they may have missed."""
+        if not self.study.has_free_variables and self.best:
+            return "no variable is free: this is the design of the study, and no other was looked for"
         arrived = min(self.best.reached, self._completed) if self.best else 0
         return agreement_sentence(self._completed, arrived, self.runs_abandoned, self.status == Status.OPTIMAL)
 

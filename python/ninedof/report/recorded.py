@@ -38,7 +38,8 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
         length, poses = float(question.get("characteristic_length", 1.0)), [("home", machine[1])]
         shown = scene.machine("robot", machine[0], length, poses, box, scene.body_of(workspace))
         view = scene.scene([shown], workspace.unit)
-        hint = "The body is the set of positions of the platform's origin; lines: the box looked at."
+        point = "tool's point" if question.get("tool") else "platform's origin"
+        hint = f"The body is the set of positions of the {point}; lines: the box looked at."
         sections["machine"] = paragraphs([hint if view["machines"][0]["body"] else ""])
     cubed = "rad³" if workspace.of_angles else workspace.unit + "³" * bool(workspace.unit)
     figures = [

@@ -247,9 +247,7 @@ def region_words(sheet: Any) -> Iterator[str]:
 
 def _study_words(sheet: Any) -> Iterator[str]:
     """Yield what the study states beside its limits: the tool, and the tables that gave options of the sheet."""
-    if sheet.tool:
-        at = amount(vector_words(sheet.tool.position), sheet.unit)
-        yield f"p, poses, speeds, loads and errors are of the tool's point, {at} in the frame of the plate."
+    yield from (f"{words}." for words in sheet.tool.remark(sheet.unit))
     if sheet.stated:
         yield f"From the study: {', '.join(f'[{name}]' for name in sheet.stated)}."
 

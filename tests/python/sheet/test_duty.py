@@ -49,7 +49,7 @@ def test_a_sheet_of_a_study_with_duty_is_one_that_is_told(result, plain):
     assert json.loads(encode(stated.to_dict())) | {"stated": []} == json.loads(encode(told.to_dict()))
     assert stated.stated == ("speeds", "loads", "tolerances", "masses")
     assert "From the study: [speeds], [loads], [tolerances], [masses]." in stated.summary()
-    assert "tool's point, (10, 0, -100) mm in the frame of the plate" in stated.summary()
+    assert "tool's point, (10, 0, -100) mm, in the frame of the plate" in stated.summary()
 
 
 def test_an_option_beats_the_study(result, plain):

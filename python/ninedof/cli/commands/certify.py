@@ -99,7 +99,8 @@ def certify(options: _Options) -> Answer:
             raise
         raise ValueError(f"{file}: {str(error).removeprefix('resume: ')}") from None
     data = certificate.to_dict() | {"left": []}
-    sentences = certificate.sentences() + architecture_sentences(result, result.study.unit)
+    sentences = certificate.sentences() + result.study.tool.remark(result.study.unit)
+    sentences += architecture_sentences(result, result.study.unit)
     if largest:
         sentences.append(_largest(certificate))
     answer = Answer([certificate_table(certificate), *sentences], data)

@@ -48,20 +48,21 @@ def evaluate(options: _Options) -> Answer:
         raise ValueError("--plot: got it without --set, expected both")
     chosen = chosen_design(options.design, options)
     values = unit_entry(chosen.unit) | indices(chosen.design)
-    parts: list[Any] = [_table(values, chosen.unit)]
+    title = "Indices" if chosen.result is None else "At the neutral pose"
+    parts: list[Any] = [*chosen.tool.remark(chosen.unit), _table(title, values, chosen.unit)]
     if values["singular"]:
         parts.append("This configuration is singular: the platform or O can move with all legs locked.")
     parts += architecture_sentences(chosen, chosen.unit)
     if not 0.0 < chosen.configuration.internal_point[2] < chosen.duty.zp(chosen.configuration):
         parts.append("O is not between base and platform: studies require 0 < zs < zp.")
     if chosen.result is not None:
-        if chosen.result.status == nd.Status.INFEASIBLE:
-            parts.append(f"{chosen.result.status}: {chosen.result.reason}")
         of_run = nd.sheet(chosen.result, characteristic_length=chosen.characteristic_length)
         parts += beyond_words(chosen.geometry, chosen.configuration, of_run.configurations)
         parts += outside_words(of_run.configurations, of_run.tool, of_run.unit)
-        parts += [poses_table(of_run)] if len(of_run.configurations) > 1 else []
-        parts += [limits_table(of_run)] if of_run.limits else []
+        over = [poses_table(of_run)] * (len(of_run.configurations) > 1) + [limits_table(of_run)] * bool(of_run.limits)
+        fails = chosen.result.status == nd.Status.INFEASIBLE
+        over = [f"{chosen.result.status}: {chosen.result.reason}"] * fails + over
+        parts = [*over, *parts]  # what the study asks for comes first
         values |= {"sheet": of_run.to_dict()}
     return Answer(parts, values)
 
@@ -90,7 +91,7 @@ def _set_words(name: str, result: nd.Result, changed: nd.Result) -> str:
     return f"set: {name} from {amount(f'{was:.{digits}g}', unit)} to {amount(f'{now:.{digits}g}', unit)}"
 
 
-def _table(values: dict[str, Any], unit: str) -> Table:
+def _table(title: str, values: dict[str, Any], unit: str) -> Table:
     rows: list[Any] = [
         _line(DETERMINANTS if name == "singularity_margins" else index.words, values[name])
         for name, index in computed().items()
@@ -105,7 +106,7 @@ def _table(values: dict[str, Any], unit: str) -> Table:
         if math.isfinite(at["length"]):
             words = f"{_digits(at['length'])}: k = {_digits(at['condition_number'])}"
             rows.append(Line(f"at the {kind} length", [words], unit=unit))
-    return Table("Indices", columns("", ">"), rows)
+    return Table(title, columns("", ">"), rows)
 
 
 def _line(name: str, numbers: Any, unit: str = "") -> Line:

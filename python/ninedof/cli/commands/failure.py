@@ -37,4 +37,4 @@ def failure(options: _Options) -> Answer:
         loads=loads_option(options.load) or None,
         pairs=options.pairs,
     )
-    return Answer(failure_parts(result), result.to_dict())
+    return Answer([*chosen.tool.remark(chosen.unit), *failure_parts(result)], result.to_dict())

@@ -47,7 +47,8 @@ def modes(options: _Options) -> Answer:
     kappa = nd.condition_number(g, result, length_at_home(at)) if result.count else np.zeros(0)
     this = _this(result, float(lengths.max()), at.c) if options.lengths is None else -1
     certain = "" if result.certain else ", the count is not sure"
-    parts: list[Any] = [f"{result.count} assembly modes: {result.status}{certain}"]
+    parts: list[Any] = [] if options.lengths is None else at.tool.remark(unit)
+    parts += [f"{result.count} assembly modes: {result.status}{certain}"]
     parts += [result.reason] if result.reason else []
     parts += [_proof(result.certificate)] if options.certify else []
     parts += [_table(result, kappa, this, at.configuration.rotation, unit)] if result.count else []

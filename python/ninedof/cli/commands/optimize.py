@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
+from warnings import catch_warnings, simplefilter
 
 import ninedof as nd
 from ninedof.cli.answer import Answer, folder_words, write_job
@@ -91,14 +91,14 @@ def _solve(study: nd.Study, file: Path | None, how: dict[str, Any], screen: Scre
     if file is None:
         with screen.bar("starts", "the paper's problem") as bar:
             return compare(study.starts, study.seed, progress=bar, **how)
-    if study.length_note:
-        screen.print(study.length_note)
+    screen.print(*study.notes)
     for variable in study.defaulted:
         low, high = (study.shown(variable, end) for end in study.variables[variable])  # type: ignore[union-attr]
         ends = amount(f"[{low:g}, {high:g}]", study.unit_of(variable))
         screen.print(f"{variable} is not given: {ends} assumed")
-    with screen.bar("starts", file.name) as bar:
-        return nd.optimize(replace(study), progress=bar, **how)  # without the notes, which were printed
+    with screen.bar("starts", file.name) as bar, catch_warnings():
+        simplefilter("ignore", UserWarning)  # the notes, which were printed
+        return nd.optimize(study, progress=bar, **how)
 
 
 def _comparison_parts(comparison: PaperComparison) -> Iterator[Any]:
@@ -112,6 +112,7 @@ def _comparison_parts(comparison: PaperComparison) -> Iterator[Any]:
 
 def _result_parts(result: nd.Result) -> Iterator[Any]:
     yield bold(result.status, f": {result.reason}")
+    yield from result.study.tool.remark(result.study.unit)
     shown = with_fixed_design(result)
     if shown is not result:
         yield f"no variable is free; the design of the study has {result.words} {shown.objective:.6f}"
@@ -120,7 +121,9 @@ def _result_parts(result: nd.Result) -> Iterator[Any]:
         yield candidates_table(result)
         *others, agreement = agreement_words(result)
         yield from (*others, *best_prices(result), agreement)
-        yield from (bound.sentence for bound in nd.applicable_bounds(result) if bound.name != "certificate")
+        elsewhere = result.study.objective.region is not None or bool(result.study.objective.poses)
+        neutral = "at the neutral pose: " * elsewhere
+        yield from (neutral + bound.sentence for bound in nd.applicable_bounds(result) if bound.name != "certificate")
         yield from architecture_sentences(result, result.study.unit)
         if result.proof is not None:
             yield bold(*proof_words(result))

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
+from warnings import catch_warnings, simplefilter
 
 import ninedof as nd
 from ninedof.cli.answer import Answer, finish_job
@@ -66,11 +66,14 @@ def pareto(options: _Options) -> None:
         against = nd.Study.paper().limits[0].name if run is None else _dearest(run)
     against = with_degrees(against)  # at the terminal angles are degrees
     name = "the paper's problem" if file is None else file.name
-    if study.length_note:
-        screen.print(study.length_note)
-    with run_folder(options.out) as directory, screen.bar("limits", f"{name}, {against}") as bar:
+    screen.print(*study.notes)
+    if options.against is None:
+        values = f" at {', '.join(f'{value:g}' for value in options.value)}" if options.value else ""
+        screen.print(f"--against is not given: the front is against {against}{values}")
+    with run_folder(options.out) as directory, screen.bar("limits", f"{name}, {against}") as bar, catch_warnings():
+        simplefilter("ignore", UserWarning)  # the notes, which were printed
         how: dict[str, Any] = {"threads": options.threads, "progress": bar.show, "out": directory}
-        front = nd.pareto(replace(study), against, options.value or None, points=options.points, **how)
+        front = nd.pareto(study, against, options.value or None, points=options.points, **how)
     parts: list[Any] = [front_table(front)] if front.limits else []
     if not options.value and not front.interrupted:
         parts += filter(None, [range_words(front)])

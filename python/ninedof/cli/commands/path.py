@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -27,6 +29,7 @@ from ninedof.cli.options import (
 )
 from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
+from ninedof.motion.follow import wrenches_along
 from ninedof.motion.tables import motion_tables, motion_words
 from ninedof.records.motion import motion_values
 from ninedof.records.record import run_folder, write_run
@@ -34,9 +37,10 @@ from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.request import masses_of
 from ninedof.support.store import Store
-from ninedof.support.units import unit_entry
+from ninedof.support.units import amount, per, unit_entry
 
 PLACE = 7
+SLACK = 1e-6  # by which a speed may be passed, relative
 SHAPES, TIMES = ("circle", "line", "spiral"), ("duration", "points")
 EXAMPLES = """
   ninedof path design.toml path.csv --legs 2.5 6.5
@@ -114,8 +118,14 @@ def path(options: _Options) -> None:
             gravity=gravity,
         )
     of_study = nd.path_limits(study, result, home) if study else None
+    result = result if of_study is None else replace(result, study_breaks=of_study.breaks)
     motion = motion_values(result, of_study)
-    parts: list[Any] = [*motion_tables(motion), *(bold(*words) for words in motion_words(result, motion))]
+    parts: list[Any] = [
+        *motion_tables(motion),
+        *chosen.tool.remark(chosen.unit),
+        *(bold(*words) for words in motion_words(result, motion)),
+        *_faster(result, chosen.duty.speeds),
+    ]
     if masses is not None and options.mass is None:
         stated = [*stated, "[masses]"]
     parts += [f"from the study: {', '.join(stated)}"] if stated else []
@@ -145,8 +155,19 @@ def _load(options: _Options, duty: nd.Study) -> tuple[Any, Any, list[str]]:
     wrenches = duty.loads.wrenches
     if options.force is not None or options.moment is not None or not wrenches:
         return options.force, options.moment, []
-    rows = np.array(wrenches)[:, None] if len(wrenches) > 1 else np.array(wrenches[0])
-    return rows[..., 3:], rows[..., :3], ["[loads]" if len(wrenches) == 1 else f"{len(wrenches)} loads of [loads]"]
+    return *wrenches_along(wrenches), ["[loads]" if len(wrenches) == 1 else f"{len(wrenches)} loads of [loads]"]
+
+
+def _faster(motion: nd.Followed, speeds: nd.Speeds) -> Iterator[Any]:
+    """Yield a line for each speed of a study that a path passes: its limits of rates and powers are for that speed."""
+    for name, k, most, shown, unit in (
+        ("linear", 3, speeds.linear, 1.0, per(motion.unit, "s")),
+        ("angular", 0, speeds.angular, math.degrees(1.0), "°/s"),
+    ):
+        size = float(np.linalg.norm(motion.velocity[:, k : k + 3], axis=1).max())
+        if size > most * (1.0 + SLACK) and (speeds.linear > 0.0 or speeds.angular > 0.0):
+            reached, stated = (amount(f"{shown * x:.4g}", unit) for x in (size, most))
+            yield bold("faster than the study", f": {name} speed {reached}, [speeds] has {stated}")
 
 
 def _draw(result: nd.Followed, screen: Screen, of_study: nd.PathLimits | None, directory: Path) -> list[Path]:

@@ -49,6 +49,11 @@ def payload(options: _Options) -> Answer:
     centre = options.centre or (0.0, 0.0, 0.0)
     result = largest_payload(chosen.machine, options.force, options.pull, centre, loads)
     parts = [*_parts(result, chosen), _meant(result, chosen, centre, loads)]
+    if loads or chosen.duty.loads.wrenches:
+        alone = largest_payload(chosen.machine, options.force, options.pull, centre, [[0.0] * 6])
+        if result.fits and alone.mass < result.mass:
+            words = "a load counts as always there, so that one upward carries"
+            parts.append(f"without these loads {alone.mass:.6g}: {words}")
     if options.force is None:
         parts.append(f"from the study: force {_of_kinds(result.limits[0].tolist())}")
     if result.not_looked_at:

@@ -166,7 +166,8 @@ def _sides(job: _Options, over: Iterable[str]) -> Mapping[str, float]:
 def _variables(name: str | None, chosen: Chosen, over: list[str]) -> tuple[str, Mapping[str, float]]:
     if chosen.tool:
         raise ValueError(
-            f"--over: got variables of {name}, which has a [tool], expected coordinates of the configuration"
+            f"--over: got variables of {name}, which has a [tool], expected coordinates of the configuration; "
+            "a changed design with its tool is that of `ninedof evaluate RUN --set`, a front of `ninedof pareto RUN`"
         )
     fits: dict[str, Mapping[str, float]] = {}
     if chosen.result is not None and chosen.result.best is not None:

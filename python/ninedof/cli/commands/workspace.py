@@ -103,6 +103,7 @@ def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -
 def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
     lines = asked_lines(question.keywords, chosen.configuration, question.asked.own, question.asked.left, chosen.unit)
     yield next(lines)
+    yield from chosen.tool.remark(chosen.unit)
     if question.asked.actuators:
         yield question.asked.actuators
     if question.asked.replaced:

@@ -1,0 +1,73 @@
+"""Lines that commands say of a machine of a study: what its loads, speeds and fixed variables mean for the answer."""
+
+import pytest
+
+import ninedof as nd
+
+STUDY = nd.Study(
+    unit="mm",
+    family="hexagonal",
+    variables={"a1": 0.0, "a2": 580.0, "b1": 290.0, "b2": 0.0, "zp": 400.0, "zs": 240.0, "theta_z": 0.0},
+    characteristic_length=100.0,
+    constraints={"leg_length": (1.0, 900.0), "radius_ratio": (None, 4.0)},
+    objective={"region": {"box": [1.0, 1.0, 1.0]}},
+    tool={"position": [0.0, 0.0, -10.0]},
+    loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, 90.0]]},
+    speeds={"linear": 30.0, "angular_deg": 20.0},
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("remarks")
+    STUDY.save(place / "study.toml")
+    nd.save(nd.optimize(STUDY), place / "run")
+    return place
+
+
+@pytest.fixture
+def words(run, folder):
+    """The words that a command prints; the command has the folder in place of a dot."""
+
+    def of(line):
+        _, out, errors = run(line.replace("./", f"{folder}/"))
+        return " ".join((out + errors).split())
+
+    return of
+
+
+def test_a_load_that_carries_the_payload_is_told(words, run):
+    out = words("payload ./run --force 300")
+    assert "without these loads" in out
+    alone = float(out.partition("without these loads ")[2].split(":")[0])
+    assert alone < float(out.partition("largest payload ")[2].split(",")[0])
+    assert "without these loads" not in words("payload ./run --force 300 --load 0,0,0,0,0,-90")
+
+
+def test_a_path_faster_than_the_speeds_of_the_study_is_told(words):
+    slow = words("path ./run --line 5 0 0 --points 51 --duration 10 --no-figures --no-report --out ./slow")
+    assert "faster than the study" not in slow
+    fast = words("path ./run --line 5 0 0 --points 51 --duration 0.1 --no-figures --no-report --out ./fast")
+    assert "faster than the study: linear speed 93." in fast
+    assert "mm/s, [speeds] has 30 mm/s" in fast
+    assert "angular speed" not in fast
+
+
+def test_a_fixed_design_has_no_starts_that_agree_and_its_bounds_are_of_the_neutral_pose(words):
+    out = words("optimize ./study.toml --no-figures --no-report --out ./again")
+    assert "no variable is free: this is the design of the study" in out
+    assert "95 %" not in out
+    assert "at the neutral pose: no" in out
+
+
+def test_what_is_refused_names_the_way(words):
+    out = words("sweep ./run --over a2=500:600:3 --out ./swept")
+    assert "which has a [tool], expected coordinates of the configuration; a changed design" in out
+    assert "`ninedof evaluate RUN --set`" in out
+    assert "--set: got 'zp=abc', expected a number: NAME=VALUE, or NAME=+10%" in words("evaluate ./run --set zp=abc")
+    assert "expected NAME=VALUE without a plus" in words("evaluate ./run --set zp=+5")
+
+
+def test_a_front_says_which_limit_it_is_against_where_it_was_not_told(words):
+    out = words("pareto ./study.toml --value 3 --no-figures --no-report --out ./front")
+    assert out.startswith("--against is not given: the front is against radius_ratio at 3")

@@ -1,0 +1,71 @@
+"""Every command about a machine with a tool says that p is the tool's point."""
+
+from dataclasses import replace
+
+import pytest
+
+import ninedof as nd
+
+STUDY = nd.Study(
+    unit="mm",
+    family="hexagonal",
+    variables={"a1": 0.0, "a2": 580.0, "b1": 290.0, "b2": 0.0, "zp": 400.0, "zs": 240.0, "theta_z": 0.0},
+    characteristic_length=100.0,
+    constraints={"leg_length": (1.0, 900.0)},
+    objective={"region": {"box": [1.0, 1.0, 1.0]}},
+    tool={"position": [0.0, 0.0, -10.0]},
+    loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -90.0]]},
+    tolerances={"legs": 0.01},
+)
+COMMANDS = {
+    "optimize {0}/study.toml --no-figures --no-report --out {0}/again",
+    "evaluate {0}/run",
+    "path {0}/run --line 0.5 0 0 --points 51 --no-figures --no-report --out {0}/path",
+    "workspace {0}/run --tolerance 0.5 --no-figures --out {0}/space",
+    "forces {0}/run",
+    "accuracy {0}/run",
+    "stiffness {0}/run --leg-stiffness 100",
+    "best {0}/run",
+    "singularity {0}/run",
+    "modes {0}/run",
+    "modes {0}/run --lengths 500,500,500,300,300,300,300,300,300",
+    "certify {0}/run --time 1",
+    "failure {0}/run --no-pairs",
+    "sheet {0}/run",
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("tool")
+    STUDY.save(place / "study.toml")
+    nd.save(nd.optimize(STUDY), place / "run")
+    return place
+
+
+@pytest.mark.parametrize("command", sorted(COMMANDS))
+def test_p_is_the_tools_point(folder, run, command):
+    """Silent, and a page said "position p of the platform": a moment was about which point?"""
+    status, out, errors = run(command.format(folder))
+    assert status in (0, 3), errors
+    assert " ".join(out.split()).count("are of the tool's point, (0, 0, -10) mm, in the frame of the plate") == 1
+    if command.startswith("workspace"):
+        assert run(f"report {folder}/space")[0] == 0
+        assert "positions of the tool" in (folder / "space" / "report.html").read_text()
+    if command.startswith("evaluate"):  # the answer of the study first, and the other numbers say where they are
+        assert out.index("Over the region") < out.index("At the neutral pose") < out.index("manipulability")
+
+
+def test_all_poses_of_a_region_study_are_said_to_be_those_that_ruled(folder, run):
+    """They were "poses of the study", and two that differ by a thousandth of the region had two numbers."""
+    result = nd.load(folder / "run")
+    ruled = result.region.poses
+    assert len(ruled) > 0
+    near = replace(ruled[0], position=tuple(x + 1e-4 for x in ruled[0].position))
+    doubled = replace(result, region=replace(result.region, poses=(*ruled, near)))
+    nd.save(doubled, folder / "doubled")
+    assert len(nd.load(folder / "doubled").best.configurations) == len(ruled) + 2
+    for name in ("run", "doubled"):
+        out = " ".join(run(f"accuracy {folder / name} --all-poses")[1].split())
+        assert f"{len(ruled) + 1} poses of the region, those that ruled its condition number or a limit" in out
+        assert "extremes over the region: ninedof sheet" in out
