@@ -358,6 +358,11 @@ class Study:
         )
 
     @property
+    def force_unit(self) -> str:
+        """The unit of forces: "N" where masses are stated and lengths have a unit, else ""."""
+        return "N" if self.unit and self.masses else ""
+
+    @property
     def has_free_variables(self) -> bool:
         """Whether a variable has a range, a length is sought, or O is placed at some pose."""
         region, poses = self.objective.region, self.objective.poses

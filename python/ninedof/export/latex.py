@@ -34,7 +34,7 @@ def text(model: Model) -> str:
     """Return the file."""
     tables = [_joints(model), _pose(model), _legs(model)]
     if model.sheet is not None and model.sheet.limits:
-        tables.append(_limits(model.sheet.limits, model.unit))
+        tables.append(_limits(model.sheet.limits, model.unit, model.sheet.force_unit))
     return "\n".join([HEAD.format(title=model.name), *tables])
 
 
@@ -86,19 +86,19 @@ def _legs(model: Model) -> str:
     return _tabular("Legs: lengths", "lll" + "r" * (len(heads) - 3), heads, rows)
 
 
-def _limits(limits: Sequence[LimitRow], unit: str) -> str:
+def _limits(limits: Sequence[LimitRow], unit: str, force: str) -> str:
     rows, percent = [], r"\,\%"
     for one in limits:
         margin = f"${margin_words(one.margin, one.unit).replace(' %', percent)}$"
         sign = r"$\geq$" if one.side == "min" else r"$\leq$"
-        rows.append([escape(one.name), sign, *(_measure(one, x, unit) for x in (one.limit, one.value)), margin])
+        rows.append([escape(one.name), sign, *(_measure(one, x, unit, force) for x in (one.limit, one.value)), margin])
     return _tabular("Limits of the study", "lcrrr", ["limit", "", "allowed", "here", "margin"], rows, len(rows))
 
 
-def _measure(row: LimitRow, value: float, unit: str) -> str:
+def _measure(row: LimitRow, value: float, unit: str, force: str) -> str:
     if row.unit == "angle":
         return rf"${math.degrees(value):.2f}^\circ$"
-    return amount(f"${value:.{DIGITS}g}$", unit if row.unit == "length" else "")
+    return amount(f"${value:.{DIGITS}g}$", row.shown_unit(unit, force))
 
 
 def _columns(rows: Sequence[Iterable[float]]) -> list[list[str]]:

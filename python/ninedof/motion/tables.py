@@ -12,7 +12,7 @@ from ninedof.redundancy.rules import where_o
 from ninedof.robot.geometry import LEGS
 from ninedof.robot.idle import NEVER_CARRY
 from ninedof.support.margins import margin_words
-from ninedof.support.units import amount, kind_unit, per, times
+from ninedof.support.units import amount, kind_unit, per, times, watt_note
 from ninedof.tables import RIGHT, Column, Table, columns, grouped
 
 POWERS, WORKS = ("power", "braking"), ("work", "returned")
@@ -76,11 +76,13 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
         if "limit_deg" in row:
             ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
         else:
-            unit = kind_unit(_kind(row), motion.get("unit", ""))
+            unit = kind_unit(_kind(row), motion.get("unit", ""), motion.get("force_unit", ""))
             ends = [amount(f"{row[key]:.6g}", unit) for key in ("limit", "value")]
         margin = margin_words(row["margin"], _kind(row))
         rows.append((f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"))
-    return Table("Limits of the study along the path", heads, rows)
+    watts = motion.get("force_unit") and any(row.get("kind") == "power" for row in motion.get("limits", ()))
+    notes = [watt_note(motion["unit"])] if watts else []
+    return Table("Limits of the study along the path", heads, rows, notes)
 
 
 def _kind(limit: Mapping[str, Any]) -> str:

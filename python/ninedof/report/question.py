@@ -71,7 +71,7 @@ def duty_sentences(study: Study) -> Iterator[str]:
     if study.tool:
         yield f"Poses, loads and speeds are of the {', '.join(study.tool.words(unit))}, in the frame of the plate."
     if loads.wrenches:
-        words = "; ".join(load_words(k, load, unit) for k, load in enumerate(loads.wrenches, start=1))
+        words = "; ".join(load_words(k, load, unit, study.force_unit) for k, load in enumerate(loads.wrenches, start=1))
         yield f"{words[:1].upper()}{words[1:]}."
     masses = [f"{name.replace('_', ' ')} {x:g}" for name in MASSES if (x := getattr(study.masses, name))]
     if masses:

@@ -255,7 +255,7 @@ def _flat(tree: Mapping[str, Any], before: str = "") -> dict[str, Any]:
 
 
 def _limit_rows(label: str, entry: Sequence[LimitRow | None], sheets: Sequence[Sheet]) -> list[list[str]]:
-    cells = (_limit_cells(row, one.unit) for row, one in zip(entry, sheets, strict=True))
+    cells = (_limit_cells(row, one) for row, one in zip(entry, sheets, strict=True))
     allowed, values, margins = zip(*cells, strict=True)
     below = [["  margin", *margins]]
     if len(set(allowed)) == 1:
@@ -263,10 +263,10 @@ def _limit_rows(label: str, entry: Sequence[LimitRow | None], sheets: Sequence[S
     return [[label, *values], ["  allowed", *allowed], *below]
 
 
-def _limit_cells(row: LimitRow | None, unit: str) -> tuple[str, str, str]:
+def _limit_cells(row: LimitRow | None, of: Sheet) -> tuple[str, str, str]:
     if row is None:
         return "-", "-", ""
-    allowed, value = (limit_amount(row, x, unit) for x in (row.limit, row.value))
+    allowed, value = (limit_amount(row, x, of.unit, of.force_unit) for x in (row.limit, row.value))
     return allowed, value, f"{'broken ' * row.violated}{margin_words(row.margin, row.unit)}"
 
 

@@ -145,6 +145,11 @@ class Sheet:
     """Of the study: p and the frame of the platform in `geometry` are the tool's."""
 
     @property
+    def force_unit(self) -> str:
+        """The unit of forces: "N" where masses are stated and lengths have a unit, else ""."""
+        return "N" if self.unit and (self.weight is not None or self.has_leg_masses) else ""
+
+    @property
     def idle(self) -> tuple[str, ...]:
         """Names of the legs that have the same length at every pose; empty for a single pose."""
         return tuple(leg.name for leg in self.legs if leg.idle)

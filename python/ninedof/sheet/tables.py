@@ -13,7 +13,7 @@ from ninedof.robot.idle import NEVER_CARRY, NEVER_MOVE, unloaded_names
 from ninedof.sheet.pose_words import outside_words, pose_words, vector_words
 from ninedof.sheet.rows import limit_amount
 from ninedof.support.margins import margin_words
-from ninedof.support.units import amount, per, times
+from ninedof.support.units import amount, metres, per, times, watt_note
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table, grouped
 from ninedof.tables.numbers import load_text, short, spread
 from ninedof.tables.table import Part
@@ -76,12 +76,13 @@ def limits_table(sheet: Any) -> Table:
     columns = [Column("limit"), *[Column()] * parts, Column(), *columns_of("allowed", "here", "margin")]
     rows = []
     for row in sheet.limits:
-        ends = (limit_amount(row, value, sheet.unit) for value in (row.limit, row.value))
+        ends = (limit_amount(row, value, sheet.unit, sheet.force_unit) for value in (row.limit, row.value))
         rows.append([row.name, *[row.part] * parts, row.side, *ends, margin_words(row.margin, row.unit)])
     if any(row.violated for row in sheet.limits):
         columns.append(Column())
         rows = [[*cells, "violated" * row.violated] for cells, row in zip(rows, sheet.limits, strict=True)]
-    return Table(f"Limits of the study, {where}", columns, rows)
+    notes = [watt_note(sheet.unit)] * (bool(sheet.force_unit) and any(row.unit == "power" for row in sheet.limits))
+    return Table(f"Limits of the study, {where}", columns, rows, notes)
 
 
 def worst_table(sheet: Any) -> Table:
@@ -187,7 +188,7 @@ def _twist(sheet: Any) -> Table:
 
 
 def _forces(sheet: Any) -> Table:
-    notes = [load_words(k, load, sheet.unit) for k, load in enumerate(sheet.loads, start=1)]
+    notes = [load_words(k, load, sheet.unit, sheet.force_unit) for k, load in enumerate(sheet.loads, start=1)]
     notes += weight_words(sheet.weight, sheet.tool, sheet.has_leg_masses)
     for k, names in enumerate(map(unloaded_names, sheet.forces()), start=1):
         if 0 < len(names) < len(sheet.legs):
@@ -198,14 +199,16 @@ def _forces(sheet: Any) -> Table:
 
 def load_columns(sheet: Any) -> list[Column]:
     """Return a column for each load."""
-    return columns_of(*(f"load {k}" for k in range(1, len(sheet.loads) + 1)))
+    return columns_of(*(f"load {k}" for k in range(1, len(sheet.loads) + 1)), unit=getattr(sheet, "force_unit", ""))
 
 
 def _powers(sheet: Any) -> Table:
     """Return the drives beside each other: greatest force, speed and power of each leg."""
     speed = per(sheet.unit, "s")
-    columns = [Column("force", "", RIGHT), Column("speed", speed, RIGHT), Column("power", times("force", speed), RIGHT)]
-    numbers = [(leg.largest_force, leg.speed, leg.power) for leg in sheet.legs]
+    force, scale = sheet.force_unit, metres(sheet.unit) if sheet.force_unit else 1.0
+    power = "W" if force else times("force", speed)
+    columns = [Column("force", force, RIGHT), Column("speed", speed, RIGHT), Column("power", power, RIGHT)]
+    numbers = [(leg.largest_force, leg.speed, scale * leg.power) for leg in sheet.legs]
     among = list(zip(*numbers, strict=True))
     rows = ([load_text(*pair) for pair in zip(row, among, strict=True)] for row in numbers)
     note = "power: the most of force times speed at one pose, at rest or at constant speed"
@@ -224,10 +227,10 @@ def weight_words(weight: Any, tool: Any, legs: bool) -> list[str]:
     return [*words, *["each with the weights of the legs and of O"] * legs]
 
 
-def load_words(number: int, load: Any, unit: str) -> str:
-    """Return a load in words."""
-    moment = amount(vector_words(load[:3]), times("force", unit))
-    return f"load {number}: moment {moment}, force {vector_words(load[3:])}"
+def load_words(number: int, load: Any, unit: str, force: str = "") -> str:
+    """Return a load in words; `force` is "N", or "" for a unit without a name."""
+    moment = amount(vector_words(load[:3]), times(force or "force", unit))
+    return f"load {number}: moment {moment}, force {amount(vector_words(load[3:]), force)}"
 
 
 def region_words(sheet: Any) -> Iterator[str]:

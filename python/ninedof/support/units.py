@@ -74,10 +74,18 @@ def times(above: str, unit: str) -> str:
     return f"{above} {unit}" if above and unit else ""
 
 
-def kind_unit(kind: str, of_lengths: str) -> str:
-    """Return the unit of values of a kind: "deg", that of lengths, a rate or a power, "" for others."""
+def kind_unit(kind: str, of_lengths: str, force: str = "") -> str:
+    """Return the unit of values of a kind: "deg", that of lengths, a rate or a power, "" for others.
+
+    `force` is the unit of forces, "N" or "" for one without a name.
+    """
     rate = per(of_lengths, "s")
-    return {"angle": "deg", "length": of_lengths, "rate": rate, "power": times("force", rate)}.get(kind, "")
+    return {"angle": "deg", "length": of_lengths, "rate": rate, "power": times(force or "force", rate)}.get(kind, "")
+
+
+def watt_note(of_lengths: str) -> str:
+    """Return what a watt is in newtons times a unit of lengths per second."""
+    return f"1 W is {1.0 / metres(of_lengths):.4g} N {of_lengths}/s"
 
 
 def metres(unit: str) -> float:

@@ -1,5 +1,7 @@
 """Lines that commands say of a machine of a study: what its loads, speeds and fixed variables mean for the answer."""
 
+from dataclasses import replace
+
 import pytest
 
 import ninedof as nd
@@ -71,3 +73,25 @@ def test_what_is_refused_names_the_way(words):
 def test_a_front_says_which_limit_it_is_against_where_it_was_not_told(words):
     out = words("pareto ./study.toml --value 3 --no-figures --no-report --out ./front")
     assert out.startswith("--against is not given: the front is against radius_ratio at 3")
+
+
+def test_forces_are_newtons_and_powers_watts_where_masses_are_stated(words, folder):
+    """The sheet had power in force mm/s, the path of the same machine in W, and forces had no unit."""
+    limits = {**STUDY.constraints, "power": {"max": 2e5}, "force": {"max": 700.0}}
+    nd.save(nd.optimize(replace(STUDY, masses={"platform": 3.0}, constraints=limits)), folder / "heavy")
+    sheet = nd.load(folder / "heavy").sheet()
+    out = words("sheet ./heavy")
+    most = max(sheet.legs, key=lambda leg: leg.power)
+    assert f" {1e-3 * most.power:.5g} " in out
+    assert "(W)" in out
+    assert "200000 N mm/s" in out
+    assert "1 W is 1000 N mm/s" in out
+    assert "700 N" in out
+    assert "load 1: moment (0, 0, 0) N mm, force (0, 0, 90) N" in out
+    assert "N mm" in words("forces ./heavy")
+    along = words("path ./heavy --line 1 0 0 --points 51 --no-figures --no-report --out ./heavier")
+    assert "200000 N mm/s" in along
+    assert "t.tex" in words("export ./heavy --to latex --out ./t.tex")
+    assert "N mm/s" in (folder / "t.tex").read_text()
+    assert "force mm" in words("sheet ./run")
+    assert "N mm" not in words("sheet ./run")

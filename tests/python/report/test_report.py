@@ -104,7 +104,7 @@ def test_the_question_names_what_the_machine_is_for():
     words = " ".join(Reader(question(study)).words)
     for part in (
         "of the tool at (0, 0, -80) mm",
-        "load 2: moment (0, 0, 5) force mm, force (100, 0, 0)",
+        "load 2: moment (0, 0, 5) N mm, force (100, 0, 0) N",
         "Masses: platform 10, rod 0.5, the platform's centre at (0, 0, -20) mm in the frame of the plate",
         "gravity (0, 0, -9.81)",
         "Speed of the platform: at most 200 mm/s and 30°/s. Acceleration of the platform: at most 1500 mm/s² and 0°/s²",

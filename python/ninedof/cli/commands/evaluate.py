@@ -59,10 +59,11 @@ def evaluate(options: _Options) -> Answer:
         of_run = nd.sheet(chosen.result, characteristic_length=chosen.characteristic_length)
         parts += beyond_words(chosen.geometry, chosen.configuration, of_run.configurations)
         parts += outside_words(of_run.configurations, of_run.tool, of_run.unit)
-        over = [poses_table(of_run)] * (len(of_run.configurations) > 1) + [limits_table(of_run)] * bool(of_run.limits)
         fails = chosen.result.status == nd.Status.INFEASIBLE
-        over = [f"{chosen.result.status}: {chosen.result.reason}"] * fails + over
-        parts = [*over, *parts]  # what the study asks for comes first
+        over: list[Any] = [f"{chosen.result.status}: {chosen.result.reason}"] if fails else []
+        over += [poses_table(of_run)] if len(of_run.configurations) > 1 else []
+        over += [limits_table(of_run)] if of_run.limits else []
+        parts = over + parts  # what the study asks for comes first
         values |= {"sheet": of_run.to_dict()}
     return Answer(parts, values)
 

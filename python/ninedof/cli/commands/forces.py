@@ -46,7 +46,7 @@ def forces(options: _Options) -> Answer:
     heads = columns("leg", *(f">load {k}" for k in range(1, len(loads) + 1)))
     least, most = result.min(axis=1), result.max(axis=1)
     rows = [(leg, *map(spread, least[:, k], most[:, k], size[:, None])) for k, leg in enumerate(LEGS)]
-    parts: list[Any] = [load_words(k, row, at.unit) for k, row in enumerate(loads, start=1)]
+    parts: list[Any] = [load_words(k, row, at.unit, duty.force_unit) for k, row in enumerate(loads, start=1)]
     parts += weight_words(weight, duty.tool, masses_besides_platform(duty) is not None)
     if masses is not None or not own:
         parts.append(f"from the study: {', '.join(['[loads]'] * (not own) + ['[masses]'] * (masses is not None))}")

@@ -86,7 +86,7 @@ def _meant(result: Payload, chosen: Chosen, centre: Vector, loads: list[list[flo
     at = f"{amount(vector_words(centre), chosen.unit)} in the frame of the plate (--centre)"
     at += ", not at the tool's point" * (bool(chosen.tool) and tuple(centre) != chosen.tool.position)
     rows = loads or study.loads.wrenches
-    beside = [load_words(result.load + 1, rows[result.load], chosen.unit)] if rows else []
+    beside = [load_words(result.load + 1, rows[result.load], chosen.unit, study.force_unit)] if rows else []
     beside += ["the masses of the study"] if masses_of(study) is not None else []
     return (
         f"the payload is a point mass at {at}; gravity {vector_words(study.loads.gravity)}; "
