@@ -56,7 +56,8 @@ TOOL = """
    The platform frame is that of the tool: p is the tool's point, Q has its axes."""
 
 WITHIN = """\
-/* 0 if every leg is between its shortest and its longest length, else the number of the first that is not, from 1. */
+/* 0 if every leg is between its shortest and its longest length, those that the poses of the study need, else the
+   number of the first that is not, from 1. */
 static inline int ninedof_first_out_of_range(const double lengths[9]) {
   int k;
   for (k = 0; k < 9; ++k)
@@ -77,7 +78,11 @@ def text(model: Model) -> str:
     parts.append(_row("neutral_lengths", model.neutral_lengths))
     if model.leg_ranges:
         shortest, longest = zip(*model.leg_ranges, strict=True)
-        parts += [_row("shortest", shortest), _row("longest", longest), "\n", WITHIN]
+        parts += [_row("shortest", shortest), _row("longest", longest)]
+        if model.permitted_ranges:
+            low, high = zip(*model.permitted_ranges, strict=True)
+            parts += [_row("permitted_shortest", low), _row("permitted_longest", high)]
+        parts += ["\n", WITHIN]
     name = re.sub(r"\W", "_", model.name, flags=re.ASCII)
     body = re.sub(r"\bninedof_", f"ninedof_{name}_", "".join([*parts, "\n", INVERSE_KINEMATICS]))
     guard = f"ninedof_{name}_{zlib.crc32(body.encode()):08x}_h"

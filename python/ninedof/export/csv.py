@@ -35,8 +35,11 @@ def text(model: Model) -> str:
     """Return the file. Numbers are the shortest that read back to the same bits."""
     base, length, unit = model.base_frame, model.characteristic_length, model.unit
     x, y, z, base_x, base_y, base_z = (with_unit(name, unit) for name in (*AXES, *(f"base {axis}" for axis in AXES)))
-    lengths = [with_unit(name, unit) for name in ("neutral", "shortest", "longest")[: 3 if model.leg_ranges else 1]]
-    ranges = model.leg_ranges or [()] * len(LEGS)
+    names = ["neutral", *(["shortest", "longest"] if model.leg_ranges else [])]  # those that the poses need
+    names += ["permitted shortest", "permitted longest"] if model.permitted_ranges else []
+    lengths = [with_unit(name, unit) for name in names]
+    none: list[tuple[float, ...]] = [()] * len(LEGS)
+    ranges = [(*a, *b) for a, b in zip(model.leg_ranges or none, model.permitted_ranges or none, strict=True)]
     sections: list[list[Iterable[Any]]] = [
         [
             (JOINT, x, y, z, base_x, base_y, base_z),

@@ -76,8 +76,11 @@ def _pose(model: Model) -> str:
 def _legs(model: Model) -> str:
     heads, lengths = ["neutral"], [[float(x)] for x in model.neutral_lengths]
     if model.leg_ranges:
-        heads += ["shortest", "longest", "stroke"]
+        heads += ["needs from", "needs to", "stroke"]
         lengths = [[x, a, b, b - a] for (x,), (a, b) in zip(lengths, model.leg_ranges, strict=True)]
+    if model.permitted_ranges:
+        heads += ["permitted from", "permitted to"]
+        lengths = [[*row, *ends] for row, ends in zip(lengths, model.permitted_ranges, strict=True)]
     rows = [
         [f"${leg[0]}_{leg[1]}$", _symbol(a), _symbol(b), *row]
         for (leg, a, b), row in zip(LEGS, _columns(lengths), strict=True)

@@ -151,6 +151,16 @@ class Model:
         limits = np.transpose(study.leg_limits(self.source.configuration)).tolist()
         return tuple((a, b) for a, b in limits) if all(0.0 < a < b < math.inf for a, b in limits) else None
 
+    @property
+    def permitted_ranges(self) -> Ranges | None:
+        """Permitted lengths of the legs, where all are limited on both sides and `leg_ranges` are those needed."""
+        ends = getattr(self.source, "permitted_lengths", None)
+        if ends is None or self.leg_ranges is None:
+            return None
+        ranges: Ranges = tuple(zip(*(one.tolist() for one in ends), strict=True))
+        limited = all(0.0 < low < high < math.inf for low, high in ranges)
+        return ranges if limited and ranges != self.leg_ranges else None
+
 
 def in_metres(values: ArrayLike, unit: str) -> Floats:
     """Return lengths in metres; as they are without a unit."""

@@ -184,7 +184,8 @@ def _anew(study: Study, settings: _core.Settings, progress: Progress | None) -> 
         problem = (study if report is None else posed(study, report.poses)).problem()
     reason = end.reason
     if end.status == Status.INFEASIBLE:
-        reason += (f" (lengths in {study.unit})" if study.unit else "") + axis_hint(study)
+        unit = "inches" if study.unit == "in" else study.unit
+        reason += (f" (lengths in {unit})" if unit else "") + axis_hint(study)
     return from_core(
         Result,
         end,

@@ -95,3 +95,23 @@ def test_forces_are_newtons_and_powers_watts_where_masses_are_stated(words, fold
     assert "N mm/s" in (folder / "t.tex").read_text()
     assert "force mm" in words("sheet ./run")
     assert "N mm" not in words("sheet ./run")
+
+
+def test_lengths_that_poses_need_and_that_limits_permit_have_two_names_in_files(folder, words):
+    for name, parts in {
+        "c": ("_permitted_shortest[9]", "_permitted_longest[9]", "those that the poses of the study need"),
+        "csv": (",shortest (mm),longest (mm),permitted shortest (mm),permitted longest (mm)\n", "1.0,900.0"),
+        "latex": ("needs from & needs to & stroke & permitted from & permitted to",),
+    }.items():
+        words(f"export ./run --to {name} --out ./file.{name}")
+        text = (folder / f"file.{name}").read_text()
+        assert not [part for part in parts if part not in text]
+
+
+def test_an_undecided_design_and_tolerances_that_are_not_looked_at_are_told(folder, words):
+    free = replace(STUDY, variables={**STUDY.variables, "zp": (300.0, 500.0)}, starts=2)
+    nd.save(nd.optimize(free), folder / "free")
+    assert "The design of the run is not decided itself" in words("admissible ./free --vary zp --time 0")
+    rows = [nd.Actuator("A", 100.0, 900.0)]
+    replace(free, actuators=rows, constraints={}, tolerances={"legs": 0.01}).save(folder / "rows.toml")
+    assert "the tolerances of the study are not looked at" in words("admissible ./rows.toml --vary zp --time 1")

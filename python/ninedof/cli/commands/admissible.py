@@ -83,6 +83,8 @@ def admissible(options: _Options) -> Answer:
         designs = nd.admissible(of, vary, **how, executor=executor, progress=bar)
     data: dict[str, Any] = {name: getattr(designs, name) for name in ("shares", "excluded", "designs", "boxes")}
     screen.print(*designs.sentences())
+    if isinstance(of, nd.Result) and designs.state_of([[designs.of.at[name] for name in vary]]) == ["undecided"]:
+        screen.print("The design of the run is not decided itself: an optimum reaches limits exactly, without room.")
     if file is not None:
         file.parent.mkdir(parents=True, exist_ok=True)
         designs.save(file)
@@ -107,7 +109,8 @@ def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: 
     heads = columns("legs", "actuator", "a design exists", "for example")
     rows = [(one.kind, one.row.name, WORDS.get(one.state, one.state), _example(one, study)) for one in answer.rows]
     data = {"rows": [one.to_dict() for one in answer.rows]}
-    return Answer([Table("", heads, rows)], data, INTERRUPTED if answer.interrupted else DONE)
+    drawn = ["Of machines as they are drawn: the tolerances of the study are not looked at."] * bool(study.tolerances)
+    return Answer([Table("", heads, rows), *drawn], data, INTERRUPTED if answer.interrupted else DONE)
 
 
 def _how(options: _Options) -> dict[str, Any]:
