@@ -89,7 +89,7 @@ def _legs(model: Model) -> str:
     return _tabular("Legs: lengths", "lll" + "r" * (len(heads) - 3), heads, rows)
 
 
-def _limits(limits: Sequence[LimitRow], unit: str, force: str) -> str:
+def _limits(limits: Sequence[LimitRow], unit: str, force: str = "") -> str:
     rows, percent = [], r"\,\%"
     for one in limits:
         margin = f"${margin_words(one.margin, one.unit).replace(' %', percent)}$"

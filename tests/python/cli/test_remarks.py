@@ -91,6 +91,7 @@ def test_forces_are_newtons_and_powers_watts_where_masses_are_stated(words, fold
     assert "N mm" in words("forces ./heavy")
     along = words("path ./heavy --line 1 0 0 --points 51 --no-figures --no-report --out ./heavier")
     assert "200000 N mm/s" in along
+    assert "700 N" in along
     assert "t.tex" in words("export ./heavy --to latex --out ./t.tex")
     assert "N mm/s" in (folder / "t.tex").read_text()
     assert "force mm" in words("sheet ./run")
