@@ -66,8 +66,8 @@ def changes_option(texts: Sequence[str]) -> dict[str, float | str]:
         try:
             changes[name] = value if value.endswith("%") else float("" if value.startswith("+") else value)
         except ValueError:
-            expected = "NAME=VALUE without a plus" if value.startswith("+") else "a number: NAME=VALUE"
-            raise ValueError(f"--set: got {text!r}, expected {expected}, or NAME=+10%") from None
+            how = "without a plus" if value.startswith("+") else "with a number"
+            raise ValueError(f"--set: got {text!r}, expected NAME=VALUE {how}, or NAME=+10%") from None
     return changes
 
 

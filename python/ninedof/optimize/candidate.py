@@ -49,9 +49,9 @@ class OfStudy:
         study: Study = self.study
         return study.leg_limits(self.configuration, (self.region and self.region.leg_ranges) or None)
 
-    def path_limits(self, followed: Followed, home: Configuration | None = None) -> PathLimits:
-        """Return the limits of its study along a motion of it, from its own neutral configuration by default."""
-        return path_limits(self.study, followed, self.configuration if home is None else home)
+    def path_limits(self, followed: Followed, home: Configuration) -> PathLimits:
+        """Return the limits of its study along a motion of it, as `ninedof.path_limits` does."""
+        return path_limits(self.study, followed, home)
 
 
 @short_repr

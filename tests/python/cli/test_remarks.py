@@ -66,7 +66,9 @@ def test_what_is_refused_names_the_way(words):
     out = words("sweep ./run --over a2=500:600:3 --out ./swept")
     assert "which has a [tool], expected coordinates of the configuration; a changed design" in out
     assert "`ninedof evaluate RUN --set`" in out
-    assert "--set: got 'zp=abc', expected a number: NAME=VALUE, or NAME=+10%" in words("evaluate ./run --set zp=abc")
+    assert "--set: got 'zp=abc', expected NAME=VALUE with a number, or NAME=+10%" in words(
+        "evaluate ./run --set zp=abc"
+    )
     assert "expected NAME=VALUE without a plus" in words("evaluate ./run --set zp=+5")
 
 

@@ -60,6 +60,7 @@ def test_gravity_that_is_of_other_masses_than_kilograms_is_said_too(run, tmp_pat
     study = nd.Study(variables=fixed, unit="in", **duty | {"loads": {"gravity": [0.0, 0.0, -1.0]}})
     with pytest.warns(UserWarning, match="gravity is 1: with a unit of lengths masses are kilograms"):
         nd.optimize(study)
+    assert study.gravity_note.endswith("1 lb is 0.45359237 kg, 1 lbf is 4.4482216 N")
     study.save(tmp_path / "study.toml")
     _, out, errors = run(f"optimize {tmp_path / 'study.toml'} --no-figures --no-report --out {tmp_path / 'run'}")
     assert (out + errors).count("gravity is 1:") == 1

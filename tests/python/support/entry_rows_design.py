@@ -84,6 +84,7 @@ row("Tool.robot", nd.Tool(**DUTY["tool"]).robot)(ROBOT.copy)
 row("Tool.plates", nd.Tool(**DUTY["tool"]).plates)(lambda: {"geometry": it.g()})
 row("Tool.plate", nd.Tool(**DUTY["tool"]).plate)(lambda: {"configuration": it.c()})
 row("Tool.words", nd.Tool(**DUTY["tool"]).words)(lambda: {"unit": "mm"})
+row("Tool.remark", nd.Tool(**DUTY["tool"]).remark)(lambda: {"unit": "mm"})
 row("Study.leg_limits", lambda **a: it.study().leg_limits(**a), loose=("ranges",))(
     lambda: {"neutral": it.c(), "ranges": [(1.0, 9.0)] * 9}
 )
@@ -318,6 +319,10 @@ row(
     }
 )
 row("region_map")(lambda: {"result": it.region_result()})
+for of in (it.result, lambda: it.result().best):
+    row(f"{type(of()).__name__}.path_limits", lambda of=of, **a: of().path_limits(**a))(
+        lambda: {"followed": it.followed(), "home": it.c()}
+    )
 row("path_limits")(lambda: {"study": it.study(), "followed": it.followed(), "home": it.c()})
 row("tolerances_for", words={"position": ("position", "rotation")})(
     lambda: {"design": it.design(), "position": 0.1, "rotation": 0.01, "weights": (1.0, 1.0)}

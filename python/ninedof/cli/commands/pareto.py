@@ -67,9 +67,9 @@ def pareto(options: _Options) -> None:
     against = with_degrees(against)  # at the terminal angles are degrees
     name = "the paper's problem" if file is None else file.name
     screen.print(*study.notes)
-    if options.against is None:
-        values = f" at {', '.join(f'{value:g}' for value in options.value)}" if options.value else ""
-        screen.print(f"--against is not given: the front is against {against}{values}")
+    if options.against is None and options.value:
+        values = ", ".join(f"{value:g}" for value in options.value)
+        screen.print(f"--against is not given: the front is against {against} at {values}")
     with run_folder(options.out) as directory, screen.bar("limits", f"{name}, {against}") as bar, catch_warnings():
         simplefilter("ignore", UserWarning)  # the notes, which were printed
         how: dict[str, Any] = {"threads": options.threads, "progress": bar.show, "out": directory}
