@@ -10,7 +10,7 @@ import numpy as np
 from ninedof.export.model import JOINTS, LEGS, Format, Model, O, P
 from ninedof.sheet.rows import LimitRow
 from ninedof.support.margins import margin_words
-from ninedof.support.units import amount, with_unit
+from ninedof.support.units import amount, kind_unit, with_unit
 
 HEAD = r"""% {title}: joints, neutral pose, legs and limits, written by ninedof.
 % In the preamble: \usepackage{{booktabs}}. Each table is a tabular: put it in a table with a caption of yours.
@@ -101,7 +101,7 @@ def _limits(limits: Sequence[LimitRow], unit: str, force: str = "") -> str:
 def _measure(row: LimitRow, value: float, unit: str, force: str) -> str:
     if row.unit == "angle":
         return rf"${math.degrees(value):.2f}^\circ$"
-    return amount(f"${value:.{DIGITS}g}$", row.shown_unit(unit, force))
+    return amount(f"${value:.{DIGITS}g}$", kind_unit(row.unit, unit, force))
 
 
 def _columns(rows: Sequence[Iterable[float]]) -> list[list[str]]:

@@ -76,8 +76,7 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
         if "limit_deg" in row:
             ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
         else:
-            force = motion.get("force_unit", "")
-            unit = force if row["name"].endswith("force") else kind_unit(_kind(row), motion.get("unit", ""), force)
+            unit = kind_unit(_kind(row), motion.get("unit", ""), motion.get("force_unit", ""))
             ends = [amount(f"{row[key]:.6g}", unit) for key in ("limit", "value")]
         margin = margin_words(row["margin"], _kind(row))
         rows.append((f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"))

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof import _core
-from ninedof.design.limit_numbers import JOINTS, leg_number
+from ninedof.design.limit_numbers import JOINTS
 from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
@@ -84,12 +84,6 @@ class LimitRow(NamedTuple):
     """"ratio", "length", "angle", "sign", "number", "rate" or "power" as in the table of constraints; "ratio" for a
     length over zp or a radius."""
 
-    def shown_unit(self, of_lengths: str, force: str = "") -> str:
-        """Return the unit in which it is shown, of forces "N" or "" for one without a name."""
-        if self.unit == "number" and leg_number(self.name.partition(" ")[0]) == "force":
-            return force
-        return kind_unit(self.unit, of_lengths, force)
-
     @property
     def violated(self) -> bool:
         """Whether the limit is violated beyond the tolerance, or nothing is known of it."""
@@ -101,7 +95,7 @@ def limit_amount(row: LimitRow, value: float, unit: str, force: str = "") -> str
     if row.unit == "angle":
         return f"{math.degrees(value):.2f}°"
     number = load_text if row.unit in ("number", "rate", "power") else short
-    return amount(number(value), row.shown_unit(unit, force))
+    return amount(number(value), kind_unit(row.unit, unit, force))
 
 
 def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, ...]:

@@ -77,10 +77,11 @@ def times(above: str, unit: str) -> str:
 def kind_unit(kind: str, of_lengths: str, force: str = "") -> str:
     """Return the unit of values of a kind: "deg", that of lengths, a rate or a power, "" for others.
 
-    `force` is the unit of forces, "N" or "" for one without a name.
+    `force` is the unit of forces, the kind "number": "N", or "" for one without a name.
     """
     rate = per(of_lengths, "s")
-    return {"angle": "deg", "length": of_lengths, "rate": rate, "power": times(force or "force", rate)}.get(kind, "")
+    units = {"angle": "deg", "length": of_lengths, "number": force, "rate": rate}
+    return (units | {"power": times(force or "force", rate)}).get(kind, "")
 
 
 def watt_note(of_lengths: str) -> str:
