@@ -208,7 +208,9 @@ class Followed(Saved):
         elif self.study_breaks is not None:
             words = "within limits"
         else:
-            words = "legs within their lengths" if np.isfinite(self.limits[1]).any() else "no limits given"
+            low, high = self.limits
+            bounded = np.isfinite(high).any() or (np.asarray(low) > 0.0).any()
+            words = "legs within their lengths" if bounded else "no limits given"
         return f"<Followed: {len(self.time)} poses, {words}>"
 
     def _repr_html_(self) -> str:

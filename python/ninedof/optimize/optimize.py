@@ -81,7 +81,8 @@ def optimize(
     out : path, optional
         Folder that keeps what is finished, made if it is missing: the result before its proof, and the proof. The same
         call with the same folder goes on there, however the last one ended, and gives the same result. A study over a
-        region is one piece. What the time limit ended is not kept: the next call, with any limit, solves it anew.
+        region is one piece. A search that the time limit ended is not kept: the next call, with any limit, solves it
+        anew; a proof over poses goes on behind its last bound.
 
     Returns
     -------

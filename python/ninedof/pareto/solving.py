@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from warnings import catch_warnings, simplefilter
 
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import Study
@@ -70,7 +71,9 @@ class FrontSolver:
 
     def optimum(self, study: Study, warm: Sequence[Result] = ()) -> Result:
         """Return the result of a study, whether it is one of the limits or not."""
-        result = self._pieces.result(study, lambda: optimize(study, threads=self._threads, warm=list(warm) or None))
+        with catch_warnings():
+            simplefilter("ignore", UserWarning)  # the notes of the study, which were given once
+            result = self._pieces.result(study, lambda: optimize(study, threads=self._threads, warm=list(warm) or None))
         if result.interrupted:
             raise KeyboardInterrupt
         return result

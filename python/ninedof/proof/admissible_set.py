@@ -40,7 +40,11 @@ class NoRoom(ValueError):
         """Say why, where that is known."""
         expected = f"one that is inside: {reason}" if reason else "one around which a box is proved to be inside"
         super().__init__(f"design: got {design}, expected {expected}")
-        self.reason = reason
+        self.design, self.reason = design, reason
+
+    def __reduce__(self) -> tuple[type[NoRoom], tuple[str, str]]:
+        """Come back whole from another process."""
+        return NoRoom, (self.design, self.reason)
 
 
 class Reason(NamedTuple):

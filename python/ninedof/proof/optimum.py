@@ -106,8 +106,9 @@ def prove(
         return StepByStep(study, ways, limit or LONGEST, count, progress).prove(best, gap, earlier)
     proof = prove_class(study, best * (1.0 - aim), MOST_BOXES, limit, count, progress)
     proved = from_core(OptimumProof, proof, target=best * (1.0 - aim), where="")
-    known = 1.0 if earlier is None else earlier.lower_bound
-    return replace(proved, lower_bound=max(proved.lower_bound, known))
+    if earlier is None or earlier.lower_bound <= proved.lower_bound:
+        return proved
+    return replace(proved, lower_bound=earlier.lower_bound, certificate=earlier.certificate)
 
 
 def left_out_of(study: Study) -> tuple[str, ...]:

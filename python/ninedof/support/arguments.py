@@ -67,7 +67,7 @@ def text(name: str, value: Any) -> str:
 
 
 def known_keys(where: str, entries: Any, known: Iterable[str]) -> None:
-    """Raise unless `given` is a mapping with known keys only."""
+    """Raise unless `entries` is a mapping with known keys only."""
     names = list(known)
     if not isinstance(entries, Mapping):
         raise ValueError(f"{where}: got {shown(entries)}, expected a mapping of names")

@@ -67,5 +67,5 @@ def test_all_poses_of_a_region_study_are_said_to_be_those_that_ruled(folder, run
     assert len(nd.load(folder / "doubled").best.configurations) == len(ruled) + 2
     for name in ("run", "doubled"):
         out = " ".join(run(f"accuracy {folder / name} --all-poses")[1].split())
-        assert f"{len(ruled) + 1} poses of the region, those that ruled its condition number or a limit" in out
+        assert f"{len(ruled) + 1} poses: the neutral one, pose 0, and those of the region that ruled its" in out
         assert "extremes over the region: ninedof sheet" in out

@@ -1,6 +1,7 @@
 """Sets of admissible designs, held against designs drawn at random and evaluated in numpy at poses drawn at random."""
 
 import math
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from sizes import size
 
 import ninedof as nd
 from ninedof.design.region_poses import posed
+from ninedof.proof.admissible_set import NoRoom
 
 ROUNDING = 1e-9
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": (2.0, 8.0), "zs": (1.0, 6.0)}
@@ -400,3 +402,9 @@ def test_what_has_no_bounds_over_boxes_of_designs_is_refused(objective, constrai
     study = nd.Study(variables=SIZES, objective=objective, constraints=constraints)
     with pytest.raises(ValueError, match=words):
         nd.admissible(study, {"a2": (-2.0, 10.0) if not constraints else (2.0, 10.0)}, at={"b1": 3.0, **AT})
+
+
+def test_an_answer_that_there_is_no_room_comes_back_from_another_process():
+    one = NoRoom("a2 = 8", "it is on the limit leg length")
+    other = pickle.loads(pickle.dumps(one))
+    assert (str(other), other.reason) == (str(one), one.reason)

@@ -14,6 +14,7 @@ import pytest
 from sizes import LONG
 
 import ninedof as nd
+from ninedof.proof.optimum import prove
 from ninedof.proof.optimum_proof import FILE, OptimumProof
 from ninedof.report.proof import of_result as report_proof
 
@@ -343,3 +344,13 @@ def test_what_the_search_proves_of_symmetric_studies_is_checked(tmp_path):
         assert proof.complete
         found = nd.check_certificate(proof.save(tmp_path / "some"))
         assert found.proved, (legs, radii, top, found.words)
+
+
+def test_an_earlier_bound_that_is_higher_keeps_its_file():
+    study = nd.Study.paper()
+    earlier = nd.prove_optimum(study, 3.7626590785960, gap=0.2)
+    wider = prove(study, 3.7626590785960, 0.5, None, 1, None, earlier)
+    assert (wider.lower_bound, wider.certificate) == (earlier.lower_bound, earlier.certificate)
+    narrower = prove(study, 3.7626590785960, 0.1, None, 1, None, earlier)
+    assert narrower.lower_bound > earlier.lower_bound
+    assert narrower.certificate != earlier.certificate

@@ -133,6 +133,8 @@ def test_a_path_of_a_result_has_loads_masses_and_all_limits_of_its_study(tmp_pat
     assert repr(along) == "<Followed: 51 poses, within limits>"
     assert repr(by_hand) == "<Followed: 51 poses, no limits given>"
     far = nd.Trajectory.line(home, [20.0, 0.0, 0.0], points=51)
+    least = nd.follow(result.geometry, far, home, limits=(1.0, np.inf))
+    assert repr(least) == "<Followed: 51 poses, legs within their lengths>"
     broken = nd.follow(result, far)
     assert broken.breaks == nd.path_limits(study, broken, home).breaks != ()
     assert "breaks base_cone l" in repr(broken)

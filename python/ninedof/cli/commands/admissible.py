@@ -11,7 +11,7 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import SCHEDULER, THREADS, Options, argument, changes_option, option, struct
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
-from ninedof.proof.admissible_set import NoRoom, room_words
+from ninedof.proof.admissible_set import UNDECIDED, NoRoom, room_words
 from ninedof.proof.design_range import MOST_VARIED, design_range
 from ninedof.records.load import split
 from ninedof.records.proofs import admissible_file, load_admissible
@@ -83,8 +83,11 @@ def admissible(options: _Options) -> Answer:
         designs = nd.admissible(of, vary, **how, executor=executor, progress=bar)
     data: dict[str, Any] = {name: getattr(designs, name) for name in ("shares", "excluded", "designs", "boxes")}
     screen.print(*designs.sentences())
-    if isinstance(of, nd.Result) and designs.state_of([[designs.of.at[name] for name in vary]]) == ["undecided"]:
-        screen.print("The design of the run is not decided itself: an optimum reaches limits exactly, without room.")
+    own = isinstance(of, nd.Result) and not at
+    if own and designs.state_of([[designs.of.at[name] for name in vary]]) == [UNDECIDED]:
+        ended = designs.seconds >= options.time
+        why = " yet" if ended else ": an optimum reaches limits exactly, without room"
+        screen.print(f"The design of the run is not decided itself{why}.")
     if file is not None:
         file.parent.mkdir(parents=True, exist_ok=True)
         designs.save(file)
@@ -155,7 +158,8 @@ def _around_alone(screen: Screen, of: nd.Study | nd.Result, options: _Options, a
     if not 1 <= len(free) <= MOST_VARIED:
         names = f": {', '.join(free)}" if free else ""
         raise ValueError(f"--vary: got none with {len(free)} free variables{names}, expected one to four")
-    options.refuse("with --around and no --vary: designs are not divided", "certificate", "out", "scheduler")
+    alone = "with --around and no --vary: designs are not divided"
+    options.refuse(alone, "certificate", "out", "scheduler")
     designs = nd.admissible(of, free, at=at, condition_number=options.condition, time_limit=0.0)
     return Answer([], _around(screen, designs, options))
 

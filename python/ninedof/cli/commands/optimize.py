@@ -81,8 +81,10 @@ def optimize(options: _Options) -> Answer:
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
     screen.print(folder_words(directory))
     proof = result.proof
-    ended = result.status == nd.Status.STOPPED or (proof is not None and not proof.complete and proof.better is None)
-    if options.time is not None and ended and not result.interrupted:
+    ended, seconds = result.status == nd.Status.STOPPED, result.seconds
+    if proof is not None and not proof.complete and proof.better is None:
+        ended, seconds = True, seconds + proof.seconds
+    if options.time is not None and ended and seconds >= options.time and not result.interrupted:
         ended_by_time(without="--time")
     return Answer([], {**data, "record": str(record)}, exit_status(result, timed=options.time is not None))
 
