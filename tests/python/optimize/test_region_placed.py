@@ -114,15 +114,20 @@ def test_a_run_is_read_back(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", [1, 2])
-def test_an_interruption_keeps_the_design_with_o_shifted(number):
-    """While O is no variable, and while it is one at the poses that decide."""
-    result = nd.optimize(LINE, progress=InterruptedPhase(f"O placed, round {number}, "))
-    assert (result.status, result.interrupted, result.region.keeps_limits) == ("stopped", True, True)
-    assert result.objective == solved("line", "shifted").objective
-    assert "O shifted" in result.reason
-    assert math.isinf(result.region.gain)
-    assert nd.check(replace(result, region=None, study=result.solved), perturbations=0).passed
+def test_an_interruption_keeps_the_design_with_o_shifted_until_there_is_a_better_one():
+    """In the first round O is no variable; behind it there is a design with O placed."""
+    shifted, best = solved("line", "shifted").objective, solved("line").objective
+    first, second = (nd.optimize(LINE, progress=InterruptedPhase(f"O placed, round {n}, ")) for n in (1, 2))
+    assert (first.status, first.interrupted, first.region.keeps_limits) == ("stopped", True, True)
+    assert first.objective == shifted
+    assert "O shifted" in first.reason
+    assert math.isinf(first.region.gain)
+    assert (second.status, second.interrupted) == ("stopped", True)
+    assert best * (1.0 - 1e-7) <= second.objective < shifted
+    assert "of placing O" in second.reason
+    assert second.region.margin >= -1e-7
+    for result in (first, second):
+        assert nd.check(replace(result, region=None, study=result.solved), perturbations=0).passed
 
 
 @pytest.mark.slow(sanitized=True)

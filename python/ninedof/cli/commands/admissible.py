@@ -84,7 +84,7 @@ def admissible(options: _Options) -> Answer:
     data: dict[str, Any] = {name: getattr(designs, name) for name in ("shares", "excluded", "designs", "boxes")}
     screen.print(*designs.sentences())
     own = isinstance(of, nd.Result) and not at
-    if own and designs.state_of([[designs.of.at[name] for name in vary]]) == [UNDECIDED]:
+    if own and designs.state_of([[designs.of.at[name] for name in designs.vary]]) == [UNDECIDED]:
         ended = designs.seconds >= options.time
         why = " yet" if ended else ": an optimum reaches limits exactly, without room"
         screen.print(f"The design of the run is not decided itself{why}.")
