@@ -124,8 +124,9 @@ void run_all(const PreparedProblem& p, const std::vector<Eigen::VectorXd>& start
   run_all(p, static_cast<int>(starts.size()), at, from_start, run_settings, s, control, progress, round);
 }
 
-/// Violation of every short run, as the logarithm of a ratio, beyond which there is probably no design within the limits:
-/// the runs to the end then take one attempt each, and what excludes what is asked of a search for the least violation.
+/// Violation of every short run, as the logarithm of a ratio, beyond which there is probably no design within the
+/// limits: the runs to the end then take one attempt each, and a search for the least violation says what excludes
+/// what.
 constexpr double far_from_all = 1e-2;
 
 /// How many of `starts` are run to their end after a short run of each.

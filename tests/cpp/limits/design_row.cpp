@@ -1,5 +1,5 @@
-/// The rows of the design under the law: slopes are difference quotients, intervals and forms over boxes of designs hold
-/// their numbers, and both sides of a limit read the same number. A planted error in any function breaks it.
+/// The rows of the design under the law: slopes are difference quotients, intervals and forms over boxes of designs
+/// hold their numbers, and both sides of a limit read the same number. A planted error in any function breaks it.
 
 #include "limits/design_row.hpp"
 

@@ -1,6 +1,6 @@
 /// The rows of poses under one law: slopes are difference quotients, forms over boxes of poses, and of designs as well,
-/// hold a thousand of them, bounds hold what they bound, stacks are their poses one by one, and kernels agree with rows.
-/// A planted error in any function of a row breaks it. design_row.cpp and spread_row.cpp have that of the other rows.
+/// hold a thousand of them, bounds hold what they bound, stacks are their poses one by one, and kernels agree with
+/// rows. A planted error in any function of a row breaks it. design_row.cpp and spread_row.cpp have that of the others.
 
 #include <doctest/doctest.h>
 

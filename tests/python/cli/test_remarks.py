@@ -3,17 +3,12 @@
 from dataclasses import replace
 
 import pytest
+from tooled import solved_in, tooled
 
 import ninedof as nd
 
-STUDY = nd.Study(
-    unit="mm",
-    family="hexagonal",
-    variables={"a1": 0.0, "a2": 580.0, "b1": 290.0, "b2": 0.0, "zp": 400.0, "zs": 240.0, "theta_z": 0.0},
-    characteristic_length=100.0,
+STUDY = tooled(
     constraints={"leg_length": (1.0, 900.0), "radius_ratio": (None, 4.0)},
-    objective={"region": {"box": [1.0, 1.0, 1.0]}},
-    tool={"position": [0.0, 0.0, -10.0]},
     loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, 90.0]]},
     speeds={"linear": 30.0, "angular_deg": 20.0},
 )
@@ -21,10 +16,7 @@ STUDY = nd.Study(
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    place = tmp_path_factory.mktemp("remarks")
-    STUDY.save(place / "study.toml")
-    nd.save(nd.optimize(STUDY), place / "run")
-    return place
+    return solved_in(tmp_path_factory.mktemp("remarks"), STUDY)
 
 
 @pytest.fixture

@@ -37,19 +37,24 @@ const PoseSpectrum& spectrum_alone(const PreparedProblem& p, int k, DesignEvalua
   return out.spectra[at_index(k)];
 }
 
-/// Margins of one constraint, or of one spectrum, whose singular values are known.
+/// Margins, those of a constraint together; singular values are known.
 void evaluate_margins(const PreparedProblem& p, const DesignEvaluation& design, std::span<const MarginRow> rows,
                       double* out) {
-  const int constraint = rows.front().constraint;
-  if (constraint >= 0) p.constraints[at_index(constraint)]->margins(design.state, rows, out);
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (constraint < 0) {
-      const PoseSpectrum& s = design.spectra[at_index(-1 - constraint)];
-      const auto [top, bottom] = condition_pair(s, rows[k].row);
-      out[k] = std::log(p.condition_limit(-1 - constraint)) - (s.log_sigma[top] - s.log_sigma[bottom]);
+  for (std::size_t k = 0, next = 0; k < rows.size(); k = next) {
+    const int constraint = rows[k].constraint;
+    while (next < rows.size() && rows[next].constraint == constraint) ++next;
+    if (constraint >= 0) {
+      p.constraints[at_index(constraint)]->margins(design.state, rows.subspan(k, next - k), out + k);
+      continue;
     }
-    if (!(out[k] > worst_margin)) out[k] = worst_margin;
+    const PoseSpectrum& s = design.spectra[at_index(-1 - constraint)];
+    for (std::size_t n = k; n < next; ++n) {
+      const auto [top, bottom] = condition_pair(s, rows[n].row);
+      out[n] = std::log(p.condition_limit(-1 - constraint)) - (s.log_sigma[top] - s.log_sigma[bottom]);
+    }
   }
+  for (double& margin : std::span(out, rows.size()))
+    if (!(margin > worst_margin)) margin = worst_margin;
 }
 
 void differentiate_margin(const PreparedProblem& p, int k, DesignEvaluation& out) {
@@ -78,18 +83,12 @@ void evaluate_alone(const PreparedProblem& p, const RowSelection& selection, Des
   for (int k = 0; k < p.evaluated_spectra(); ++k)
     if (selection.spectra[at_index(k)]) evaluate_spectrum(p, k, true, out);
   std::vector<MarginRow> rows;
-  std::vector<double> values;
-  const auto constraint = [&](std::size_t k) { return p.margins[at_index(selection.margins[k])].constraint; };
-  for (std::size_t k = 0, next = 0; k < selection.margins.size(); k = next) {
-    rows.clear();
-    for (; next < selection.margins.size() && constraint(next) == constraint(k); ++next)
-      rows.push_back(p.margins[at_index(selection.margins[next])]);
-    values.resize(rows.size());
-    evaluate_margins(p, out, rows, values.data());
-    for (std::size_t n = 0; n < rows.size(); ++n) {
-      out.margins[selection.margins[k + n]] = values[n];
-      differentiate_margin(p, selection.margins[k + n], out);
-    }
+  for (const int k : selection.margins) rows.push_back(p.margins[at_index(k)]);
+  std::vector<double> values(rows.size());
+  evaluate_margins(p, out, rows, values.data());
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    out.margins[selection.margins[n]] = values[n];
+    differentiate_margin(p, selection.margins[n], out);
   }
 }
 
@@ -130,11 +129,7 @@ void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSel
   out.levels.setConstant(p.levels, -infinity);
   for (const RowLevel& u : p.row_levels) out.levels[u.level] = std::max(out.levels[u.level], out.objective_rows[u.row]);
   out.log_objective = p.objective(out.levels);
-  const std::span<const MarginRow> all = p.margins;
-  for (std::size_t k = 0, next = 0; k < all.size(); k = next) {
-    while (next < all.size() && all[next].constraint == all[k].constraint) ++next;
-    evaluate_margins(p, out, all.subspan(k, next - k), out.margins.data() + k);
-  }
+  evaluate_margins(p, out, p.margins, out.margins.data());
   if (selection == nullptr)
     for (Eigen::Index k = 0; k < margins; ++k) differentiate_margin(p, static_cast<int>(k), out);
   else

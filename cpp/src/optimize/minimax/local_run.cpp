@@ -204,8 +204,8 @@ LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, 
     if (settled()) break;
     if (run_settings.polish && p.has_kinks() && run.end.feasible() && smoothed_from != y) {
       // Where singular values meet off the axis, the index has a kink that no row describes. Solve with decreasing
-      // smoothing, then polish with the singular values that coincide held equal. Where the first of them moves nothing,
-      // it is no kink that stops SLSQP.
+      // smoothing, then polish with the singular values that coincide held equal. Where the first of them moves
+      // nothing, it is no kink that stops SLSQP.
       smoothed_from = y;
       Eigen::VectorXd smoothed = y;
       for (const double epsilon : smoothings) {

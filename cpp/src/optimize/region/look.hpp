@@ -53,7 +53,8 @@ class RoundClock {
 };
 
 /// How far an exchange is, in words: its design after so many rounds, by how much that passes between the poses, and a
-/// guess, from the rate of all rounds so far and the time of the last, how long it takes until no more than `passed` is.
+/// guess, from the rate of all rounds so far and the time of the last, how long it takes until no more than `passed`
+/// is.
 std::string so_far(double objective, double excess, int rounds, double passed, const RoundClock& clock);
 
 /// Which of the poses have an index within `near` of the largest over all of them, a margin below it, or a leg that is

@@ -11,8 +11,8 @@
 
 namespace ninedof {
 
-/// A row of a constraint, or (constraint = -1 - k) a pair of singular values of spectrum k under a limit on the condition
-/// number.
+/// A row of a constraint, or (constraint = -1 - k) a pair of singular values of spectrum k under a limit on the
+/// condition number.
 struct MarginRow {
   int constraint, row;
 };

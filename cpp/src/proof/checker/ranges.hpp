@@ -15,8 +15,8 @@ namespace ninedof::checker {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-/// The next double above, as std::nextafter without its call: the bits of a double are in its order, from 0 outwards. Of
-/// inf and of no number it is inf.
+/// The next double above, as std::nextafter without its call: the bits of a double are in its order, from 0 outwards.
+/// Of inf and of no number it is inf.
 inline double up(double x) {
   auto bits = std::bit_cast<std::int64_t>(x + 0.0);  // -0 becomes 0
   bits += (bits >> 63) | 1;
