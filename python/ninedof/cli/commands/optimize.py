@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from time import perf_counter
 from typing import Any
 from warnings import catch_warnings, simplefilter
 
@@ -61,7 +62,9 @@ def optimize(options: _Options) -> Answer:
     with run_folder(options.out) as directory:
         limit = math.inf if options.time is None else options.time
         how: dict[str, Any] = {"threads": options.threads, "certify": options.certify, "time_limit": limit}
+        begin = perf_counter()
         run = _solve(study, file, how | {"out": directory}, screen)
+        seconds = perf_counter() - begin
     if isinstance(run, PaperComparison):
         result, answer = run.result, Answer(_comparison_parts(run), run.to_dict())
     else:
@@ -81,9 +84,7 @@ def optimize(options: _Options) -> Answer:
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
     screen.print(folder_words(directory))
     proof = result.proof
-    ended, seconds = result.status == nd.Status.STOPPED, result.seconds
-    if proof is not None and not proof.complete and proof.better is None:
-        ended, seconds = True, seconds + proof.seconds
+    ended = result.status == nd.Status.STOPPED or (proof is not None and not proof.complete and proof.better is None)
     if options.time is not None and ended and seconds >= options.time and not result.interrupted:
         ended_by_time(without="--time")
     return Answer([], {**data, "record": str(record)}, exit_status(result, timed=options.time is not None))
