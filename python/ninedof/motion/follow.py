@@ -18,18 +18,20 @@ from ninedof.redundancy.redundancy import leg_limits
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.designs import HasRobot, robot_of
-from ninedof.robot.geometry import LEGS, TRIPLES, Geometry, triples
+from ninedof.robot.geometry import LEGS, Geometry, triples
 from ninedof.robot.idle import idle_names, unloaded_names
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.statics.dynamics import GRAVITY, gravity_for_core, inverse_dynamics
 from ninedof.support.arguments import choice, finite, instance, items
 from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_leading
 from ninedof.support.files import Saved
+from ninedof.support.structs import entries_of, plain_fields
 from ninedof.support.text import short_repr
 from ninedof.support.units import metres, unit_entry
 from ninedof.tables.html import notebook
 
 PATH = ("time", "position", "rotation")
+ROBOT = ("geometry", "trajectory", "configurations")
 DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
 
 
@@ -53,7 +55,7 @@ class LimitBreak(NamedTuple):
 class Followed(Saved):
     """A motion along a trajectory, legs in the order of `leg_lengths`."""
 
-    FORMAT = "ninedof-motion-1"
+    KIND = "motion"
 
     geometry: Geometry
     trajectory: Trajectory
@@ -217,21 +219,15 @@ class Followed(Saved):
         return notebook(repr(self), *motion_tables(self.to_dict()))
 
     def _saved(self) -> dict[str, Any]:
-        entries = super()._saved()
-        path, c, g = (entries.pop(name) for name in ("trajectory", "configurations", "geometry"))
-        entries |= {name: np.array(entries[name]) for name in ("limits", "singularity_margins")}
-        return {**triples(g), "o": c.internal_point, **{name: getattr(path, name) for name in PATH}, **entries}
+        path = {name: getattr(self.trajectory, name) for name in PATH}
+        robot = {"geometry": triples(self.geometry), "path": path, "o": self.configurations.internal_point}
+        return plain_fields(self, *ROBOT) | robot
 
     @classmethod
     def _restored(cls, entries: dict[str, Any]) -> Followed:
-        g = Geometry(**{name: entries.pop(name) for name in TRIPLES})
-        path = Trajectory(**{name: entries.pop(name) for name in PATH}, unit=entries["unit"])
-        c = Configuration(path.position, path.rotation, entries.pop("o"))
-        entries["limits"] = tuple(entries["limits"])
-        entries["singularity_margins"] = SingularityMargins(*entries["singularity_margins"])
-        if (breaks := entries.get("study_breaks")) is not None:
-            entries["study_breaks"] = tuple(LimitBreak(*one) for one in breaks)
-        return cls(geometry=g, trajectory=path, configurations=c, **entries)
+        path = Trajectory(**entries["path"], unit=entries.get("unit", ""))
+        c = Configuration(path.position, path.rotation, entries["o"])
+        return cls(Geometry(**entries["geometry"]), path, c, **entries_of(cls, entries, skipped=ROBOT))
 
 
 def follow(

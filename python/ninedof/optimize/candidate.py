@@ -237,13 +237,6 @@ class RegionReport:
             leg_ranges=() if legs is None else tuple(zip(legs.low.tolist(), legs.high.tolist(), strict=True)),
         )
 
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> RegionReport:
-        """Return the report of a mapping as `Result.to_dict` makes it."""
-        entries = entries_of(cls, data, skipped=["poses", "objective_at"])
-        poses = tuple(map(Pose.from_dict, data["poses"]))
-        return cls(**entries, poses=poses, objective_at=Pose.from_dict(data["objective_at"]))
-
 
 def _posed(pose: Any) -> Pose:
     point = "best" if pose.best_internal else pose.internal

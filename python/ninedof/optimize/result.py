@@ -332,19 +332,8 @@ def with_fixed_design(result: Result) -> Result:
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:
     """Return the result of a mapping as `Result.to_dict` makes it."""
-    kinds: dict[str, Any] = {
-        "region": RegionReport,
-        "proof": OptimumProof,
-        "actuators": ActuatorChoice,
-        "reserve": Reserve,
-    }
-    entries = entries_of(Result, data, skipped=["status", "candidates", "study", *kinds])
-    parts: dict[str, Any] = {n: kind.from_dict(data[n]) for n, kind in kinds.items() if data.get(n) is not None}
-    problem = (posed(study, parts["region"].poses) if "region" in parts else study).problem()
-    return Result(
-        **entries,
-        **parts,
-        status=Status(data["status"]),
-        candidates=tuple(candidate_from(problem, entry) for entry in data["candidates"]),
-        study=study,
-    )
+    entries = entries_of(Result, data, skipped=["candidates", "study"])
+    region = entries.get("region")
+    problem = (study if region is None else posed(study, region.poses)).problem()
+    candidates = tuple(candidate_from(problem, entry) for entry in data["candidates"])
+    return Result(**entries, candidates=candidates, study=study)

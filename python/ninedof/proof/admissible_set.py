@@ -21,7 +21,6 @@ from ninedof.proof.machine_record import ProofPose, outward
 from ninedof.support.arguments import finite, path_argument, shown, table
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import Saved, write_whole
-from ninedof.support.structs import Fixed, entries_of
 from ninedof.support.units import amount
 from ninedof.tables.html import notebook
 
@@ -62,7 +61,7 @@ class Reason(NamedTuple):
 class AdmissibleSet(Saved):
     """A box of designs, divided into pieces. Lengths in the unit of the study, angles in radians."""
 
-    FORMAT = "ninedof-admissible-1"
+    KIND = "admissible"
 
     of: DesignRange
     low: Floats
@@ -239,21 +238,6 @@ class AdmissibleSet(Saved):
         shares = [self.shares[name] for name in STATES]
         data = _core.design_certificate(self.of.for_core(), for_core(vars(self)), self.demands, shares)
         return write_whole(path_argument("path", path), data)
-
-    def _saved(self) -> dict[str, Any]:
-        of = vars(self.of)
-        return super()._saved() | {
-            "study": self.study.to_dict(),
-            "of": {name: of[name] for name in of if name != "study"},
-        }
-
-    @classmethod
-    def _restored(cls, entries: dict[str, Any]) -> AdmissibleSet:
-        of = entries_of(DesignRange, entries["of"], skipped=["study"])
-        of |= {"study": Study.from_dict(entries["study"]), "at": Fixed(of["at"])}
-        others = entries_of(cls, entries, skipped=("of", *PIECES))
-        others |= {name: entries[name] for name in PIECES} | {"shares": Fixed(others["shares"])}
-        return cls(DesignRange(**of), **others)
 
     def _boxes(self, state: int) -> Floats:
         chosen = self.state == state

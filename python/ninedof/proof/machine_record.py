@@ -10,14 +10,12 @@ from typing import Any
 from ninedof import _core
 from ninedof.design.duty import Tolerances
 from ninedof.proof.point_rule import PointRule
-from ninedof.robot.geometry import LEGS
 from ninedof.support.arguments import flag, number, table, text, whole
 from ninedof.support.structs import made
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount, kind_unit
 from ninedof.tables.html import notebook
 
-FORMAT = "ninedof-machine-certificate-3"
 PROVED, VIOLATED, UNDECIDED = "proved", "violated", "undecided"
 
 
@@ -226,7 +224,7 @@ class MachineCertificate:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values, for a file."""
-        return {"format": FORMAT, **asdict(self), "proved": self.proved}
+        return {**asdict(self), "proved": self.proved}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> MachineCertificate:
@@ -243,10 +241,6 @@ class MachineCertificate:
     def __str__(self) -> str:
         """Return the sentences."""
         return "\n".join(self.sentences())
-
-    def leg_table(self) -> dict[str, tuple[float, float]]:
-        """Return the proved lengths by leg."""
-        return dict(zip(LEGS, self.lengths, strict=True))
 
 
 def outward(value: float, up: bool, digits: int = 6) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from ninedof.design.study import Study
 from ninedof.proof.admissible_set import AdmissibleSet
 from ninedof.proof.design_range import DesignRange
-from ninedof.proof.machine_record import FORMAT, MachineCertificate
+from ninedof.proof.machine_record import MachineCertificate
 from ninedof.records.load import split
 from ninedof.support.arguments import path_argument
 from ninedof.support.files import json_bytes, read_json, write_whole
@@ -23,7 +23,7 @@ def certificate_file(run: str | os.PathLike[str]) -> Path:
 
 def save_certificate(certificate: MachineCertificate, file: str | os.PathLike[str]) -> Path:
     """Write a certificate; return its path."""
-    return write_whole(Path(file), json_bytes(certificate.to_dict()))
+    return write_whole(Path(file), json_bytes("certificate", certificate.to_dict()))
 
 
 def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
@@ -50,7 +50,7 @@ def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
         if not place.exists():
             raise ValueError(f"{os.fspath(run)}: cannot be read (No such file or directory)")
         file = certificate_file(run)
-    return MachineCertificate.from_dict(read_json(file, FORMAT))
+    return MachineCertificate.from_dict(read_json(file, "certificate"))
 
 
 def admissible_file(folder: Path, of: DesignRange) -> Path:

@@ -74,7 +74,6 @@ def _of_now() -> Path:
     raise AssertionError("unreachable")
 
 
-FORMAT = "ninedof-record-4"
 FILE = "record.json"
 
 Run = Result | PaperComparison | Front | WorkspaceMap | SweepResult | Followed
@@ -182,14 +181,12 @@ def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
     others = {name: getattr(record, name) for name in ("results", "versions", "created", "command", "files")}
     if not record.command:
         del others["command"]
-    return write_whole(
-        Path(directory) / FILE, json_bytes({"format": FORMAT, "kind": record.kind, **question, **others})
-    )
+    return write_whole(Path(directory) / FILE, json_bytes("record", {"kind": record.kind, **question, **others}))
 
 
 def load_record(path: str | os.PathLike[str]) -> Record:
     """Read a record from its file or its directory; ValueError names a file that is missing or was changed."""
-    data = read_json(folder_of(path) / FILE if Path(path).is_dir() else Path(path), FORMAT)
+    data = read_json(folder_of(path) / FILE if Path(path).is_dir() else Path(path), "record")
     question = Study.from_dict(data.pop("study")) if "study" in data else data.pop("question")
     return Record(**{"command": "", **data, "files": tuple(data["files"])}, question=question)
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 import os
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import fields
 from functools import partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, ClassVar, Self
@@ -16,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.support.arguments import cleaned, path_argument
+from ninedof.support.structs import made, plain_fields
 from ninedof.support.text import decode, encode
 
 if TYPE_CHECKING:
@@ -27,6 +26,8 @@ PART = ".part-"  # begins the name of a file that is being written
 MOST_NAME = 120  # bytes of a name that is put into a folder
 SHORT = 40  # characters of a name that the name of its part repeats: a part of the longest name fits too
 SEPARATORS = {";": "semicolons", "\t": "tabs"}  # of files that are no CSV to us
+VERSION = 5  # of all files that ninedof keeps
+WORDS, ARRAY = "words", "npy"  # the array of all that is none, and what names another there
 DIGITS = 64  # of a digest
 PIECE = 2**18  # bytes read at a time
 DIGEST = b',\n  "digest": "'  # before the digest of a JSON file
@@ -155,16 +156,21 @@ def sha256(data: bytes) -> hashlib._Hash:
     return hashlib.sha256(data)
 
 
-def json_bytes(entries: Mapping[str, Any]) -> bytes:
-    """Return entries, of which `format` is one, as a JSON file with their digest behind them."""
-    body = encode(entries).encode().removesuffix(b"\n}")
+def form_of(kind: str) -> str:
+    """Return what a file says that it is."""
+    return f"ninedof-{kind}-{VERSION}"
+
+
+def json_bytes(kind: str, entries: Mapping[str, Any]) -> bytes:
+    """Return entries as a JSON file of a kind, with their digest behind them."""
+    body = encode({"format": form_of(kind), **entries}).encode().removesuffix(b"\n}")
     return body + DIGEST + sha256(body).hexdigest().encode() + b'"\n}\n'
 
 
-def read_json(path: Path, form: str) -> dict[str, Any]:
-    """Read a file of `json_bytes`, without the format and the digest.
+def read_json(path: Path, kind: str) -> dict[str, Any]:
+    """Read the entries of a file of `json_bytes`.
 
-    ValueError names a file that cannot be read, was changed, or has another format.
+    ValueError names a file that cannot be read, was changed, or is of another kind or version.
     """
     try:
         data = path.read_bytes()
@@ -174,8 +180,10 @@ def read_json(path: Path, form: str) -> dict[str, Any]:
     if end != sha256(body).hexdigest().encode() + b'"\n}\n':
         raise ValueError(f"{path}: {CHANGED}")
     entries: dict[str, Any] = decode(f"{body.decode()}\n}}")
-    if entries.pop("format", None) != form:
-        raise ValueError(f"{path}: got another format than {form!r}, expected a file of this version of ninedof")
+    if entries.pop("format", None) != form_of(kind):
+        raise ValueError(
+            f"{path}: got another format than {form_of(kind)!r}, expected a file of this version of ninedof"
+        )
     return entries
 
 
@@ -235,11 +243,10 @@ def _digest(file: IO[bytes], salt: str) -> bytes:
     return digest.hexdigest().encode()
 
 
-class Saved(ABC):
-    """A dataclass that one .npz file holds: its arrays, and one entry of JSON, the head, for all else."""
+class Saved:
+    """A dataclass that one .npz file holds: its arrays by the way to them, and one entry of JSON for all else."""
 
-    FORMAT: ClassVar[str]
-    HEAD: ClassVar[str] = "words"
+    KIND: ClassVar[str]
     COMPRESSED: ClassVar[bool] = False
 
     def save(self, path: str | os.PathLike[str]) -> Path:
@@ -269,31 +276,49 @@ class Saved(ABC):
         try:
             return cls._made(contents)
         except (KeyError, ValueError):
-            raise ValueError(f"{os.fspath(path)}: got no {cls.FORMAT!r} file, expected what `save` wrote") from None
+            expected = "expected what `save` wrote"
+            raise ValueError(f"{os.fspath(path)}: got no {form_of(cls.KIND)!r} file, {expected}") from None
 
-    def _contents(self) -> dict[str, Any]:
-        entries = self._saved()
-        arrays = {name: value for name, value in entries.items() if isinstance(value, np.ndarray)}
-        words = {name: value for name, value in entries.items() if name not in arrays}
-        return {self.HEAD: json_array({"format": self.FORMAT, **words}), **arrays}
+    def _contents(self) -> Arrays:
+        """Return the arrays of the file."""
+        arrays: Arrays = {}
+        words = _apart(self._saved(), "", arrays)
+        return {WORDS: json_array({"format": form_of(self.KIND), **words}), **arrays}
 
     @classmethod
-    def _made(cls, contents: Arrays) -> Self:
+    def _made(cls, arrays: Arrays) -> Self:
         """Return the result that has these arrays; raise KeyError or ValueError for those of another format."""
-        words = from_json_array(contents.pop(cls.HEAD))
-        if words.pop("format") != cls.FORMAT:
+        words = from_json_array(arrays[WORDS])
+        if words.pop("format") != form_of(cls.KIND):
             raise ValueError
-        return cls._restored(contents | words)
+        return cls._restored(_whole(words, arrays))
 
     def _saved(self) -> dict[str, Any]:
-        """Return the entries of the file: arrays, and plain values."""
-        this: Any = self
-        return {one.name: getattr(self, one.name) for one in fields(this)}
+        """Return the entries of the file: plain values, and arrays among them."""
+        return plain_fields(self)
 
     @classmethod
-    @abstractmethod
     def _restored(cls, entries: dict[str, Any]) -> Self:
         """Return the result of the entries that `_saved` returned, as JSON leaves them."""
+        return made(cls, entries)
+
+
+def _apart(value: Any, way: str, arrays: Arrays) -> Any:
+    """Return a plain value with a name in place of each array, which `arrays` then has."""
+    if isinstance(value, dict):
+        return {key: _apart(one, f"{way}.{key}".strip("."), arrays) for key, one in value.items()}
+    if isinstance(value, list):
+        return [_apart(one, f"{way}.{k}", arrays) for k, one in enumerate(value)]
+    if isinstance(value, np.ndarray):
+        arrays[way] = value
+        return {ARRAY: way}
+    return value
+
+
+def _whole(value: Any, arrays: Arrays) -> Any:
+    if isinstance(value, dict):
+        return arrays[value[ARRAY]] if value.keys() == {ARRAY} else {k: _whole(x, arrays) for k, x in value.items()}
+    return [_whole(one, arrays) for one in value] if isinstance(value, list) else value
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:

@@ -24,7 +24,6 @@ from ninedof.support.files import (
 from ninedof.support.running import has_kept
 from ninedof.support.text import decode, encode
 
-FORMAT = "ninedof-question-2"
 QUESTION, PIECES = "question.json", "pieces"
 MOST_NAMED = 3  # differences of two questions in a message
 
@@ -53,8 +52,8 @@ class Store:
             self._run.mkdir(parents=True, exist_ok=True)
             self._lock = _locked(self._run)
             if not file.exists():
-                write_whole(file, json_bytes({"format": FORMAT, "chunk": chunk, "question": own}))
-            there = read_json(file, FORMAT)
+                write_whole(file, json_bytes("question", {"chunk": chunk, "question": own}))
+            there = read_json(file, "question")
             self.folder.mkdir(exist_ok=True)
             for part in self.folder.glob(f"{PART}*"):  # of a run that was killed
                 part.unlink(missing_ok=True)

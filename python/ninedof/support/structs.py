@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import functools
 import types
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import MISSING, Field, field, fields, is_dataclass
 from enum import StrEnum
 from typing import Any, NoReturn, Self, TypeVar, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
 
 from ninedof.support.arguments import LARGEST, flag, items, known_keys, number, shown_key, table, text, whole
 from ninedof.support.units import DEG, angle_entry, in_radians
@@ -77,22 +79,31 @@ def value_of(name: str, value: Any, kind: Any) -> Any:
     if kind in _SIMPLE:
         _SIMPLE[kind](name, value)
         return value
-    origin, inner = get_origin(kind), get_args(kind)
+    origin, inner = get_origin(kind), [one for one in get_args(kind) if one is not type(None)]
     if origin in (types.UnionType, Union):
-        return None if value is None else value_of(name, value, next(one for one in inner if one is not type(None)))
+        return value if value is None or len(inner) > 1 else value_of(name, value, inner[0])
+    if origin is np.ndarray or kind is Any:
+        return value
     if origin is tuple:
         return _tuple(name, value, inner)
     if origin in (dict, Mapping):
-        return {
+        entries = {
             text(name, key): value_of(f"{name}.{shown_key(key)}", entry, inner[1])
             for key, entry in table(name, value).items()
         }
+        return entries if origin is dict else Fixed(entries)
+    if issubclass(kind, StrEnum):
+        return kind(value)
+    if hasattr(kind, "from_dict"):
+        return kind.from_dict(value)
     if is_dataclass(kind) and isinstance(kind, type):
         return made(kind, value, name)
+    if hasattr(kind, "_fields"):
+        return kind(**{one: value_of(f"{name}.{one}", value[one], _hints(kind)[one]) for one in kind._fields})
     raise AssertionError(f"{name} is declared as {kind}, of which a file has none")
 
 
-def _tuple(name: str, value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
+def _tuple(name: str, value: Any, inner: Sequence[Any]) -> tuple[Any, ...]:
     if inner[-1] is Ellipsis:
         return tuple(value_of(f"{name}[{k}]", entry, inner[0]) for k, entry in enumerate(items(name, value, "a list")))
     entries = zip(items(name, value, f"a list of {len(inner)}", len(inner)), inner, strict=True)

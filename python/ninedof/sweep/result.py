@@ -19,14 +19,12 @@ from ninedof.sweep.survey import RADIUS_RATIO
 from ninedof.tables import Column, Table, columns
 from ninedof.tables.html import notebook
 
-COORDINATE, ARRAY = "coordinate ", "array "
-
 
 @dataclass(frozen=True, eq=False)
 class SweepResult(Saved):
     """Named arrays over named dimensions, with the values along each dimension and their units."""
 
-    FORMAT, HEAD = "ninedof-sweep-1", "ninedof"
+    KIND = "sweep"
 
     arrays: Mapping[str, NDArray[Any]]
     """Name of an index to its values."""
@@ -125,18 +123,6 @@ class SweepResult(Saved):
             {name: (name, values, unit[name]) for name, values in self.coords.items()},
             {name: _attribute(value) for name, value in self.attributes.items()},
         )
-
-    def _saved(self) -> dict[str, Any]:
-        entries: dict[str, Any] = {"dims": self.dims, "units": self.units, "attributes": self.attributes}
-        entries |= {COORDINATE + name: values for name, values in self.coords.items()}
-        return entries | {ARRAY + name: values for name, values in self.arrays.items()}
-
-    @classmethod
-    def _restored(cls, entries: dict[str, Any]) -> SweepResult:
-        dims = {name: tuple(of) for name, of in entries["dims"].items()}
-        arrays = {name: entries[ARRAY + name] for name in dims}
-        coords = {n.removeprefix(COORDINATE): v for n, v in entries.items() if n.startswith(COORDINATE)}
-        return cls(arrays, dims, coords, entries["units"], entries["attributes"])
 
 
 def _attribute(value: Any) -> Any:

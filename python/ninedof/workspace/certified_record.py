@@ -56,7 +56,7 @@ class CertifiedWorkspace(Saved):
     none is and which are not kept. Planes cut the open boxes: what they prove to be allowed and forbidden counts too.
     """
 
-    FORMAT = "ninedof-certified-workspace-1"
+    KIND = "certified-workspace"
     COMPRESSED = True
 
     volume: tuple[float, float]
@@ -227,12 +227,6 @@ class CertifiedWorkspace(Saved):
             out[name] = getattr(self, name).tolist()
         counts = {"inner_boxes": len(self.inner_low), "open_boxes": len(self.open_low)}
         return out | counts | {"bounds": self.bounds, "gap": self.gap}
-
-    @classmethod
-    def _restored(cls, entries: dict[str, Any]) -> CertifiedWorkspace:
-        for name in ("volume", "home_volume", "estimate"):
-            entries[name] = None if entries[name] is None else tuple(entries[name])
-        return cls(**entries)
 
 
 def _between(bounds: tuple[float, float], unit: str) -> str:

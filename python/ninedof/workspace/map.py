@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
 from typing import Any
@@ -15,7 +15,7 @@ from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, flag, whole
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Saved
-from ninedof.support.structs import from_core
+from ninedof.support.structs import from_core, made, plain_fields
 from ninedof.tables.html import notebook
 from ninedof.workspace.cells import LIMITS, IndexStatistics, WorkspaceCells, WorkspaceSlice, group_of
 from ninedof.workspace.certified_record import CertifiedWorkspace
@@ -41,7 +41,7 @@ class WorkspaceStatus(StrEnum):
 class WorkspaceMap(Saved):
     """A workspace, its volume, its boundary and what limits it."""
 
-    FORMAT = "ninedof-workspace-2"
+    KIND = "workspace"
     COMPRESSED = True
 
     status: WorkspaceStatus
@@ -232,34 +232,18 @@ class WorkspaceMap(Saved):
 
     def to_dict(self) -> dict[str, Any]:
         """Return all fields except the cells as plain values."""
-        entries = self._entries()
-        del entries["limit_area"]
-        if not self.unit:
-            del entries["unit"]
+        entries = plain_fields(self, "cells", "certified", "limit_area")
         out = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in entries.items()}
         names = ("cells", "evaluations", "volume", "error")
         out["levels"] = [dict(zip(names, row, strict=True)) for row in out["levels"]]
-        out |= {"status": str(self.status), "coordinates": list(self.coordinates)}
         out |= {"limits": self.limits(), "share": self.share}
         return out if self.certified is None else out | {"certified": self.certified.to_dict()}
 
-    def _entries(self) -> dict[str, Any]:
-        """Return the fields except the cells and the proof, the audit and the indices as mappings."""
-        out = {one.name: getattr(self, one.name) for one in fields(self) if one.name not in ("cells", "certified")}
-        indices = {name: asdict(statistics) for name, statistics in self.indices.items()}
-        return out | {"internal_point_audit": asdict(self.internal_point_audit), "indices": indices}
-
     def _saved(self) -> dict[str, Any]:
-        cells = {f"cells_{name}": value for name, value in self.cells._asdict().items()}
-        return {"limit_names": list(LIMITS), **cells, **self._entries()}
+        return {"limit_names": list(LIMITS), **plain_fields(self, "certified")}
 
     @classmethod
     def _restored(cls, entries: dict[str, Any]) -> WorkspaceMap:
-        if tuple(entries.pop("limit_names")) != LIMITS:
+        if tuple(entries["limit_names"]) != LIMITS:
             raise ValueError
-        cells = WorkspaceCells(*(entries.pop(f"cells_{name}") for name in WorkspaceCells._fields))
-        entries["status"] = WorkspaceStatus(entries["status"])
-        entries["coordinates"] = tuple(entries["coordinates"])
-        entries["internal_point_audit"] = MapAudit(**entries["internal_point_audit"])
-        entries["indices"] = {name: IndexStatistics(**one) for name, one in entries.get("indices", {}).items()}
-        return cls(cells=cells, **entries)
+        return made(cls, entries)

@@ -13,8 +13,8 @@ from sizes import size
 import ninedof as nd
 from ninedof.records.proofs import save_certificate
 from ninedof.records.record import load_record
-from ninedof.support.files import json_bytes, read_json, read_npz, write_npz, write_whole
-from ninedof.support.store import FORMAT, Store
+from ninedof.support.files import form_of, json_bytes, read_json, read_npz, write_npz, write_whole
+from ninedof.support.store import Store
 
 FLIPS, CUTS = size(40, 5000), size(10, 500)
 ARRAYS = {
@@ -43,7 +43,7 @@ def certificate(folder, best):
 
 def question(folder, best):
     Store(folder / "run", {"kind": "test", "far": float("inf")}).close()
-    return folder / "run" / "question.json", lambda file: read_json(file, FORMAT)
+    return folder / "run" / "question.json", lambda file: read_json(file, "question")
 
 
 def sweep(folder, best):
@@ -102,8 +102,8 @@ def test_a_file_of_another_format_is_refused(tmp_path, best):
     np.savez(tmp_path / "numbers.npz", a=np.zeros(3))
     with pytest.raises(ValueError, match=r"numbers\.npz: got no"):
         nd.SweepResult.load(tmp_path / "numbers.npz")
-    (tmp_path / "a.json").write_bytes(json_bytes({"format": "other"}))
-    with pytest.raises(ValueError, match="got another format than 'ninedof-record-4'"):
+    (tmp_path / "a.json").write_bytes(json_bytes("other", {}))
+    with pytest.raises(ValueError, match=f"got another format than '{form_of('record')}'"):
         load_record(tmp_path / "a.json")
     with pytest.raises(ValueError, match=r"a\.npz: got no 'ninedof-workspace"):
         nd.WorkspaceMap.load(sweep(tmp_path, best)[0])

@@ -67,7 +67,7 @@ def test_a_result_is_saved_in_pieces(mapped, tmp_path):
     for name in mapped:
         assert found[name].tobytes() == mapped[name].tobytes()
     with np.load(file) as by_numpy:
-        assert by_numpy["array singularity_margins"].shape == (SIDE, SIDE)
+        assert by_numpy["arrays.singularity_margins"].shape == (SIDE, SIDE)
 
 
 def test_pieces_are_the_array_in_order(monkeypatch):
