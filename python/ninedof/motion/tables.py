@@ -16,7 +16,6 @@ from ninedof.support.units import amount, kind_unit, per, times, watt_note
 from ninedof.tables import RIGHT, Column, Table, columns, grouped
 
 POWERS, WORKS = ("power", "braking"), ("work", "returned")
-KINDS = {"leg_clearance": "length", "stroke": "length", "singularity_free": "sign"}  # in records that have none
 FORCES = ("push", "pull", "rms")
 SHOWN = 12  # breaks of limits
 FEW = 50  # poses of a path: fewer need not show what happens between them
@@ -76,17 +75,13 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
         if "limit_deg" in row:
             ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
         else:
-            unit = kind_unit(_kind(row), motion.get("unit", ""), motion.get("force_unit", ""))
+            unit = kind_unit(row["kind"], motion.get("unit", ""), motion.get("force_unit", ""))
             ends = [amount(f"{row[key]:.6g}", unit) for key in ("limit", "value")]
-        margin = margin_words(row["margin"], _kind(row))
+        margin = margin_words(row["margin"], row["kind"])
         rows.append((f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"))
-    watts = motion.get("force_unit") and any(row.get("kind") == "power" for row in motion.get("limits", ()))
+    watts = motion.get("force_unit") and any(row["kind"] == "power" for row in motion.get("limits", ()))
     notes = [watt_note(motion["unit"])] if watts else []
     return Table("Limits of the study along the path", heads, rows, notes)
-
-
-def _kind(limit: Mapping[str, Any]) -> str:
-    return str(limit.get("kind", KINDS.get(limit["name"], "")))
 
 
 def motion_tables(motion: Mapping[str, Any]) -> list[Table]:
@@ -117,7 +112,7 @@ def motion_words(followed: Any, motion: Mapping[str, Any]) -> Iterator[tuple[str
     speed, time = amount(f"{moving:.5g}", per(followed.unit, "s")), "second" if followed.unit else "unit of time"
     yield "", f"platform: speed at most {speed}, turning at most {math.degrees(turning):.5g} degrees per {time}"
     breaks = motion["breaks"]
-    lengths = {*LEGS, *(row["name"] for row in motion.get("limits", ()) if _kind(row) == "length")}
+    lengths = {*LEGS, *(row["name"] for row in motion.get("limits", ()) if row["kind"] == "length")}
     for entry in breaks[:SHOWN]:
         yield _break_words(entry, followed.unit, lengths)
     if len(breaks) > SHOWN:
