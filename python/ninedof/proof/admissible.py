@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Collection, Mapping
+from contextlib import closing, suppress
 from functools import partial
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
@@ -16,6 +16,7 @@ from ninedof.proof.admissible_set import PIECES, STATES, AdmissibleSet, for_core
 from ninedof.proof.design_range import LONGEST, DesignRange, HasDesign, design_range
 from ninedof.support.arguments import executor_argument, finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS, Floats
+from ninedof.support.chunks import results_at
 from ninedof.support.files import Arrays
 from ninedof.support.running import Progress, progress_argument
 from ninedof.support.structs import Fixed, options_of
@@ -134,11 +135,8 @@ ROOTS = 64  # whatever the workers are: the answer does not depend on them
 COUNTS = ("looked_at", "boxes", "interrupted")
 
 
-def decided(root: Arrays, of: DesignRange, token: str, **how: Any) -> Arrays:
-    """Return the pieces of a root, decided as far as its time goes, and counts.
-
-    The token makes the call differ from those of other runs: Dask does not repeat equal calls.
-    """
+def decided(root: Arrays, of: DesignRange, **how: Any) -> Arrays:
+    """Return the pieces of a root, decided as far as its time goes, and counts."""
     answer = _core.admissible_designs(of.for_core(), earlier=for_core(root), **how)
     return {name: np.asarray(answer[name]) for name in PIECES + COUNTS}
 
@@ -157,8 +155,6 @@ def by_roots(
 
     All roots are about the whole of the box: of the rest of it a root knows nothing.
     """
-    from concurrent.futures import as_completed  # when it is needed, as it takes time to load
-
     # Without time the core takes pieces apart and adds up their shares; a bad question raises here, not at a worker.
     without_time = partial(
         _core.admissible_designs, of.for_core(), threads=1, seconds=0.0, resolution=resolution, undecided=ENOUGH
@@ -166,26 +162,21 @@ def by_roots(
     begin = without_time(earlier=earlier)
     undecided = begin["state"] == 2
     roots = roots_of(of, {name: begin[name][undecided] for name in PIECES}, resolution)
-    pieces, interrupted = dict(roots), False
+    pieces, interrupted = dict(roots), True
     how: dict[str, Any] = {
         "seconds": seconds,
         "resolution": resolution,
         "threads": threads,
         "undecided": ENOUGH / max(len(roots), 1),
     }
-    decide = partial(decided, of=of, token=os.urandom(8).hex(), **how)
-    progress, futures = progress or (lambda *_: None), {}
-    try:
+    jobs = ((k, partial(decided, root, of, **how)) for k, root in roots.items())
+    progress = progress or (lambda *_: None)
+    with closing(results_at(executor, jobs)) as answers, suppress(KeyboardInterrupt):
         progress(0, len(roots), None)
-        futures = {executor.submit(decide, root): k for k, root in roots.items()}
-        for done, future in enumerate(as_completed(futures), start=1):
-            pieces[futures[future]] = future.result()
+        for done, (k, answer) in enumerate(answers, start=1):
+            pieces[k] = answer
             progress(done, len(roots), None)
-    except KeyboardInterrupt:
-        interrupted = True
-    finally:
-        for future in futures:
-            future.cancel()
+        interrupted = False
     parts = [{name: begin[name][~undecided] for name in PIECES}, *pieces.values()]
     out = without_time(earlier=for_core({name: np.concatenate([one[name] for one in parts]) for name in PIECES}))
     counts = {name: sum(int(one[name]) for one in pieces.values() if name in one) for name in COUNTS}

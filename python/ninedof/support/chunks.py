@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Generator, Iterator
-from contextlib import closing, contextmanager
-from dataclasses import replace
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import closing, contextmanager, nullcontext
+from functools import partial
 from itertools import islice
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from ninedof.support.arguments import executor_argument, path_argument, whole
 from ninedof.support.files import Arrays
@@ -16,6 +16,9 @@ from ninedof.support.store import Store
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
+
+K = TypeVar("K")
+T = TypeVar("T")
 
 IN_FLIGHT = 128  # chunks at an executor: enough to keep it busy, few to be lost or pickled early
 MOST_CHUNK, MOST_CHUNKS = 2**24, 2**22  # points of a chunk, chunks of a run
@@ -61,57 +64,55 @@ def computed(
     executor: its exceptions end the run. Progress begins with the points found in the folder.
     """
     executor_argument(executor)
-    progress_argument(progress)
-    if out is None:
-        yield None, _computed(work, None, executor, progress)
-        return
-    with Store(path_argument("out", out), work.question(), work.chunk) as store:
-        own: Any = work  # every work is a dataclass
-        work = replace(own, chunk=store.chunk)
-        _countable(work)  # before room is made on the disk
-        yield store, _computed(work, store, executor, progress)
+    tell = progress_argument(progress) or (lambda *_: None)
+    with nullcontext() if out is None else Store(path_argument("out", out), work.question(), work.chunk) as store:
+        if store is not None:
+            _countable(work.points, store.chunk)  # before room is made on the disk
+        yield store, _computed(work, store, executor, tell)
 
 
-def _countable(work: Work) -> None:
+def _countable(points: int, chunk: int) -> None:
     """Refuse more chunks than a run may have."""
-    if work.points > MOST_CHUNKS * work.chunk:
-        least = -(-work.points // MOST_CHUNKS)
-        raise ValueError(f"chunk: got {work.chunk} of {work.points} points, expected at least {least}")
+    if points > MOST_CHUNKS * chunk:
+        raise ValueError(f"chunk: got {chunk} of {points} points, expected at least {-(-points // MOST_CHUNKS)}")
 
 
-def _computed(work: Work, store: Store | None, executor: Executor | None, progress: Progress | None) -> Computed:
-    _countable(work)
+def _computed(work: Work, store: Store | None, executor: Executor | None, tell: Progress) -> Computed:
+    size = work.chunk if store is None else store.chunk
+    _countable(work.points, size)
     done, missing, some = 0, [], store is not None and store.kept()
-    for k, first in enumerate(range(0, work.points, work.chunk)):
-        last = min(first + work.chunk, work.points)
+    for k, first in enumerate(range(0, work.points, size)):
+        last = min(first + size, work.points)
         if not some or store is None or (values := store.read(k)) is None:
             missing.append((first, last))
             continue
         yield (first, last), values
         done += last - first
-    if progress is not None:
-        progress(done, work.points, None)
+    tell(done, work.points, None)
     here = ((chunk, work.values(*chunk)) for chunk in missing)
-    with closing(here if executor is None else _by(executor, work, missing)) as new:
+    there = ((chunk, partial(work.part(*chunk).values, *chunk)) for chunk in missing)
+    with closing(here if executor is None else results_at(executor, there)) as new:
         for (first, last), values in new:
             if store is not None:
-                store.keep(first // work.chunk, values)
+                store.keep(first // size, values)
             yield (first, last), values
             done += last - first
-            if progress is not None:
-                progress(done, work.points, None)
+            tell(done, work.points, None)
 
 
-def _by(executor: Executor, work: Work, chunks: list[Chunk]) -> Computed:
-    """Yield the values of chunks as they come; a few are at the executor, and those are cancelled at the end."""
+def results_at(executor: Executor, jobs: Iterable[tuple[K, Callable[[], T]]]) -> Generator[tuple[K, T]]:
+    """Yield what the calls of jobs return as it comes, under their keys.
+
+    A few calls are at the executor, and those are cancelled at the end.
+    """
     from concurrent.futures import FIRST_COMPLETED, wait  # when it is needed, as it takes time to load
 
-    left, token = iter(chunks), os.urandom(8).hex()
-    waiting: dict[Future[Arrays], Chunk] = {}
+    left, token = iter(jobs), os.urandom(8).hex()
+    waiting: dict[Future[T], K] = {}
     try:
         while True:
-            for chunk in islice(left, IN_FLIGHT - len(waiting)):
-                waiting[executor.submit(_perform, work.part(*chunk), chunk, token)] = chunk
+            for key, call in islice(left, IN_FLIGHT - len(waiting)):
+                waiting[executor.submit(_perform, call, token)] = key
             if not waiting:
                 return
             finished = wait(waiting, return_when=FIRST_COMPLETED).done
@@ -123,6 +124,6 @@ def _by(executor: Executor, work: Work, chunks: list[Chunk]) -> Computed:
             future.cancel()
 
 
-def _perform(part: Work, chunk: Chunk, token: str) -> Arrays:
-    """Compute a chunk. The token makes the call differ from those of other runs: Dask does not repeat equal calls."""
-    return part.values(*chunk)
+def _perform(call: Callable[[], T], token: str) -> T:
+    """Call. The token makes it differ from calls of other runs: Dask does not repeat equal ones."""
+    return call()
