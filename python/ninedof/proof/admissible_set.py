@@ -22,7 +22,7 @@ from ninedof.support.arguments import finite, path_argument, shown, table
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import Saved, write_whole
 from ninedof.support.units import amount
-from ninedof.tables.html import notebook
+from ninedof.tables.html import Worded
 
 INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
 STATES = (INSIDE, OUTSIDE, UNDECIDED)
@@ -58,7 +58,7 @@ class Reason(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class AdmissibleSet(Saved):
+class AdmissibleSet(Worded, Saved):
     """A box of designs, divided into pieces. Lengths in the unit of the study, angles in radians."""
 
     KIND = "admissible"
@@ -206,13 +206,6 @@ class AdmissibleSet(Saved):
         """Show the shares."""
         shares = ", ".join(f"{self.shares[name]:.2%} {name}" for name in STATES)
         return f"<AdmissibleSet of {', '.join(self.vary)}: {shares}>"
-
-    def _repr_html_(self) -> str:
-        return notebook(*self.sentences())
-
-    def __str__(self) -> str:
-        """Return it in sentences."""
-        return "\n".join(self.sentences())
 
     def sentences(self) -> list[str]:
         """Return what is proved, in words."""

@@ -14,7 +14,7 @@ from ninedof.support.arguments import flag, number, table, text, whole
 from ninedof.support.structs import made
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount, kind_unit
-from ninedof.tables.html import notebook
+from ninedof.tables.html import Worded
 
 PROVED, VIOLATED, UNDECIDED = "proved", "violated", "undecided"
 
@@ -95,7 +95,7 @@ class LimitProof:
 
 
 @dataclass(frozen=True)
-class MachineCertificate:
+class MachineCertificate(Worded):
     """Proved statements about a design at every pose it is made for."""
 
     where: str
@@ -135,9 +135,6 @@ class MachineCertificate:
         proved = sum(limit.answer == PROVED for limit in self.limits)
         condition = f"condition number at most {self.condition[1]:.6f}"
         return f"<MachineCertificate: {proved} of {len(self.limits)} limits proved at {self.where}; {condition}>"
-
-    def _repr_html_(self) -> str:
-        return notebook(*self.sentences())
 
     @property
     def proved(self) -> bool:
@@ -237,10 +234,6 @@ class MachineCertificate:
 
         """
         return made(cls, table("certificate", data))
-
-    def __str__(self) -> str:
-        """Return the sentences."""
-        return "\n".join(self.sentences())
 
 
 def outward(value: float, up: bool, digits: int = 6) -> str:

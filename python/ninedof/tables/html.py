@@ -77,6 +77,21 @@ def notebook(*parts: str | Table) -> str:
     return tag("div", *(table_html(part) if isinstance(part, Table) else tag("p", part) for part in parts))
 
 
+class Worded:
+    """Base of a result that is told in sentences, as text and in a notebook."""
+
+    def sentences(self) -> Iterable[str]:
+        """Yield the sentences."""
+        raise NotImplementedError
+
+    def __str__(self) -> str:
+        """Return the sentences."""
+        return "\n".join(self.sentences())
+
+    def _repr_html_(self) -> str:
+        return notebook(*self.sentences())
+
+
 def beside(*parts: Html) -> Html:
     """Return parts side by side where the screen is wide enough."""
     return tag("div", *(tag("div", part) for part in parts if part), class_="beside")

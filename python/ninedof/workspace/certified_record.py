@@ -17,7 +17,7 @@ from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import Saved
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount
-from ninedof.tables.html import notebook
+from ninedof.tables.html import Worded
 from ninedof.workspace.question import SETS
 
 AXES = ("x", "y", "z")
@@ -49,7 +49,7 @@ class CertifiedSection(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class CertifiedWorkspace(Saved):
+class CertifiedWorkspace(Worded, Saved):
     """A workspace of positions whose volume lies between proved bounds.
 
     The box searched consists of inner boxes, in which every pose is allowed, of open ones, and of outer ones, in which
@@ -129,9 +129,6 @@ class CertifiedWorkspace(Saved):
         low, high = self.bounds
         boxes = f"{len(self.inner_low)} inner boxes, {len(self.open_low)} open"
         return f"<CertifiedWorkspace: volume {outward(low, False)} to {outward(high, True)}, {boxes}>"
-
-    def _repr_html_(self) -> str:
-        return notebook(*self.sentences())
 
     def state(self, points: Any) -> States:
         """Return what is proved of positions.
@@ -215,10 +212,6 @@ class CertifiedWorkspace(Saved):
         boxes = f"{len(self.inner_low)} inner boxes, {len(self.open_low)} open ones, {self.looked} looked at"
         reached = self.end == "gap" and self.connected  # by all poses; home's piece may need more
         yield f"{boxes} in {self.seconds:.3g} s; {OF_ALL if reached else ENDS[self.end]}."
-
-    def __str__(self) -> str:
-        """Return the sentences."""
-        return "\n".join(self.sentences())
 
     def to_dict(self) -> dict[str, Any]:
         """Return what is proved as plain values, without the boxes."""

@@ -78,7 +78,7 @@ def shown(published):
 
 def test_everything_prints_short(shown):
     for name, thing in shown.items():
-        for text in (repr(thing), *([] if "__str__" in vars(type(thing)) else [str(thing)])):  # sentences, if it has
+        for text in (repr(thing), *[str(thing)] * (type(thing).__str__ is object.__str__)):  # else sentences
             assert "np." not in text, name
             assert "\n" not in text, name
             assert len(text) <= LONGEST, name
