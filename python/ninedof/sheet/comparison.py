@@ -16,8 +16,8 @@ from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.sheet.tables import over, pose_of
 from ninedof.support.arguments import shown
 from ninedof.support.margins import margin_words
-from ninedof.support.structs import plain
-from ninedof.support.units import amount, metres, unit_entry
+from ninedof.support.structs import plain_fields
+from ninedof.support.units import amount, metres
 from ninedof.tables import DEGREES, RIGHT, SHORT, Column, Line, Table
 from ninedof.tables.html import notebook
 from ninedof.tables.numbers import ROUNDING, WORDS
@@ -96,14 +96,7 @@ class Comparison:
             label: [None if row is None else row._asdict() | {"broken": row.violated} for row in rows]
             for label, rows in self.limits.items()
         }
-        return {
-            **unit_entry(self.unit),
-            "names": list(self.names),
-            "numbers": plain(self.numbers),
-            "limits": limits,
-            "differences": plain(self.differences),
-            "outside": list(self.outside),
-        }
+        return plain_fields(self, "sheets") | {"limits": limits}
 
     def __str__(self) -> str:
         """Show all tables as text."""

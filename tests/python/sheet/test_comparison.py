@@ -81,7 +81,7 @@ def test_values_outside_of_the_bounds_of_their_study_are_named(machine):
     assert both.outside == ({}, {"a2": (6.5, 1.0, 6.0), "theta_z": (pytest.approx(np.radians(10.0)), 0.0, 0.0)})
     words = "changed is outside of the bounds of its study: a2 = 6.5 mm (1 to 6), theta_z = 10° (fixed at 0)"
     assert words in str(both)
-    assert both.to_dict()["outside"][1]["a2"] == (6.5, 1.0, 6.0)
+    assert both.to_dict()["outside"][1]["a2"] == [6.5, 1.0, 6.0]
 
 
 @pytest.mark.slow(sanitized=True)
