@@ -105,13 +105,6 @@ def test_the_table_names_units_and_legs_that_never_carry(published):
     assert drives_table(bare.to_dict()) is None
 
 
-def test_a_saved_motion_keeps_its_forces(lifted, tmp_path):
-    nd.save(lifted, tmp_path / "motion.npz")
-    again = nd.load(tmp_path / "motion.npz")
-    assert_allclose(again.leg_powers, lifted.leg_powers, rtol=0.0, atol=0.0)
-    assert again.force_unit == lifted.force_unit
-
-
 def test_of_several_loads_forces_are_those_of_each_and_drives_the_largest(lifted, tmp_path):
     """A load of one pose in shape (k, 1, 3), and with a moment for each pose."""
     force = np.array([[0.0, 0.0, -30.0], [40.0, 0.0, 0.0], [0.0, -5.0, 60.0]])[:, None]

@@ -254,16 +254,8 @@ def test_check_finds_a_region_that_only_holds_at_listed_poses():
 
 @pytest.mark.slow
 def test_a_result_is_read_back(tmp_path):
-    from ninedof.records.record import load_run as load
-    from ninedof.records.record import write_run
-
     result = solved("turns, frobenius")
-    write_run(result, tmp_path)
-    again = load(tmp_path)
-    assert again.region == result.region
-    assert again.study == result.study
-    assert again.objective == result.objective
-    assert np.array_equal(again.configurations.position, result.configurations.position)
+    assert nd.load(nd.save(result, tmp_path / "run")) == result
     assert "of the region ruled" in result.summary()
 
 

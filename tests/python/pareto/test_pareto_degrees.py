@@ -8,7 +8,6 @@ import pytest
 import ninedof as nd
 from ninedof.pareto import solving
 from ninedof.pareto.limits import unit_of, with_degrees, without_degrees
-from ninedof.records.record import write_run
 
 STUDY = nd.Study(
     "symmetric",
@@ -37,14 +36,6 @@ def test_both_are_the_same_front(fronts):
     assert [result.study for result in degrees] == [result.study for result in radians]
     assert [row["limit"] for row in degrees.table()] == [35.0, 38.05]
     assert degrees.to_dict()["limit_unit"] == "deg"
-
-
-def test_a_front_in_degrees_is_read_back(fronts, tmp_path):
-    write_run(fronts[0], tmp_path)
-    again = nd.load(tmp_path)
-    assert (again.against, again.limits, again.unit) == ("base_cone_deg", (35.0, 38.05), "deg")
-    assert [result.study for result in again] == [result.study for result in fronts[0]]
-    assert again.prices == fronts[0].prices
 
 
 def test_limits_found_are_in_degrees():

@@ -1,48 +1,15 @@
 """Fronts in run folders, written and read back, and the command that makes them."""
 
 import json
-import math
 from dataclasses import replace
 
 import pytest
 
 import ninedof as nd
-from ninedof.optimize.check import check
-from ninedof.pareto import Front, pareto, solving
+from ninedof.pareto import solving
 from ninedof.records.record import load_run as load
-from ninedof.records.record import write_run
-
-PAPER = nd.Study.paper()
-
-
-@pytest.fixture(scope="module")
-def front():
-    return pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0])
-
 
 # --- Records ----------------------------------------------------------------------------------------------------------
-
-
-def test_a_front_is_read_back_as_it_was(front, tmp_path):
-    path = write_run(front, tmp_path, lambda folder: [folder / "front.png"])
-    for place in (path, tmp_path):
-        read = load(place)
-        assert isinstance(read, Front)
-        assert read.table() == front.table()
-        assert (read.study, read.against, read.limits) == (front.study, front.against, front.limits)
-        assert read.prices == front.prices
-        for one, other in zip(read.results, front.results, strict=True):
-            assert one.candidates[0] == other.candidates[0]
-            assert one.study == other.study
-    assert json.loads(path.read_text())["files"] == ["front.png"]
-    assert check(load(path).results[1], perturbations=100).passed
-
-
-def test_a_front_without_designs_is_read_back(tmp_path):
-    front = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}, starts=16), "radius_ratio")
-    write_run(front, tmp_path)
-    assert load(tmp_path).limits == (math.inf,)
-    assert load(tmp_path).table() == front.table()
 
 
 # --- The command ------------------------------------------------------------------------------------------------------

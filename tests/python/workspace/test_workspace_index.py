@@ -75,14 +75,6 @@ def test_only_the_piece_of_home_counts_where_singularities_divide():
     assert worst[True] < 0.98 * worst[False]
 
 
-def test_saved_with_the_map(tmp_path):
-    found = nd.workspace(G, criteria=LIMITS, method="grid", resolution=8, index=["speed", "leg_lengths"], **BOX)
-    found.save(tmp_path / "map.npz")
-    again = nd.WorkspaceMap.load(tmp_path / "map.npz")
-    assert vars(again.indices["speed"]) == vars(found.indices["speed"])
-    assert again.to_dict()["indices"] == found.to_dict()["indices"]
-
-
 def test_no_allowed_pose_gives_nan_without_a_call():
     def never(geometry, configuration, length):
         raise AssertionError

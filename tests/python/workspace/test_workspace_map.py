@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_allclose
 
 import ninedof as nd
 from ninedof import plot
@@ -76,23 +76,6 @@ def test_a_slice_shows_the_cells_it_cuts(found):
     assert 2.0 < area < 6.0
     edge = found.slice("z", 7.0)
     assert not edge.state.any()
-
-
-def test_save_and_load(found, tmp_path):
-    path = found.save(tmp_path / "map.npz")
-    again = nd.WorkspaceMap.load(path)
-    assert str(again.to_dict()) == str(found.to_dict())
-    for name, value in found.cells._asdict().items():
-        assert_array_equal(getattr(again.cells, name), value)
-    assert again.status is nd.WorkspaceStatus.CONVERGED
-    assert_array_equal(again.slice("x", 0.1).state, found.slice("x", 0.1).state)
-    assert found.save(tmp_path / "map") == path
-    (tmp_path / "other.npz").write_bytes(b"nothing")
-    with pytest.raises(ValueError, match=r"other\.npz"):
-        nd.WorkspaceMap.load(tmp_path / "other.npz")
-    with pytest.raises(ValueError, match=r"none\.npz"):
-        nd.WorkspaceMap.load(tmp_path / "none.npz")
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["map.npz", "other.npz"]
 
 
 # --- Ends of the range ------------------------------------------------------------------------------------------------
