@@ -173,18 +173,6 @@ def test_with_more_than_four_free_variables_around_asks_which(run, study):
     assert "--vary: got none with 6 free variables: a1, a2, b1, b2, zp, zs, expected one to four" in words
 
 
-def test_a_study_that_places_o_anew_is_refused():
-    study = nd.Study(objective={"region": {"box": (0.1, 0.1, 0.1), "internal_point": "best"}})
-    with pytest.raises(ValueError, match='internal_point: got "best"'):
-        nd.admissible(study, ("a2",))
-
-
-def test_a_free_characteristic_length_is_refused_where_the_condition_number_is_limited():
-    study = nd.Study(variables={"a1": 0.0, "b2": 0.0, "zp": 5.0, "zs": 3.0}, characteristic_length="mean_leg")
-    with pytest.raises(ValueError, match="characteristic_length"):
-        nd.admissible(study, {"a2": (2.0, 8.0), "b1": (1.0, 5.0)}, condition_number=4.0)
-
-
 def test_more_threads_and_going_on_change_nothing_that_is_proved():
     study = nd.Study(variables={"a1": 0.0, "b2": 0.0, "zp": 5.0, "zs": 3.0}, constraints={"leg_ratio": (None, 2.2)})
     ranges = {"a2": (2.0, 10.0), "b1": (1.0, 5.0)}

@@ -198,7 +198,14 @@ def test_an_interrupted_certificate_leaves_the_one_that_is_there(monkeypatch, ca
 
 
 @pytest.mark.parametrize(
-    "arguments", ["pareto --against foo", "pareto --value -1", "pareto --points 1", "path --line 1"]
+    "arguments",
+    [
+        "pareto --against foo",
+        "pareto --value -1",
+        "pareto --points 1",
+        "path --line 1",
+        "sweep --over x_p=0:1:3 --chunk 0",
+    ],
 )
 def test_bad_input_leaves_no_folder(tmp_path, capsys, arguments):
     for out in ("", " --out a/b"):

@@ -6,6 +6,7 @@ What no call may do with any entry is in test_entry_points.py; entries of a stud
 import dataclasses
 import importlib
 import math
+from concurrent.futures import ThreadPoolExecutor
 
 import entry_things as it
 import numpy as np
@@ -68,6 +69,8 @@ KINDS = {  # values that are refused, arguments that have the kind
     "rotation": (NO_ROTATIONS, "rotation"),
     "side": ([INF, "1", None, 1j, 10**400], "a1 a2 b1 b2 zp zs theta_z"),
     "function": ([3, "x", True], "progress"),
+    "executor": ([3, "dask", object(), [ThreadPoolExecutor], ThreadPoolExecutor, lambda: 3], "executor"),
+    "folder": ([5, b"x", "", "a\0b"], "out"),
 }
 OTHER_KINDS = {  # of some calls: rows, what is refused, their arguments
     "triple": ("Geometry", NO_TRIPLES, "base_external base_internal platform_external platform_internal"),
@@ -155,6 +158,8 @@ BAD_POINT = {"a2": NAN, "zp": INF, "zs": None, "b1": "1", "theta_z": True}
 ORIENTATION = {"archetype": "orientation", "box": None, "position": [0, 0, 4]}
 HOME = it.on_axis()
 MANY_FREE = nd.Study(variables={"theta_z": (0.0, 0.1)}, tool={"position": (0.1, 0.0, 0.0)})
+MEAN_LEG = nd.Study(variables={"a1": 0.0, "b2": 0.0}, characteristic_length="mean_leg")
+PLACED = nd.Study(objective={"region": {"box": [0.1, 0.1, 0.1], "internal_point": "best"}})
 NO_DESIGN = dataclasses.replace(it.result(), candidates=())
 AT_JOINT = nd.Configuration(HOME.position, ONE, HOME.position + it.g().platform_internal[0])
 APART = [  # a row, entries that are refused because of what they are together or where they stand, words of the error
@@ -277,6 +282,69 @@ APART = [  # a row, entries that are refused because of what they are together o
     ("trace", {"start": {"c1": 1.0}}, "start: variables: got the entry 'c1'"),
     ("Study", {"starts": 2**31 - 1}, "starts: got 2147483647, expected a whole number from 1 to 1000000"),
     ("sweep", {"threads": 4096}, "threads: got 4096"),
+    ("sweep", {"threads": 0}, "threads: got 0"),
+    ("sweep", {"over": {}}, "over: got {}, expected a mapping of one to 3 names"),
+    (
+        "sweep",
+        {"over": dict.fromkeys(("x_p", "y_p", "z_p", "x_s"), (0, 1, 2))},
+        "over: got .*mapping of one to 3 names",
+    ),
+    ("sweep", {"over": "x_p"}, "over: got 'x_p', expected a mapping"),
+    ("sweep", {"over": {"xp": [0.0]}}, "over: got 'xp', expected one of theta_x.*did you mean 'x_p'"),
+    ("sweep", {"over": {"x_p_deg": [0.1]}}, "over: got 'x_p_deg'"),
+    (
+        "sweep",
+        {"over": {"theta_z": [0.1], "theta_z_deg": [5.0]}},
+        "over: got both theta_z and theta_z_deg, expected one",
+    ),
+    *(
+        ("sweep", {"over": {"x_p": bad}}, r"over\['x_p'\]: got .*, expected finite values of shape")
+        for bad in ([], [[0.0]], 0.5, [INF])
+    ),
+    ("sweep", {"over": {"x_p": ["a"]}}, r"over\['x_p'\]: got"),
+    ("sweep", {"over": {"x_p": (0.0, NAN, 3)}}, r"over\['x_p'\]: got nan, expected a finite number"),
+    ("sweep", {"over": {"x_p": (0.0, 1.0)}}, r"over.*, expected an array of values, or \(low, high, count\)"),
+    ("sweep", {"over": {"x_p": (0.0, 1.0, 2.5)}}, r"over\['x_p'\]: count: got 2.5, expected a whole number"),
+    ("sweep", {"over": {"x_p": (0.0, 1.0, 0)}}, ".*count: got 0"),
+    ("sweep", {"over": {"x_p": (0.0, 1.0, 1)}}, "over.* expected a count of 2 at least, or low = high"),
+    (
+        "sweep",
+        {"over": dict.fromkeys(("x_p", "y_p"), (0, 1, 2**30))},
+        "over: got 1073741824 x 1073741824 points, expected",
+    ),
+    ("sweep", {"over": {"x_p": (0, 1, 2**40)}, "chunk": None}, "over: got 1099511627776 points, expected what fits"),
+    ("sweep", {"index": []}, r"index: got \[\], expected a name"),
+    ("sweep", {"index": ["leg_ratio", "leg_ratio"]}, "index: .*expected different names"),
+    (
+        "sweep",
+        {"internal_point": "carried", "relative": False, "over": {"x_s": [0.0]}},
+        "over: .* expected O to be displacements",
+    ),
+    ("sweep", {"home": it.stack()}, "home: got a stack"),
+    ("sweep_designs", {"design": {"a1": 0}, "over": {"a1": [1.0]}}, "design: got a1, which is swept"),
+    ("sweep_designs", {"design": {"a1": 0}, "over": {"zs": [1.0]}}, "a2: got no value, expected a number"),
+    ("sweep_designs", {"design": {"a1": 0, "a9": 2}}, "design: got the entry 'a9'"),
+    ("sweep_designs", {"design": {"a1": INF}}, r"design\['a1'\]: got inf"),
+    ("sweep_designs", {"design": {}, "over": {"x_p": [1.0]}}, "over: got 'x_p', expected one of a1"),
+    (
+        "sweep_designs",
+        {"design": {"a1": 0, "b1": 1, "b2": 1, "zp": 2, "zs": 1}, "over": {"a2": [-1.0]}},
+        "a2: got -1",
+    ),
+    ("sweep_figure", {"points": 1}, "points: got 1"),
+    ("atlas", {"bounds": {"zs": (0, 1)}}, "bounds: got the entry 'zs', expected only a1"),
+    ("atlas", {"bounds": {"a1": (3, 1)}}, r"bounds\['a1'\]: got \(3, 1\), expected 0 <= low <= high"),
+    ("atlas", {"bounds": {"a1": (-1, 1)}}, r"bounds\['a1'\]: got -1"),
+    ("atlas", {"bounds": {"zs_fraction": (0, 1.5)}}, "bounds.*expected 0 <= low <= high <= 1"),
+    ("atlas", {"bounds": [1]}, "bounds: got"),
+    ("tolerances_for", {"position": None, "rotation": None}, "position, rotation: got neither"),
+    ("tolerances_for", {"position": -1.0}, "position: got -1"),
+    ("tolerances_for", {"weights": (0, 0)}, "weights: got"),
+    ("tolerances_for", {"weights": 1.0}, "weights: got"),
+    ("admissible", {"of": PLACED, "vary": ("a2",)}, 'internal_point: got "best"'),
+    ("admissible", {"of": MEAN_LEG}, ".*characteristic_length"),
+    ("admissible_actuators", {"study": nd.Study.paper()}, "study: got one without actuators"),
+    ("pareto", {"study": PLACED, "against": "tolerance"}, 'against: got "tolerance" for a study that places O anew'),
     ("error_samples", {"samples": 2**40}, "samples: got 1099511627776"),
     ("atlas", {"designs": 2**40, "chunk": 1}, "chunk: got 1 of 1099511627776 points, expected at least 262"),
     ("pareto", {"against": "radius_ratoi"}, r"against: got 'radius_ratoi', .* \(did you mean 'radius_ratio'\?\)"),

@@ -323,8 +323,3 @@ def test_bad_designs_to_begin_with_leave_no_folder(tmp_path, warm):
     with pytest.raises(ValueError, match="warm"):
         nd.optimize(nd.Study.paper(), warm=warm, out=tmp_path / "run")
     assert not list(tmp_path.iterdir())
-
-
-def test_a_folder_is_a_path():
-    with pytest.raises(ValueError, match="out: got 7, expected a path"):
-        nd.optimize(nd.Study.paper(), out=7)

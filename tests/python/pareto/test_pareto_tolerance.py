@@ -120,15 +120,3 @@ def test_an_interrupted_front_continues_in_its_folder(tmp_path):
     assert nd.pareto(STUDY, **options, out=tmp_path / "kept", progress=stop).interrupted
     again = nd.pareto(STUDY, **options, out=tmp_path / "kept")
     assert again.table() == nd.pareto(STUDY, **options).table()
-
-
-@pytest.mark.parametrize("value", [-0.1, math.inf])
-def test_tolerances_below_0_and_infinite_ones_are_refused(value):
-    with pytest.raises(ValueError, match=r"^values(\[0\])?: got .*"):
-        nd.pareto(STUDY, "tolerance", values=[value])
-
-
-def test_a_study_that_places_o_anew_is_refused():
-    study = replace(STUDY, objective={"region": {"box": [0.1, 0.1, 0.1], "internal_point": "best"}})
-    with pytest.raises(ValueError, match=r'^against: got "tolerance" for a study that places O anew'):
-        nd.pareto(study, "tolerance", values=[0.1])

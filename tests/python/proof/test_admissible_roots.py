@@ -149,10 +149,3 @@ def test_a_bad_question_is_refused_before_anything_is_sent():
     with pytest.raises(ValueError, match="leg_ratio: got a least value"):
         nd.admissible(study, ("a2", "b1"), at=AT, executor=executor)
     assert executor.count == 0
-
-
-@pytest.mark.parametrize("executor", [3, "dask", object(), ThreadPoolExecutor])
-def test_what_is_no_executor_is_refused(executor):
-    study, vary, options = ASKED["two variables"]
-    with pytest.raises(ValueError, match=r"executor: got .*, expected a concurrent.futures.Executor"):
-        nd.admissible(study, vary, **options, executor=executor)

@@ -71,8 +71,3 @@ def test_without_time_all_is_undecided_and_ctrl_c_keeps_what_was_found():
     assert found.interrupted
     assert len(found.rows) == 9
     assert found.rows[-1].state == "undecided"
-
-
-def test_a_study_without_actuators_is_refused():
-    with pytest.raises(ValueError, match="study: got one without actuators"):
-        nd.admissible_actuators(replace(STUDY, actuators=()), VARY)

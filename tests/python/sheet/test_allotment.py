@@ -55,20 +55,6 @@ def test_a_design_of_a_file_has_its_neutral_pose(result):
     assert nd.error_bounds(design, 0.0, kept.joints).position == pytest.approx(0.005, rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ({}, "position, rotation: got neither"),
-        ({"position": -1.0}, "position: got -1"),
-        ({"position": 0.1, "weights": (0, 0)}, "weights: got"),
-        ({"position": 0.1, "weights": 1.0}, "weights: got"),
-    ],
-)
-def test_what_does_not_fit_is_named(result, options, words):
-    with pytest.raises(ValueError, match=words):
-        nd.tolerances_for(result, **options)
-
-
 def test_a_singular_pose_has_no_tolerance():
     g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     with pytest.raises(ValueError, match="singular pose"):

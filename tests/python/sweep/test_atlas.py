@@ -212,30 +212,6 @@ def test_memory_does_not_grow_with_the_number(monkeypatch):
     assert peaks[1] < 64e6
 
 
-def test_saved_and_read_back(survey, tmp_path):
-    again = nd.SweepResult.load(survey.save(tmp_path / "atlas"))
-    same(again, survey)
-    assert again.attributes["bounds"]["zp"] == [0.05, 10.0]
-    assert again.least("best")[0] == np.nanmin(survey["best"])
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ({"designs": 1e8}, "designs: got 100000000.0, expected a whole number"),
-        ({"bounds": {"zs": (0, 1)}}, "bounds: got the entry 'zs', expected only a1"),
-        ({"bounds": {"a1": (3, 1)}}, r"bounds\['a1'\]: got \(3, 1\), expected 0 <= low <= high"),
-        ({"bounds": {"a1": (-1, 1)}}, r"bounds\['a1'\]: got -1"),
-        ({"bounds": {"zs_fraction": (0, 1.5)}}, "expected 0 <= low <= high <= 1"),
-        ({"bounds": [1]}, "bounds: got"),
-        ({"executor": 3}, "executor: got 3"),
-    ],
-)
-def test_bad_input_is_named(options, words):
-    with pytest.raises(ValueError, match=words):
-        nd.atlas(**({"designs": 10} | options))
-
-
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("flat", ["a1 a2", "b1 b2", "a1 a2 b1 b2", "zp", "a1 a2 b1 b2 zp"])
 def test_plates_of_size_0_are_counted_without_a_warning(flat):

@@ -219,13 +219,6 @@ def test_an_interruption_cancels_what_waits():
     assert sum(f.cancelled() for f in submitted) == len(submitted) - len(calls)
 
 
-@pytest.mark.parametrize("executor", [3, "dask", object(), [ThreadPoolExecutor], ThreadPoolExecutor, lambda: 3])
-def test_what_is_no_executor_is_refused(executor, tmp_path):
-    with pytest.raises(ValueError, match=r"executor: got .*, expected a concurrent.futures.Executor"):
-        sweep(executor=executor, out=tmp_path / "out")
-    assert not (tmp_path / "out").exists()
-
-
 # --- Dask -------------------------------------------------------------------------------------------------------------
 
 
@@ -309,12 +302,9 @@ def test_the_command_line_uses_a_scheduler(cluster, run, tmp_path):
     ("address", "words"),
     [
         ("nonsense", "missing port number"),
-        ("foo://127.0.0.1:8786", "unknown address scheme"),
         ("tcp://127.0.0.1:1", "imed out"),
         ("tcp://127.0.0.1:SILENT", "timed out"),
         ("tcp://127.0.0.1:BANNER", ""),
-        ("tcp://127.0.0.1:BYTES", ""),
-        ("tcp://127.0.0.1:CLOSING", ""),
         ("tls://127.0.0.1:SILENT", "TLS expects"),
     ],
 )
@@ -322,14 +312,13 @@ def test_a_missing_scheduler_is_reported_in_one_line(run, tmp_path, monkeypatch,
     pytest.importorskip("distributed", reason="dask[distributed] is not installed: the extra `cluster`")
     monkeypatch.setattr(schedulers, "TIMEOUT", 0.2)
     out = tmp_path / "run"
-    words_of = {"BANNER": b"HTTP/1.1 400 Bad Request\r\n", "BYTES": bytes(100), "CLOSING": None}
     connections = []
     with socket.create_server(("127.0.0.1", 0)) as server:
         where, _, port = address.rpartition(":")
         if port.isupper():
             address = f"{where}:{server.getsockname()[1]}"
-        if port in words_of:  # the other one accepts connections and sends nothing
-            threading.Thread(target=_answer, args=(server, words_of[port], connections), daemon=True).start()
+        if port == "BANNER":  # SILENT accepts connections and sends nothing
+            threading.Thread(target=_answer, args=(server, connections), daemon=True).start()
         status, _, err = run(f"sweep --over x_p=0:1:3 --scheduler {address} --out {out}")
     for connection in connections:
         connection.close()
@@ -341,14 +330,10 @@ def test_a_missing_scheduler_is_reported_in_one_line(run, tmp_path, monkeypatch,
     assert not out.exists()
 
 
-def _answer(server, words, connections):
-    """Take one connection, send what another program sends, or close it at once."""
-    connection, _ = server.accept()
-    connections.append(connection)
-    if words is None:
-        connection.close()
-    else:
-        connection.sendall(words)
+def _answer(server, connections):
+    """Take one connection and send what another program sends."""
+    connections.append(server.accept()[0])
+    connections[0].sendall(b"HTTP/1.1 400 Bad Request\r\n")
 
 
 def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(run, tmp_path, monkeypatch):

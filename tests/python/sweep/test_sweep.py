@@ -266,55 +266,18 @@ def test_ranges_meet_their_ends_and_their_middle():
     assert Axis("x_p", 41, -1.0, 1.0).values()[20] == 0.0
 
 
-BAD = {
-    "no axes": ({}, "over: got {}, expected a mapping of one to 3 names"),
-    "four": ({"x_p": [0.0], "y_p": [0.0], "z_p": [0.0], "x_s": [0.0]}, "a mapping of one to 3 names"),
-    "no mapping": ("x_p", "over: got 'x_p', expected a mapping"),
-    "a slip": ({"xp": [0.0]}, r"over: got 'xp', expected one of theta_x.*did you mean 'x_p'"),
-    "empty": ({"x_p": []}, "expected finite values of shape"),
-    "two dimensions": ({"x_p": [[0.0]]}, "expected finite values of shape"),
-    "a number": ({"x_p": 0.5}, "expected finite values of shape"),
-    "words": ({"x_p": ["a"]}, r"over\['x_p'\]: got"),
-    "infinite": ({"x_p": [math.inf]}, "expected finite values"),
-    "nan": ({"x_p": (0.0, math.nan, 3)}, r"over\['x_p'\]: got nan, expected a finite number"),
-    "a pair": ({"x_p": (0.0, 1.0)}, r"expected an array of values, or \(low, high, count\)"),
-    "count of 2.5": ({"x_p": (0.0, 1.0, 2.5)}, r"over\['x_p'\]: count: got 2.5, expected a whole number"),
-    "count of 0": ({"x_p": (0.0, 1.0, 0)}, "count: got 0"),
-    "count of 1": ({"x_p": (0.0, 1.0, 1)}, "expected a count of 2 at least, or low = high"),
-}
-
-
-@pytest.mark.parametrize("case", BAD)
-def test_bad_axes_are_named(case):
-    over, words = BAD[case]
-    with pytest.raises(ValueError, match=words):
-        nd.sweep(G, HOME, over)
-
-
-BAD_OPTIONS = {
-    "index: got \\[\\], expected a name": {"index": []},
-    "expected different names": {"index": ["leg_ratio", "leg_ratio"]},
-    "characteristic_length: got 'mean', expected one of": {"characteristic_length": "mean"},
-    "chunk: got 0, expected a whole number": {"chunk": 0},
-    "threads: got 0": {"threads": 0},
-    "expected O to be displacements": {"internal_point": "carried", "relative": False, "over": {"x_s": [0.0]}},
-}
-
-
-@pytest.mark.parametrize("words", BAD_OPTIONS)
-def test_bad_options_are_named(words, tmp_path):
-    with pytest.raises(ValueError, match=words):
-        nd.sweep(G, HOME, **({"over": {"x_p": [0.0]}, "out": tmp_path / "out"} | BAD_OPTIONS[words]))
-    assert not (tmp_path / "out").exists(), "bad input leaves no folder"
-
-
 def _masked(g, c, length):
     return np.ma.masked_less(nd.condition_number(g, c, length), 0.0)
+
+
+def _complex(g, c, length):
+    return np.full(c.shape, 1j)
 
 
 @pytest.mark.parametrize(
     "call",
     [
+        lambda: nd.sweep(G, HOME, {"x_p": [0.0, 0.1]}, _complex),
         lambda: nd.sweep(G, HOME, {"x_p": [0.0, 0.1]}, _masked),
         lambda: nd.sweep_designs({"a1": 0.4, "b1": 2.9, "b2": 0.3, "zp": 4.0, "zs": 2.4}, {"a2": [5.0, 6.0]}, _masked),
         lambda: nd.workspace(
@@ -322,17 +285,9 @@ def _masked(g, c, length):
         ),
     ],
 )
-def test_a_masked_array_of_a_function_is_refused(call):
-    """Its mask was ignored."""
-    with pytest.raises(ValueError, match=r"^index _masked: got .*, expected real numbers"):
+def test_an_array_of_a_function_that_is_not_of_numbers_is_refused(call):
+    with pytest.raises(ValueError, match=r"^index _(complex|masked): got .*, expected real numbers"):
         call()
-
-
-def test_a_stack_as_home_is_refused():
-    with pytest.raises(ValueError, match="home: got a stack"):
-        nd.sweep(G, nd.Configuration.neutral(4.0, [2.0, 2.1]), {"x_p": [0.0]})
-    with pytest.raises(ValueError, match="geometry: got Configuration"):
-        nd.sweep(HOME, G, {"x_p": [0.0]})
 
 
 # --- Designs ----------------------------------------------------------------------------------------------------------
@@ -395,24 +350,6 @@ def test_designs_of_a_symmetric_family():
         )
 
 
-@pytest.mark.parametrize(
-    ("design", "over", "words"),
-    [
-        ({"a1": 0}, {"a1": [1.0]}, "design: got a1, which is swept"),
-        ({"a1": 0}, {"zs": [1.0]}, "a2: got no value, expected a number"),
-        ({"a1": 0, "a9": 2}, {"zs": [1.0]}, "design: got the entry 'a9'"),
-        ({"a1": math.inf}, {"zs": [1.0]}, r"design\['a1'\]: got inf"),
-        ({}, {"x_p": [1.0]}, "over: got 'x_p', expected one of a1"),
-        ({"a1": 0, "b1": 1, "b2": 1, "zp": 2, "zs": 1}, {"a2": [-1.0]}, "a2: got -1"),
-    ],
-)
-def test_bad_designs_are_named(design, over, words):
-    with pytest.raises(ValueError, match=words):
-        nd.sweep_designs(design, over)
-    with pytest.raises(ValueError, match="family: got 'round'"):
-        nd.sweep_designs(design, over, family="round")
-
-
 # --- Results ----------------------------------------------------------------------------------------------------------
 
 
@@ -439,20 +376,6 @@ def test_saved_and_read_back(labelled, tmp_path):
     assert nd.SweepResult.load(path).attributes["ninedof"] == nd.__version__
     assert labelled.save(path) == path
     assert [p.name for p in tmp_path.iterdir()] == ["x.y.npz"]
-
-
-def test_a_failed_save_leaves_the_old_file(labelled, tmp_path, monkeypatch):
-    path = labelled.save(tmp_path / "x")
-    before = path.read_bytes()
-
-    def full(*_):
-        raise OSError("disk full")
-
-    monkeypatch.setattr("os.fsync", full)
-    with pytest.raises(OSError, match="disk full"):
-        labelled.save(path)
-    assert path.read_bytes() == before
-    assert [p.name for p in tmp_path.iterdir()] == ["x.npz"]
 
 
 def test_as_xarray(labelled):
@@ -485,21 +408,3 @@ def test_least_and_names(labelled):
     assert repr(labelled).startswith("<SweepResult leg_lengths(theta_z: 5, x_p: 2, leg: 9), condition_number(")
     with pytest.raises(KeyError, match="expected one of leg_lengths, condition_number, theta_z, x_p, leg"):
         labelled["kappa"]
-
-
-def complex_index(geometry, c, length):
-    return np.full(c.shape, 1j)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ({"over": {"x_p": (0, 1, 2**30), "y_p": (0, 1, 2**30)}}, "over: got 1073741824 x 1073741824 points, expected"),
-        ({"over": {"x_p": (0, 1, 2**40)}}, "over: got 1099511627776 points, expected what fits into memory"),
-        ({"out": 5}, "out: got 5, expected a path"),
-        ({"index": complex_index}, "index complex_index: got .*, expected real numbers"),
-    ],
-)
-def test_what_cannot_be_swept_is_named(arguments, words):
-    with pytest.raises(ValueError, match=f"^{words}"):
-        nd.sweep(G, HOME, **({"over": {"x_p": (0, 1, 3)}} | arguments))

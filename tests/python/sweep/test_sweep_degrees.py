@@ -53,18 +53,6 @@ def test_designs_are_swept_over_angles_in_degrees():
     assert twisted["condition_number"][0] == pytest.approx(nd.condition_number(geometry, turned), rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("over", "words"),
-    [
-        ({"theta_z": [0.1], "theta_z_deg": [5.0]}, "over: got both theta_z and theta_z_deg, expected one of the two"),
-        ({"x_p_deg": [0.1]}, "over: got 'x_p_deg'"),
-    ],
-)
-def test_wrong_axes(over, words):
-    with pytest.raises(ValueError, match=words):
-        nd.sweep(G, HOME, over)
-
-
 def test_a_variable_stands_in_one_place_however_it_is_named():
     with pytest.raises(ValueError, match="design: got platform_external_angle, which is swept"):
         nd.sweep_designs(SYMMETRIC, {"platform_external_angle": [0.1]}, family="symmetric")

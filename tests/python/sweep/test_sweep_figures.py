@@ -1,7 +1,6 @@
 """The paper's Figs. 6 and 7, the drawings of sweeps, and the command line that makes them."""
 
 import json
-import re
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -111,15 +110,6 @@ def test_figures_are_kept_and_computed_by_executors(tmp_path):
     assert result["condition_number"].tobytes() == seven["condition_number"].tobytes()
     assert result["design"].tobytes() == seven["design"].tobytes()
     assert len(finished(tmp_path)) == 18
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [(("8",), "figure: got '8', expected one of 6, 7"), ((6,), "figure: got 6"), (("6", 1), "points: got 1")],
-)
-def test_bad_figures_are_named(arguments, words):
-    with pytest.raises(ValueError, match=words):
-        nd.sweep_figure(*arguments)
 
 
 # --- Drawings ---------------------------------------------------------------------------------------------------------
@@ -322,65 +312,6 @@ def test_the_bar_shows_the_time_to_go(capsys):
     assert "0:01:20 to go" in shown
 
 
-BAD = {
-    "sweep": "sweep: got no --over",
-    "sweep figure-6 --over x_p=0:1:3": "--over: got x_p=0:1:3, expected none with figure-6",
-    "sweep figure-6 --a1 3": "--a1: got 3, expected none with figure-6",
-    "sweep figure-6 --lc 2": "--lc: got 2, expected none with figure-6",
-    "sweep figure-6 --index leg_ratio": "--index: got leg_ratio, expected none with figure-6",
-    "sweep figure-6 --absolute": "--absolute: got it, expected none with figure-6",
-    "sweep figure-6 --internal-point held": "--internal-point: got held, expected none with figure-6",
-    "sweep figure-7 --chunk 5": "--chunk: got 5, expected none with figure-7",
-    "sweep figure-7 --threads 2": "--threads: got 2, expected none with figure-7",
-    "sweep figure-7 --theta-z-deg 0": "--theta-z-deg: got 0, expected none with figure-7",
-    "sweep figure-6 --points 1": "points: got 1",
-    "sweep figure-9": "sweep: got figure-9, expected one of figure-6, figure-7, or a design",
-    "sweep figure-9 --over x_p=0:1:3": "sweep: got figure-9, expected one of",
-    "sweep --over x_p=0:1:3 --points 3": "--points: got 3, expected none with --over",
-    "sweep --over a1=0:1:3 --absolute": "--absolute: got it, expected none in a sweep over designs",
-    "sweep --over a1=0:1:3 --internal-point best": "--internal-point: got best, expected none in a sweep over designs",
-    "sweep --over a1=0:1:3 --threads 1": "--threads: got 1, expected none in a sweep over designs",
-    "sweep --over a1=0:1:3 --lc 0": "characteristic_length: got 0.0",
-    "sweep --over a1=-1:1:3": "a1: got -1, expected a side of 0 at least",
-    "sweep --over x_p_deg=0:1:3": "over: got 'x_p_deg'",
-    "sweep --over x_p": "--over: got 'x_p', expected NAME=LOW:HIGH:COUNT",
-    "sweep --over x_p=0:1": "expected NAME=LOW:HIGH:COUNT",
-    "sweep --over x_p=0:1:2.5": "expected NAME=LOW:HIGH:COUNT",
-    "sweep --over x_p=a,b": "expected NAME=LOW:HIGH:COUNT",
-    "sweep --over x_p=0:1:3 --over x_p=0:1:3": "expected different names",
-    "sweep --over q=0:1:3": "over: got 'q'",
-    "sweep --over x_p=0:1:3 --index kappa": "index: got 'kappa'",
-    "sweep --over x_p=0:1:3 --a1 1": "--a2",
-    "sweep --over x_p=0:1:3 --lc none": "--lc: got 'none'",
-    "sweep nothing.toml --over x_p=0:1:3": "nothing.toml",
-    "sweep nothing.toml --over a1=0:1:3": "nothing.toml: cannot be read",
-    "sweep nothing.toml --a1 3 --over a2=0:1:3": "design: got nothing.toml and a1, expected one of the two",
-    "sweep --over base_external_radius=0:1:3": "expected a DESIGN whose family has it",
-    "sweep --over x_p=0:1:3 --index six_legged": "index: got 'six_legged', which is for the neutral pose",
-    "sweep --over zs=1:2:3 --index six_legged --lc optimal": "characteristic_length: got 'optimal'",
-    "sweep --a1 3 --over a1=0:1:3": "--over: got a1, which --a1 holds",
-    "sweep --over x_p=0:1:3 --threads 0": "threads: got 0",
-    "atlas --designs 0": "designs: got 0",
-    "atlas --seed -1": "seed: got -1",
-    "workspace --legs 3 2": "leg_length: got 3 to 2",
-    "workspace --legs 2 3 --resolution 1": "resolution: got 1",
-}
-
-
-@pytest.mark.parametrize("line", BAD)
-def test_bad_input_ends_in_one_line_and_status_2(here, run, line):
-    status, out, err = run(line)
-    assert status == 2
-    assert out == ""
-    assert BAD[line] in " ".join(err.split())
-    assert "%" not in err or "a1=-1" in line  # no bar before the first point
-    assert not list(here.iterdir())
-    (here / "mine").mkdir()
-    assert run(f"{line} --out mine")[0] == 2
-    assert not list(here.glob("*/*"))
-    assert (here / "mine").exists()
-
-
 def test_without_dask_the_error_says_what_to_install(here, run, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     status, _, err = run("sweep --over x_p=0:1:3 --scheduler tcp://127.0.0.1:1 --out run")
@@ -423,19 +354,3 @@ def test_every_index_of_a_sweep_is_drawn(run, tmp_path):
     assert abs(margins["greatest"]["value"]) == sizes.max()
     assert abs(values.least("singularity_margins")[0]) == sizes.min()
     assert sizes.min() > 0.5  # the signed least is near -1
-
-
-@pytest.mark.parametrize(
-    ("over", "words"),
-    [
-        ("--over xp=-1:1:5", "x_p, y_p, z_p, .*a1, .*zs .did you mean 'x_p'?"),
-        (
-            "--over x_p=-1:1:5 --over a1=0:1:5",
-            "--over: got x_p, a1, expected coordinates of the configuration or variables",
-        ),
-    ],
-)
-def test_names_of_coordinates_are_suggested_too(run, tmp_path, over, words):
-    status, _, err = run(f"sweep {over} --out {tmp_path / 'run'}")
-    assert status == 2
-    assert re.search(words, err)
