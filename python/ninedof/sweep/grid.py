@@ -144,7 +144,5 @@ def _free(folder: Path) -> float:
     import shutil  # when it is needed, as it takes time to load
 
     with suppress(OSError):
-        disk = shutil.disk_usage(folder)
-        if disk.total:
-            return disk.free
+        return shutil.disk_usage(folder).free or math.inf
     return math.inf
