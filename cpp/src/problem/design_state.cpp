@@ -203,7 +203,7 @@ void DesignState::add_joint(int joint, const Vec3& g, Row out) const {
 
 void DesignState::add_turn(int k, const Vec3& g, Row out) const {
   add_jet(g.dot(pose(k).twist_axis), row_theta_z, out);
-  if (pose(k).moves) add_at(pose(k), g, pose(k).by_at.turn, out);
+  if (pose(k).moves) add_at(pose(k), pose(k).by_at.turn.transpose() * g, out);
 }
 
 void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
@@ -211,7 +211,7 @@ void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
   if (point == point_s) {
     add_zs(g.z(), out);
     add_zp(g.dot(v.s_by_zp), out);
-    if (v.moves) add_at(v, g, v.by_at.internal, out);
+    if (v.moves) add_at(v, v.by_at.internal.transpose() * g, out);
     for (int axis = 0; axis < 3; ++axis)
       if (v.coordinate[at_index(axis)] >= 0) out[v.coordinate[at_index(axis)]] += v.fraction * blueprint.zp * g[axis];
     return;
@@ -219,7 +219,7 @@ void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
   if (point < 6) return add_joint(point, g, out);
   add_zp(g.dot(v.p_by_zp), out);
   add_jet(g.dot(tool_arm_by_theta_z_), row_theta_z, out);
-  if (v.moves) add_at(v, g, v.by_at.position, out);
+  if (v.moves) add_at(v, v.by_at.position.transpose() * g, out);
   if (point == point_p) return;
   add_joint(point, v.plate.transpose() * g, out);
   add_turn(k, (v.at[at_index(point)] - v.at[point_p]).cross(g), out);
@@ -237,7 +237,27 @@ void DesignState::add_length(double g, Row out) const {
 }
 
 void DesignState::add(int k, const PointGradient& g, Row out) const {
-  for (int point = 0; point < point_count; ++point) add_point(k, point, g.point[at_index(point)], out);
+  // All points together: the platform's as a force at its point and a turn.
+  const PoseState& v = pose(k);
+  Eigen::Matrix<double, 1, blueprint_rows> by;
+  Vec3 force = g.point[point_p], turn = Vec3::Zero();
+  for (std::size_t i = 0; i < point_p; ++i) {
+    const Vec3& own = g.point[i];
+    auto place = by.segment<3>(3 * static_cast<Eigen::Index>(i)).transpose();
+    if (i < point_u) {
+      place = own;
+      continue;
+    }
+    place.noalias() = v.plate.transpose() * own;
+    force += own;
+    turn += (v.at[i] - v.at[point_p]).cross(own);
+  }
+  by[row_zp] = force.dot(v.p_by_zp);
+  by[row_zs] = 0.0;
+  by[row_theta_z] = force.dot(tool_arm_by_theta_z_) + turn.dot(v.twist_axis);
+  out.head(jet_.cols()).noalias() += by * jet_;
+  if (v.moves) add_at(v, v.by_at.position.transpose() * force + v.by_at.turn.transpose() * turn, out);
+  add_point(k, point_s, g.point[point_s], out);
   add_length(g.length, out);
 }
 

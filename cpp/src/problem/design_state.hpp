@@ -119,10 +119,10 @@ class DesignState {
   void place(const PoseSpec& spec, PoseState& out) const;
   /// The derivatives of the coordinates of such a pose by the free ones.
   void follow(const FollowingPose& pose, PoseState& out) const;
-  void add_at(const PoseState& v, const Vec3& g, const PoseSlopes::Columns& slopes, Row out) const {
-    const Eigen::Matrix<double, 1, 6> by_at = g.transpose() * slopes;
-    if (v.follows) out.head(v.at_by_y.cols()) += by_at * v.at_by_y;
-    else out.segment<6>(columns_) += by_at;
+  /// ... the coordinates of a pose in a region
+  void add_at(const PoseState& v, const Vec6& g, Row out) const {
+    if (v.follows) out.head(v.at_by_y.cols()).noalias() += g.transpose() * v.at_by_y;
+    else out.segment<6>(columns_) += g.transpose();
   }
   void set_extremes();
 
