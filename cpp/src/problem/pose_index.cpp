@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "batch/spectrum_stack.hpp"
+
 namespace ninedof {
 namespace {
 
@@ -27,6 +29,11 @@ bool vanished(double sigma) {
   return !(sigma > tiny);
 }
 
+/// So near a singularity that squares under- or overflow there are no slopes.
+void drop_infinite(PoseSpectrum& s) {
+  if (!s.gradient.allFinite()) s.gradient.setZero();
+}
+
 /// log |J'|_F |J'^+|_F and its derivatives with respect to the logarithms of the singular values.
 double frobenius(const PoseSpectrum& s, std::array<double, 6>& slope) {
   const int count = s.closed ? 4 : 6;
@@ -50,20 +57,28 @@ std::span<const int> bottoms_of(bool closed) {
   return closed ? std::span<const int>(closed_bottoms) : std::span<const int>(general_bottoms);
 }
 
-void general_spectrum(const DesignState& v, int pose, PoseSpectrum& out, bool derivatives) {
-  const PoseState& at = v.pose(pose);
-  out.closed = false;
-  out.general = spectrum(at.at, at.legs, v.characteristic_length);
-  const Vec6& sigma = out.general.sigma;
-  for (int k = 0; k < 6; ++k) out.log_sigma[k] = std::log(!vanished(sigma[k]) ? sigma[k] : k == 0 ? 1.0 : tiny);
-  out.gradient.setZero(6, v.columns());
-  if (derivatives) differentiate_spectrum(v, pose, out);
+void general_spectra(const DesignState& v, std::span<const int> poses, std::span<PoseSpectrum* const> out,
+                     bool derivatives) {
+  std::array<const PosedPoints*, SpectrumStack::most> at;
+  std::ranges::transform(poses, at.begin(), [&](int pose) { return &v.pose(pose); });
+  const SpectrumStack stack({at.data(), poses.size()}, v.characteristic_length);
+  for (std::size_t n = 0; n < poses.size(); ++n) {
+    PoseSpectrum& s = *out[n];
+    s.closed = false;
+    s.general = stack.spectrum(n);
+    const Vec6& sigma = s.general.sigma;
+    for (int k = 0; k < 6; ++k) s.log_sigma[k] = std::log(!vanished(sigma[k]) ? sigma[k] : k == 0 ? 1.0 : tiny);
+    s.gradient.setZero(6, v.columns());
+    for (int k = 0; derivatives && k < 6; ++k)
+      if (!vanished(sigma[k])) v.add(poses[n], stack.slopes(n, s.general, k), s.gradient.row(k));
+    drop_infinite(s);
+  }
 }
 
 void differentiate_spectrum(const DesignState& v, int pose, PoseSpectrum& out) {
   out.gradient.setZero(6, v.columns());
   for (int k = 0; k < 6; ++k) add_log_sigma(v, pose, out, k, 1.0, out.gradient.row(k));
-  if (!out.gradient.allFinite()) out.gradient.setZero();  // so near a singularity that squares under- or overflow
+  drop_infinite(out);
 }
 
 void add_log_sigma(const DesignState& v, int pose, const PoseSpectrum& s, int k, double scale, Row out) {

@@ -24,8 +24,10 @@ struct PoseSpectrum {
 std::span<const int> tops_of(bool closed);
 std::span<const int> bottoms_of(bool closed);
 
-/// All six singular values of the nine-legged robot at a pose; without `derivatives` the gradient is not computed.
-void general_spectrum(const DesignState& v, int pose, PoseSpectrum& out, bool derivatives = true);
+/// All six singular values of the nine-legged robot at poses, no more than SpectrumStack::most; without `derivatives`
+/// the gradients are not computed.
+void general_spectra(const DesignState& v, std::span<const int> poses, std::span<PoseSpectrum* const> out,
+                     bool derivatives = true);
 /// The gradient afterwards.
 void differentiate_spectrum(const DesignState& v, int pose, PoseSpectrum& out);
 

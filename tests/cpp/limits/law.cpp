@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "batch/spectrum_stack.hpp"
 #include "limits/law_boxes.hpp"
 #include "limits/leg_clearance.hpp"
 #include "limits/rows.hpp"
@@ -364,6 +365,35 @@ TEST_SUITE("law") {
               CHECK(side == FormHome(one.g, one.home, one.options).side[at_index(item)]);
             }
           }
+        }
+      }
+    }
+  }
+
+  TEST_CASE("a stack of condition numbers and their slopes is its poses one by one") {
+    Random random(7);
+    for (int n = 0; n < cases(12); ++n) {
+      std::vector<PosedPoints> poses;
+      const Case one(random, n);
+      for (int k = 0; k < 5; ++k) {
+        const Case there = Case({one.g, one.home}, random, n);
+        poses.push_back(posed_points(there.g, there.here));
+      }
+      std::array<const PosedPoints*, 5> all;
+      std::ranges::transform(poses, all.begin(), [](const PosedPoints& pose) { return &pose; });
+      const SpectrumStack stack(all, 1.0);
+      for (std::size_t k = 0; k < poses.size(); ++k) {
+        const Spectrum s = stack.spectrum(k);
+        const auto log_kappa = [&](const PosedPoints& at) {
+          const Vec6 sigma = spectrum(at.at, at.legs, 1.0).sigma;
+          return std::log(sigma[0] / sigma[5]);
+        };
+        CHECK(std::log(s.sigma[0] / s.sigma[5]) == doctest::Approx(log_kappa(poses[k])).epsilon(1e-12));
+        const PointGradient top = stack.slopes(k, s, 0), bottom = stack.slopes(k, s, 5);
+        for (int point = 0; point < point_count; ++point) {
+          const Vec3 slope = top.point[at_index(point)] - bottom.point[at_index(point)];
+          const Vec3 expected = quotient([&](const Vec3& by) { return log_kappa(moved(poses[k], point, by)); });
+          CHECK((slope - expected).norm() <= 1e-6 * (1.0 + slope.norm()));
         }
       }
     }

@@ -7,6 +7,7 @@
 #include "batch/kernels/hexagonal.hpp"
 #include "batch/kernels/margins.hpp"
 #include "batch/kernels/quick_roots.hpp"
+#include "batch/kernels/spectra.hpp"
 
 namespace ninedof::kernels::inline NINEDOF_LEVEL {
 namespace {
@@ -186,13 +187,33 @@ void hexagonal_condition_numbers(const double* designs, long count, double* out)
   }
 }
 
+void spectra(const double* const* points, long count, double length, double* out) {
+  using Lane = PackOf<per_register>;  // the columns of two would not fit the registers
+  constexpr int lanes = Lane::lanes;
+  alignas(64) double at[42][lanes], numbers[spectrum_numbers][lanes];
+  for (long first = 0; first < count; first += lanes) {
+    const long rows = count - first < lanes ? count - first : lanes;
+    for (long k = 0; k < lanes; ++k)  // the last is repeated
+      for (int j = 0; j < 42; ++j) at[j][k] = points[first + (k < rows ? k : rows - 1)][j];
+    spectrum(at, Lane(length), numbers);
+    for (long k = 0; k < rows; ++k)
+      for (int j = 0; j < spectrum_numbers; ++j) out[(first + k) * spectrum_numbers + j] = numbers[j][k];
+  }
+}
+
 }  // namespace
 
 #define NINEDOF_TEXT_(x) #x
 #define NINEDOF_TEXT(x) NINEDOF_TEXT_(x)
 extern const Table level_table;
-const Table level_table = {
-    NINEDOF_TEXT(NINEDOF_LEVEL), Lanes::lanes,    leg_lengths,         condition_numbers,
-    frobenius_condition_numbers, singular_values, singularity_margins, hexagonal_condition_numbers};
+const Table level_table = {NINEDOF_TEXT(NINEDOF_LEVEL),
+                           Lanes::lanes,
+                           leg_lengths,
+                           condition_numbers,
+                           frobenius_condition_numbers,
+                           singular_values,
+                           singularity_margins,
+                           hexagonal_condition_numbers,
+                           spectra};
 
 }  // namespace ninedof::kernels::inline NINEDOF_LEVEL

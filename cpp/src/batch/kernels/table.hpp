@@ -22,6 +22,10 @@ struct Block {
 /// positive, determinants of unit rows at least -1.
 constexpr double unsure = -2.0;
 
+/// Numbers of a singular value in a row of `spectra`: its square, the twist, the velocity of O, the rates of the legs,
+/// and the slopes of its logarithm by fourteen points and by the characteristic length; and of all six.
+constexpr int sigma_numbers = 1 + 6 + 3 + 9 + 42 + 1, spectrum_numbers = 6 * sigma_numbers;
+
 struct Table {
   const char* level;
   int lanes;
@@ -32,6 +36,8 @@ struct Table {
   void (*singularity_margins)(const Block& block, double* out);            ///< n, b, c, 3 per row
   /// Rows a1 a2 b1 b2 zp zs of hexagonal designs at theta_z = 0, in characteristic lengths: 1 per row.
   void (*hexagonal_condition_numbers)(const double* designs, long count, double* out);
+  /// Of robots given by the 42 coordinates of their points: spectrum_numbers per row.
+  void (*spectra)(const double* const* points, long count, double length, double* out);
 };
 
 }  // namespace ninedof::kernels

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "batch/spectrum_stack.hpp"
 #include "math/numbers.hpp"
 
 namespace ninedof {
@@ -22,18 +23,35 @@ int pose_of_spectrum(const PreparedProblem& p, const DesignState& state, int spe
   return spectrum < p.evaluated_poses() ? state.first_pose + spectrum : 0;
 }
 
-void evaluate_spectrum(const PreparedProblem& p, int k, bool derivatives, DesignEvaluation& out) {
+/// The singular values of the chosen spectra, off the axis those of many poses at once.
+template <class Chosen>
+void evaluate_spectra(const PreparedProblem& p, const Chosen& chosen, bool derivatives, DesignEvaluation& out) {
   const Machine machine = p.problem.objective.index == Index::six_legged ? Machine::six_legged : Machine::nine_legged;
-  const int pose = pose_of_spectrum(p, out.state, k);
-  PoseSpectrum& s = out.spectra[at_index(k)];
-  if (p.closed[at_index(k)]) closed_spectrum(*p.family, out.state, p.pose_specs[at_index(pose)], machine, s);
-  else general_spectrum(out.state, pose, s, derivatives);
+  std::array<int, SpectrumStack::most> poses;
+  std::array<PoseSpectrum*, SpectrumStack::most> general;
+  std::size_t count = 0;
+  const int all = p.evaluated_spectra();
+  for (int k = 0; k < all; ++k) {
+    if (chosen(k)) {
+      const int pose = pose_of_spectrum(p, out.state, k);
+      PoseSpectrum& s = out.spectra[at_index(k)];
+      if (p.closed[at_index(k)]) {
+        closed_spectrum(*p.family, out.state, p.pose_specs[at_index(pose)], machine, s);
+      } else {
+        poses[count] = pose;
+        general[count++] = &s;
+      }
+    }
+    if (count == 0 || (count < SpectrumStack::most && k + 1 < all)) continue;
+    general_spectra(out.state, {poses.data(), count}, {general.data(), count}, derivatives);
+    count = 0;
+  }
 }
 
 /// Singular values of one spectrum, for a row that is evaluated alone.
 const PoseSpectrum& spectrum_alone(const PreparedProblem& p, int k, DesignEvaluation& out) {
   out.spectra.resize(at_index(p.evaluated_spectra()));
-  evaluate_spectrum(p, k, false, out);
+  evaluate_spectra(p, [&](int other) { return other == k; }, false, out);
   return out.spectra[at_index(k)];
 }
 
@@ -78,10 +96,18 @@ void fill_rows(const PreparedProblem& p, int pose, DesignEvaluation& out) {
   else fill_index(index, s, row, out.objective_rows, out.row_gradient);
 }
 
-/// The margins of a selection, with their derivatives.
+/// Those of chosen poses.
+template <class Chosen>
+void fill_rows(const PreparedProblem& p, const Chosen& chosen, DesignEvaluation& out) {
+  for (int pose = 0; pose < p.evaluated_poses(); ++pose)
+    if (chosen(pose)) fill_rows(p, pose, out);
+}
+
+/// The rows of a selection, with their derivatives.
 void evaluate_alone(const PreparedProblem& p, const RowSelection& selection, DesignEvaluation& out) {
-  for (int k = 0; k < p.evaluated_spectra(); ++k)
-    if (selection.spectra[at_index(k)]) evaluate_spectrum(p, k, true, out);
+  const auto chosen = [&](int k) { return selection.spectra[at_index(k)]; };
+  evaluate_spectra(p, chosen, true, out);
+  if (!selection.row_levels.empty()) fill_rows(p, chosen, out);
   std::vector<MarginRow> rows;
   for (const int k : selection.margins) rows.push_back(p.margins[at_index(k)]);
   std::vector<double> values(rows.size());
@@ -90,6 +116,18 @@ void evaluate_alone(const PreparedProblem& p, const RowSelection& selection, Des
     out.margins[selection.margins[n]] = values[n];
     differentiate_margin(p, selection.margins[n], out);
   }
+}
+
+/// The values of what was not chosen, of all margins, and of levels and objective.
+template <class Chosen>
+void evaluate_others(const PreparedProblem& p, const Chosen& chosen, DesignEvaluation& out) {
+  const auto others = [&](int k) { return !chosen(k); };
+  evaluate_spectra(p, others, false, out);
+  fill_rows(p, others, out);
+  out.levels.setConstant(p.levels, -infinity);
+  for (const RowLevel& u : p.row_levels) out.levels[u.level] = std::max(out.levels[u.level], out.objective_rows[u.row]);
+  out.log_objective = p.objective(out.levels);
+  evaluate_margins(p, out, p.margins, out.margins.data());
 }
 
 }  // namespace
@@ -122,18 +160,18 @@ void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSel
   fit(out.row_gradient, p.rows);
   fit(out.margin_gradient, margins);
   if (selection != nullptr && selection->alone) return evaluate_alone(p, *selection, out);
-  for (int k = 0; k < p.evaluated_spectra(); ++k) {
-    evaluate_spectrum(p, k, selection == nullptr || selection->spectra[at_index(k)], out);
-    if (k < p.evaluated_poses()) fill_rows(p, k, out);
-  }
-  out.levels.setConstant(p.levels, -infinity);
-  for (const RowLevel& u : p.row_levels) out.levels[u.level] = std::max(out.levels[u.level], out.objective_rows[u.row]);
-  out.log_objective = p.objective(out.levels);
-  evaluate_margins(p, out, p.margins, out.margins.data());
+  const auto chosen = [&](int k) { return selection == nullptr || selection->spectra[at_index(k)]; };
+  evaluate_spectra(p, chosen, true, out);
+  fill_rows(p, chosen, out);
+  evaluate_others(p, chosen, out);
   if (selection == nullptr)
     for (Eigen::Index k = 0; k < margins; ++k) differentiate_margin(p, static_cast<int>(k), out);
   else
     for (const int k : selection->margins) differentiate_margin(p, k, out);
+}
+
+void evaluate_others(const PreparedProblem& p, DesignEvaluation& out, const RowSelection& selection) {
+  evaluate_others(p, [&](int k) { return selection.spectra[at_index(k)]; }, out);
 }
 
 void differentiate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection& selection) {
@@ -201,7 +239,7 @@ double neutral_condition(const PreparedProblem& p, const DesignEvaluation& desig
   PoseSpectrum s;
   if (on_axis(p.problem, p.pose_specs.front().pose))
     closed_spectrum(*p.family, design.state, p.pose_specs.front(), Machine::nine_legged, s);
-  else general_spectrum(design.state, 0, s);
+  else general_spectra(design.state, std::array{0}, std::array{&s}, false);
   return std::exp(s.log_max() - s.log_min());
 }
 

@@ -21,7 +21,7 @@ struct DesignEvaluation {
 struct RowSelection {
   std::vector<int> row_levels, margins;  ///< indices into those of PreparedProblem, ascending
   std::vector<bool> spectra;  ///< whether a selected row needs the singular values
-  bool alone = false;  ///< whether nothing else is evaluated: other margins, levels and the objective are stale
+  bool alone = false;  ///< whether nothing else is evaluated: other rows, levels and the objective are stale
 };
 
 /// These rows; without any, values alone.
@@ -33,6 +33,9 @@ void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignE
 
 /// The same for a design whose state is set.
 void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection* selection = nullptr);
+
+/// What evaluate_design leaves out where the selection is evaluated alone.
+void evaluate_others(const PreparedProblem& p, DesignEvaluation& out, const RowSelection& selection);
 
 /// The derivatives of a selection, of a design that was evaluated without them.
 void differentiate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection& selection);

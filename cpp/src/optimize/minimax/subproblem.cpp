@@ -124,12 +124,19 @@ void Subproblem::fill(const Eigen::VectorXd& at, Nlp::Values& out) const {
 Eigen::VectorXd Subproblem::run(const Eigen::VectorXd& from, double tolerance, int max_evaluations) {
   const int n = p_.coordinates.size();
   selection_ = selection_of(p_, std::move(selection_.row_levels), std::move(selection_.margins));
+  // What is not selected matters where the selected rows are kept, and to an observer.
+  selection_.alone = minimax() && !observer_;
+  const auto passed = [&](int k) { return -p_.violation_factor(k) * design_.margins[k] > clearly_feasible; };
   Nlp nlp = bounded_nlp(p_, minimax() ? p_.levels : 0,
                         (minimax() ? selection_.row_levels.size() : 0) + selection_.margins.size() + 1);
   nlp.evaluate = [&](const Eigen::VectorXd& at, Nlp::Values& out) {
     evaluate_design(p_, at.head(n), design_, &selection_);
     ++evaluations_;
     fill(at, out);
+    if (selection_.alone) {
+      if (std::ranges::any_of(selection_.margins, passed)) return !stop_.stop_requested();
+      evaluate_others(p_, design_, selection_);
+    }
     const double violated = violation(p_, design_, at.head(n));
     if (violated <= clearly_feasible && design_.log_objective < best_seen_objective_) {
       best_seen_ = at.head(n);
