@@ -94,9 +94,9 @@ class Limit:
         sides = {"min": self.low} if self.low != 0.0 else {}
         return sides | ({"max": self.high} if self.high != math.inf else {})
 
-    def unit(self, of_lengths: str = "") -> str:
-        """Return the unit in which it is shown: "deg" for an angle, that of lengths for a length, "" for a ratio."""
-        return kind_unit(self.kind, of_lengths)
+    def unit(self, of_lengths: str = "", force: str = "") -> str:
+        """Return the unit in which it is shown, as `kind_unit`: "deg" for an angle, that of lengths, "" for a ratio."""
+        return kind_unit(self.kind, of_lengths, force)
 
     @property
     def options(self) -> dict[str, Any]:

@@ -32,18 +32,18 @@ def variables_table(study: Any) -> Table:
 def limits_table(study: Any) -> Table:
     """Return the limits; a note where there is none."""
     several = bool(study.objective.poses) or study.objective.region is not None
-    rows = [_limit_row(limit, study.unit, several) for limit in study.limits]
+    rows = [_limit_row(limit, limit.unit(study.unit, study.force_unit), several) for limit in study.limits]
     heads = columns("limit", ">least", ">greatest", "how")
     if not any(row[-1] for row in rows):
         rows, heads = [row[:-1] for row in rows], heads[:-1]
     notes = [] if rows else ["No limit is set beside these bounds and 0 < zs < zp."]
     if any(limit.name.endswith(("force", "power")) for limit in study.limits):
-        notes.append("Forces: of each leg under every load; in N where masses are in kg.")
+        in_newtons = "" if study.force_unit else "; in N where masses are in kg"
+        notes.append(f"Forces: of each leg under every load{in_newtons}.")
     return Table("Limits", heads, rows, notes)
 
 
 def _limit_row(limit: Limit, unit: str, several: bool) -> tuple[str, ...]:
-    unit = limit.unit(unit)
     sides = {side: amount(end_text(degrees_of(x) if unit == "deg" else x), unit) for side, x in limit.sides.items()}
     words = ["at the neutral pose" if limit.at == "neutral" else "at every pose"] * (several or limit.at == "neutral")
     words += [f"{key} {_option(value)}" for key, value in limit.options.items() if key != "at"]

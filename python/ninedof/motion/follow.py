@@ -252,14 +252,15 @@ def follow(
     geometry : Geometry, Result or Design
         A design stands for its geometry, its home and its characteristic length, one of a study, as a Result, also for
         the leg lengths that the study permits, the rule for O of its region, its loads, masses and gravity; all limits
-        of its study are held along the path, as `path_limits` does.
+        of its study are held along the path, as `path_limits` does. Of a DesignPoint the limits on lengths are: the
+        others are those of `path_limits(point.study, motion, point.configuration)`.
     trajectory : Trajectory
     home : Configuration
         The neutral configuration, a single one: it says where O is. Needed with a Geometry.
     internal_point : {"carried", "shifted", "held", "best"} or float
         O along the trajectory. "carried", the default: as a point of the platform, so that O keeps its side of the
         upper internal joints on every trajectory; while the platform does not turn, the upper internal legs do not
-        move. "shifted": with the platform's origin, s - p as at home in base axes, as regions of studies have it.
+        move. "shifted": with p, s - p as at home in base axes, as regions of studies have it.
         "held": where it is at home; the lower internal legs never move. `idle_legs` names such legs. A number:
         this fraction of the way from the centroid of the internal joints of the base to that of the platform. "best":
         `best_internal_path` within the limits, at 201 poses, with a cubic spline between them.

@@ -21,18 +21,22 @@ from ninedof.support.units import DEG, unit_argument
 PLACE = ("x", "y", "z")
 RELATIVE = ("x_rel", "y_rel", "z_rel")
 QUATERNION = ("qw", "qx", "qy", "qz")
+TURNS_REL = ("rx_rel", "ry_rel", "rz_rel")
+TURNS_REL_DEG = tuple(name + DEG for name in TURNS_REL)
 MATRIX = tuple(f"Q{i}{j}" for i in range(1, 4) for j in range(1, 4))
 ROTATIONS: dict[tuple[str, ...], Callable[[Floats], Floats]] = {
     QUATERNION: from_quaternions,
     ("rx", "ry", "rz"): from_vectors,
     ("rx_deg", "ry_deg", "rz_deg"): lambda turns: from_vectors(np.radians(turns)),
+    TURNS_REL: from_vectors,
+    TURNS_REL_DEG: lambda turns: from_vectors(np.radians(turns)),
     ("yaw", "pitch", "roll"): lambda turns: from_euler(*turns.T),
     ("yaw_deg", "pitch_deg", "roll_deg"): lambda turns: from_euler(*np.radians(turns).T),
     MATRIX: lambda entries: entries.reshape(-1, 3, 3),
 }
 """The columns that a file may have for the rotation, and their matrices (n, 3, 3)."""
 COMPUTED = ("o_", "condition_number", "det_", "leg_margin", "margin_")  # other columns of `ninedof path`: not read
-RADIANS = {"rx", "ry", "rz", "yaw", "pitch", "roll"}
+RADIANS = {"rx", "ry", "rz", *TURNS_REL, "yaw", "pitch", "roll"}
 ONE_OF = "one of " + ", ".join(map(" ".join, ROTATIONS))
 FEWEST = 3  # poses: accelerations need three
 UNIT = 1e-3  # a quaternion may differ from unit length by rounding, not by more; a full turn too, relative
@@ -108,10 +112,11 @@ class Trajectory:
             rotation vector), yaw pitch roll (Euler angles, R_z R_y R_x) or Q11 to Q33 (the matrix by rows); angles in
             radians, at most a full turn, or in degrees with names such as rx_deg and yaw_deg. Positions and rotations
             are those of the platform in the base frame; x_rel y_rel z_rel are positions from that of `home`, along the
-            base axes. A line that begins with # is a comment. poses.csv of a run of `ninedof path` is such a file: its
-            poses are read, O and all that was computed are not.
+            base axes, and rx_rel ry_rel rz_rel the rotation vector from that of `home`, as regions have it. A line that
+            begins with # is a comment. poses.csv of a run of `ninedof path` is such a file: its poses are read, O and
+            all that was computed are not.
         home : Configuration
-            Its rotation is taken where the file has none; the origin of x_rel y_rel z_rel.
+            Its rotation is taken where the file has none; the origin of what is relative.
         unit : str
             Name of the length unit of the robot. A file may name its own behind a column, "x (mm)"; another one is an
             error.
@@ -126,7 +131,7 @@ class Trajectory:
         file = path_argument("path", path)
         text = read_text(file)
         with within(file, ": "):
-            time, position, rotation = _poses(text, home.position, unit)
+            time, position, rotation = _poses(text, home, unit)
             return cls(time, position, home.rotation if rotation is None else rotation, unit)
 
     @classmethod
@@ -203,11 +208,11 @@ def _rest_to_rest(u: Floats) -> Floats:
     return np.asarray(u**3 * (10.0 + u * (6.0 * u - 15.0)))
 
 
-def _poses(text: str, origin: Floats, unit: str) -> tuple[Floats, Floats, Floats | None]:
+def _poses(text: str, home: Configuration, unit: str) -> tuple[Floats, Floats, Floats | None]:
     """Return time (n,), position (n, 3) and rotation (n, 3, 3) of a file, None where it has no rotation.
 
-    `origin` is that of relative positions. ValueError names line and column, also where the file names another unit of
-    lengths.
+    Columns that are relative are from `home`. ValueError names line and column, also where the file names another unit
+    of lengths.
     """
     line, heads, body = csv_table(text)
     names = [name for name, _ in heads]
@@ -244,7 +249,9 @@ def _poses(text: str, origin: Floats, unit: str) -> tuple[Floats, Floats, Floats
             raise ValueError(f"line {body[k][0]}, column Q11: got no rotation in Q11 to Q33, expected one, to {UNIT:g}")
         if off.max() > EXACT:  # few digits
             rotation = from_quaternions(to_quaternions(rotation))
-    return time, position + (origin if place == RELATIVE else 0.0), rotation
+    if rotation is not None and turns in (TURNS_REL, TURNS_REL_DEG):
+        rotation = rotation @ home.rotation
+    return time, position + (home.position if place == RELATIVE else 0.0), rotation
 
 
 def _pose_columns(where: str, names: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:

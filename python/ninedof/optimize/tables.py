@@ -55,7 +55,7 @@ def _part(study: Study, variables: Mapping[str, float], name: str, share: float 
         limit = next((limit for limit in study.limits if limit.label == name), None)
         if limit is None or len(limit.sides) != 1:
             return ""
-        (value,), unit = limit.sides.values(), limit.unit(study.unit)
+        (value,), unit = limit.sides.values(), limit.unit(study.unit, study.force_unit)
     value = degrees_of(value) if unit == "deg" else value
     return f" ({amount(f'{share * value:.6g}', unit)})" if unit and value != 0.0 and math.isfinite(value) else ""
 

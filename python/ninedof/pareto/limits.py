@@ -38,11 +38,11 @@ def with_degrees(against: str) -> str:
 
 
 def unit_of(study: Study, against: str) -> str:
-    """Return the unit of the values of a limit: "deg", "rad", that of lengths, or "" for a ratio."""
+    """Return the unit of the values of a limit: "deg", "rad", that of lengths or forces, or "" for a ratio."""
     plain, degrees = without_degrees(against)
     if plain in (CONDITION_LIMIT, TOLERANCE):
         return study.unit if plain == TOLERANCE else ""
-    unit = _limit(study, plain).unit(study.unit)
+    unit = _limit(study, plain).unit(study.unit, study.force_unit)
     return "rad" if unit == "deg" and not degrees else unit
 
 

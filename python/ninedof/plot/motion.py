@@ -147,7 +147,8 @@ def _margins(axes: Any, t: Floats, margins: Mapping[str, Floats]) -> None:
     if min(values.min() for values in margins.values()) < 0.0:
         axes.axhspan(low, 0.0, **FORBIDDEN)
     columns = min(5, len(margins))
-    axes.set_ylim(low, high + (0.08 + 0.14 * -(-len(margins) // columns)) * (high - low))  # room for the legend
+    room = 0.04 + 0.12 * -(-len(margins) // columns)  # of the axes, for the legend
+    axes.set_ylim(low, high + room / (1.0 - room) * (high - low))
     words = f"least margin of each limit, drawn up to {100.0 * MOST_MARGIN:g} % of it"
     axes.set_title(words, size=style.TEXT_SIZE, weight="normal")
     axes.set_ylabel("margin (%)")

@@ -120,6 +120,7 @@ def certify(
         return MachineCertificate(
             where=where,
             unit=study.unit,
+            force_unit=study.force_unit,
             limits=(*limits, *of_condition, *at_neutral),
             lengths=over_poses.lengths,
             condition=(state.low, state.high),

@@ -76,9 +76,9 @@ class LimitProof:
         """Return a value as it is shown: angles in degrees."""
         return math.degrees(number("value", value)) if self.kind == "angle" else number("value", value)
 
-    def unit(self, length: str) -> str:
-        """Return the unit of shown values."""
-        return kind_unit(self.kind, text("length", length))
+    def unit(self, length: str, force: str = "") -> str:
+        """Return the unit of shown values; `force` is that of forces."""
+        return kind_unit(self.kind, text("length", length), text("force", force))
 
     def worded(self, digits: int = 6) -> str:
         """Return the bound that is proved, rounded to the safe side."""
@@ -127,6 +127,8 @@ class MachineCertificate(Worded):
     interrupted: bool = False
     rule: PointRule | None = None
     """The rule for O, if a region places it anew at every pose: all of this is proved of O placed by it."""
+    force_unit: str = ""
+    """"N" where the study states masses and lengths have a unit."""
     machine: str = ""
     """Digest of the machine and its poses: another run goes on with the certificate of the same machine only."""
 
@@ -192,7 +194,7 @@ class MachineCertificate(Worded):
             return ""
         name = ", ".join(filter(None, [limit.name.replace("_", " "), limit.which]))
         ends = [limit.outward(x, up, 9) for x, up in zip(limit.value, (False, True), strict=True)]
-        size = [amount(end, limit.unit(self.unit)) for end in ends]
+        size = [amount(end, limit.unit(self.unit, self.force_unit)) for end in ends]
         met = size[limit.side == "min"]
         if limit.answer == UNDECIDED:
             if math.isinf(limit.value[limit.side == "max"]):

@@ -9,7 +9,7 @@ from ninedof.support.units import amount
 
 WORDS = {
     "carried": "carried as a point of the platform",
-    "shifted": "shifted with the platform's origin",
+    "shifted": "shifted with p",
     "held": "held in the base",
     "best": "placed at its best",
 }

@@ -66,7 +66,7 @@ def design_machine(
     region = study.objective.region
     lines = [] if region is None else region_lines(region, one.configuration)
     poses = [("neutral pose", one.configuration)] if sheet is None else scene.worst_poses(sheet)
-    return scene.machine(title, one.geometry, one.characteristic_length, poses, lines, body)
+    return scene.machine(title, one.geometry, one.characteristic_length, poses, lines, body, study.tool)
 
 
 def _answer(result: Result) -> Html:

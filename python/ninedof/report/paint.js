@@ -9,7 +9,8 @@ function placed(machine, pose) {
   const platform = machine.platform.map(move), o = pose.s, base = machine.base;
   const legs = [0, 1, 2].map((i) => ["l", i, base[i], platform[i]]);
   legs.push(...[0, 1, 2].map((i) => ["q", i, o, platform[3 + i]]), ...[0, 1, 2].map((i) => ["r", i, base[3 + i], o]));
-  return { base, platform, o, legs, plate: machine.platformPlate.map((face) => face.map(move)) };
+  const tool = machine.plateOrigin ? [move(machine.plateOrigin), pose.p] : [];
+  return { base, platform, o, legs, tool, plate: machine.platformPlate.map((face) => face.map(move)) };
 }
 
 function paint(context, size, camera, data, machine, pose, shown, colours) {
@@ -95,6 +96,11 @@ function between_plates(context, radius, region, robot, view, colours, line) {
       items.push([(ends[0][2] + ends[1][2]) / 2, () => line(ends, colours.region, 1.6, [5, 3])]);
     }
   }
+  if (robot.tool.length) {
+    const [plate, tip] = robot.tool.map(view.project);
+    const point = [[-5, -5], [5, -5], [0, 4]].map(([x, y]) => [tip[0] + x, tip[1] + y]);
+    items.push([tip[2], () => (line([plate, tip], colours.region, 2.4), polygon(context, point, colours.region))]);
+  }
   const o = view.project(robot.o);
   // A diamond: a ring beside the letter O would be read as a second one.
   items.push([o[2] + 0.02 * radius, () => {
@@ -143,7 +149,8 @@ function labels(context, robot, project, colours, line, dark) {
     taken.push(at);
     Object.assign(context, { font, fillStyle: colours.surface });
     context.globalAlpha = 0.85;
-    context.fillRect(at[0] - 9, at[1] - 8, 18, 16);
+    const wide = Math.max(18, context.measureText(text).width + 4);
+    context.fillRect(at[0] - wide / 2, at[1] - 8, wide, 16);
     context.globalAlpha = 1;
     context.fillStyle = colour;
     context.fillText(text, at[0], at[1]);
@@ -159,6 +166,10 @@ function labels(context, robot, project, colours, line, dark) {
       return aside.map((d) => [x + d * across[0], y + d * across[1]]);
     });
     write(`${kind}${i + 1}`, colours[kind], places);
+  }
+  if (robot.tool.length) {
+    const [x, y] = project(robot.tool[1]);
+    write("tool", colours.region, [[x + 22, y], [x - 22, y], [x, y + 17]]);
   }
 }
 

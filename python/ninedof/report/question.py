@@ -73,7 +73,8 @@ def duty_sentences(study: Study) -> Iterator[str]:
     if loads.wrenches:
         words = "; ".join(load_words(k, load, unit, study.force_unit) for k, load in enumerate(loads.wrenches, start=1))
         yield f"{words[:1].upper()}{words[1:]}."
-    masses = [f"{name.replace('_', ' ')} {x:g}" for name in MASSES if (x := getattr(study.masses, name))]
+    given = {name.replace("_", " "): x for name in MASSES if (x := getattr(study.masses, name))}
+    masses = [amount(f"{name} {x:g}", "kg" * bool(study.force_unit)) for name, x in given.items()]
     if masses:
         centre = amount(vector_words(study.masses.centre), unit)
         at = f", the platform's centre at {centre} in the frame of the plate" * (study.masses.platform > 0.0)

@@ -7,6 +7,7 @@ from typing import Any
 
 from ninedof.design.limits import kind_of
 from ninedof.design.region import box_lines
+from ninedof.design.study import Study
 from ninedof.motion.tables import motion_tables
 from ninedof.paper.verdicts import verdicts_table
 from ninedof.redundancy.rules import where_o
@@ -36,9 +37,10 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
         machine = Geometry(**question["geometry"]), Configuration(**question["home"])
         box = [] if workspace.of_angles else box_lines(workspace.low, workspace.high)
         length, poses = float(question.get("characteristic_length", 1.0)), [("home", machine[1])]
-        shown = scene.machine("robot", machine[0], length, poses, box, scene.body_of(workspace))
+        tool = Study(tool=question.get("tool", {})).tool
+        shown = scene.machine("robot", machine[0], length, poses, box, scene.body_of(workspace), tool)
         view = scene.scene([shown], workspace.unit)
-        point = "tool's point" if question.get("tool") else "platform's origin"
+        point = "tool's point" if tool else "platform's origin"
         hint = f"The body is the set of positions of the {point}; lines: the box looked at."
         sections["machine"] = paragraphs([hint if view["machines"][0]["body"] else ""])
     cubed = "rad³" if workspace.of_angles else workspace.unit + "³" * bool(workspace.unit)

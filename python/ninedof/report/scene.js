@@ -15,7 +15,7 @@
   data.floor = squares();
 
   function extent() {
-    const points = data.machines.flatMap((m) => [...m.base, ...m.poses.flatMap((p) => placed(m, p).platform)]);
+    const points = data.machines.flatMap((m) => [...m.base, ...m.poses.flatMap((p) => [...placed(m, p).platform, ...placed(m, p).tool])]);
     points.push(...data.machines.flatMap((m) => (m.body ? m.body.vertices : [])));
     const low = [0, 1, 2].map((k) => Math.min(...points.map((p) => p[k])));
     const high = [0, 1, 2].map((k) => Math.max(...points.map((p) => p[k])));

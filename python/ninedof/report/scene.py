@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import SPREADS
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
@@ -33,10 +34,11 @@ def machine(
     poses: Iterable[tuple[str, Configuration]],
     lines: Sequence[Floats] = (),
     body: Mapping[str, Any] | None = None,
+    tool: Tool | None = None,
 ) -> dict[str, Any]:
     """Return a machine with its named poses, the lines of a region and the body of a workspace, where there are some.
 
-    `length` is the characteristic length.
+    `length` is the characteristic length; poses are of the tool's point, and a line goes there from the plate's origin.
     """
     from ninedof.robot.plates import outlines
 
@@ -47,6 +49,7 @@ def machine(
         "base": numbers(base),
         "platform": numbers(platform),
         "basePlate": [numbers(face) for face in outlines(base)],
+        "plateOrigin": numbers(tool.seen(np.zeros(3))) if tool else None,
         "platformPlate": [numbers(face) for face in outlines(platform)],
         "poses": [_pose(words, g, c, length) for words, c in poses],
         "region": [numbers(line) for line in lines],
@@ -167,8 +170,9 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
     limits = [
         words for name, value in keywords["criteria"].items() for words in criterion_words(name, value, unit, True)
     ]
+    whose = "tool's point" if result.study.tool else "platform"
     note = (
-        f"Workspace: positions of the platform in the orientation of the neutral pose, within {'; '.join(limits)}. "
+        f"Workspace: positions of the {whose} in the orientation of the neutral pose, within {'; '.join(limits)}. "
         f"O is {o}. "
     )
     if left := [name.replace("_", " ") for name in left if name in SPREADS]:

@@ -19,6 +19,7 @@ from ninedof.statics.dynamics import inverse_dynamics, masses_for_core
 from ninedof.support.arguments import Vector, shown, vector, whole
 from ninedof.support.arrays import Floats, one_or_each
 from ninedof.support.text import short_repr
+from ninedof.support.units import amount
 from ninedof.tables.html import notebook
 
 
@@ -47,6 +48,8 @@ class Payload(NamedTuple):
     not_looked_at: tuple[str, ...]
     """Limits of the study that a payload may violate: of powers, of forces at the neutral pose, and of forces at all
     poses where others are given."""
+    force_unit: str = ""
+    """"N" where the study states masses and lengths have a unit: the payload is in kilograms then."""
 
     @property
     def words(self) -> str:
@@ -56,8 +59,9 @@ class Payload(NamedTuple):
         if np.isinf(self.mass):
             return "no limit: no leg reaches its force under any payload"
         limit = self.limits[self.side == "pull"][LEGS.index(self.leg)]
-        first = f"{self.leg} reaches its limit of {limit:g} ({self.side}) first"
-        return f"largest payload {self.mass:.6g}, in kg where forces are in N: {first}"
+        first = f"{self.leg} reaches its limit of {amount(f'{limit:g}', self.force_unit)} ({self.side}) first"
+        kilograms = " kg" if self.force_unit else ", in kg where forces are in N"
+        return f"largest payload {self.mass:.6g}{kilograms}: {first}"
 
     def _repr_html_(self) -> str:
         return notebook(self.words)
@@ -152,10 +156,10 @@ def largest_payload(
     down = np.asarray(gravity) * (mass if np.isfinite(mass) else 0.0)
     wrench = rows[load] + np.concatenate([np.cross(c[pose].rotation @ np.asarray(at), down), down])
     forces = inverse_dynamics(g, c[pose], masses=masses, gravity=gravity, load=wrench).forces
+    not_looked_at = tuple(one.label for one in others)
     names = (LEGS[leg], ("push", "pull")[side]) if most > 0.0 else ("", "")
-    return Payload(
-        mass, most < np.inf, *names, c[pose], forces, load, look, (push, most_pull), tuple(one.label for one in others)
-    )
+    fits, limits = most < np.inf, (push, most_pull)
+    return Payload(mass, fits, *names, c[pose], forces, load, look, limits, not_looked_at, duty.force_unit)
 
 
 def _stated(study: Study) -> Floats:

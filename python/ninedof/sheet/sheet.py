@@ -267,7 +267,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         of the 2-norms of the blocks of a quadratic form.
     internal : {"least", "held", "shifted", "carried"}, optional
         How O moves in it: so that the squared leg rates are least (`internal_velocity`), and so are the squared leg
-        accelerations; not at all; with the platform's origin, s - p constant in base axes; or as a point of the
+        accelerations; not at all; with p, s - p constant in base axes; or as a point of the
         platform. By default as the limits of the study of a result have it; of other designs, and of `poses`, as the
         poses show: "held" where O has one place in all of several poses, "carried" where it has one place in the
         platform, "shifted" where s - p is constant, "least" otherwise.

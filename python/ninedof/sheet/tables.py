@@ -189,7 +189,7 @@ def _twist(sheet: Any) -> Table:
 
 def _forces(sheet: Any) -> Table:
     notes = [load_words(k, load, sheet.unit, sheet.force_unit) for k, load in enumerate(sheet.loads, start=1)]
-    notes += weight_words(sheet.weight, sheet.tool, sheet.has_leg_masses)
+    notes += weight_words(sheet.weight, sheet.tool, sheet.has_leg_masses, sheet.force_unit)
     for k, names in enumerate(map(unloaded_names, sheet.forces()), start=1):
         if 0 < len(names) < len(sheet.legs):
             notes.append(f"{', '.join(names)} never carry load {k}: {NEVER_CARRY}")
@@ -199,7 +199,7 @@ def _forces(sheet: Any) -> Table:
 
 def load_columns(sheet: Any) -> list[Column]:
     """Return a column for each load."""
-    return columns_of(*(f"load {k}" for k in range(1, len(sheet.loads) + 1)), unit=getattr(sheet, "force_unit", ""))
+    return columns_of(*(f"load {k}" for k in range(1, len(sheet.loads) + 1)), unit=sheet.force_unit)
 
 
 def _powers(sheet: Any) -> Table:
@@ -215,14 +215,15 @@ def _powers(sheet: Any) -> Table:
     return _of_legs(f"Drives, largest {over(sheet)}", sheet, columns, rows, [note])
 
 
-def weight_words(weight: Any, tool: Any, legs: bool) -> list[str]:
+def weight_words(weight: Any, tool: Any, legs: bool, force: str = "") -> list[str]:
     """Return which weights act beside the loads; the centre of the platform's in the frame of the plate."""
     words = []
     if weight is not None:
         x, y, z = tool.own(weight.centre).tolist()
+        mass = f"{weight.mass:g}{' kg' if force else ''}"
         words.append(
-            f"each with the weight of a mass of {weight.mass:g}, centre {vector_words((x, y, z))} in the frame of the "
-            f"plate, gravity {vector_words(weight.gravity)}"
+            f"each with the weight of a mass of {mass}, centre {vector_words((x, y, z))} in the frame of the plate, "
+            f"gravity {vector_words(weight.gravity)}"
         )
     return [*words, *["each with the weights of the legs and of O"] * legs]
 

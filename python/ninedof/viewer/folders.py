@@ -55,7 +55,7 @@ def build(panel: Panel) -> None:
         with panel.gui.add_folder("Admissible designs"):
             panel.text("admissible", lambda: words_html(designs.words(panel.state.variables)))
     with panel.gui.add_folder("Limits"):
-        panel.text("limits", lambda: limits_html(panel.numbers, panel.unit))
+        panel.text("limits", lambda: limits_html(panel.numbers, panel.unit, panel.state.machine.force_unit))
         if words := spread_words(panel.state.machine):
             panel.text("spreads", lambda: words_html(words))
     closed = {"Assembly modes": _modes, "Workspace": _workspace, "Path": _path, "View": _view, "Save": _save}

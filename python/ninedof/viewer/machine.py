@@ -71,6 +71,11 @@ class Machine:
         """The name of the length unit; "" without one."""
         return self.design.unit
 
+    @property
+    def force_unit(self) -> str:
+        """The unit of forces of its study; "" without one."""
+        return "" if self.study is None else self.study.force_unit
+
     @cached_property
     def study(self) -> Study | None:
         """The study that found it, with the poses that it was solved for; None without one."""

@@ -162,6 +162,8 @@ def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> It
         return
     entries = value if isinstance(value, Mapping) else {row.sides[0]: value}
     words = {"min": "at least", "max": "at most"}
+    of_masses = isinstance(value, Mapping) and value.get("duty", {}).get("masses")
+    of = kind_unit(row.kind, unit, "N" if unit and of_masses else "")
     for side in row.sides:
         if side not in entries:
             continue
@@ -169,4 +171,4 @@ def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> It
             about = f"the axis {point_words(entries['axis'])}" if "axis" in entries else "each leg's direction at home"
             yield f"{name.replace('_', ' ')} {math.degrees(entries[side]):.6g} degrees about {about}"
         else:
-            yield amount(f"{name.replace('_', ' ')} {words[side]} {entries[side]:.6g}", kind_unit(row.kind, unit))
+            yield amount(f"{name.replace('_', ' ')} {words[side]} {entries[side]:.6g}", of)

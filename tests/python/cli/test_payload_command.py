@@ -48,6 +48,7 @@ def test_the_payload(folder, mass, run):
     alone = " ".join(run(f"payload {folder} --force 60 --centre 0 0 1 --load '0 0 0 0 0 -5'")[1].split())
     assert "at (0, 0, 1) in the frame of the plate (--centre); gravity" in alone
     assert "force (0, 0, -5) and" in alone
+    assert "kg:" not in said
     status, out, _ = run(f"payload {folder} --force 1")
     assert status == 3
     assert "no payload" in out

@@ -88,6 +88,23 @@ def test_forces_are_newtons_and_powers_watts_where_masses_are_stated(words, fold
     assert "700 N" in along
     assert "t.tex" in words("export ./heavy --to latex --out ./t.tex")
     assert "N mm/s" in (folder / "t.tex").read_text()
+    assert "a mass of 3 kg" in words("forces ./heavy")
+    assert "Forces (N), + pushes" in words("forces ./heavy")
+    said = words("payload ./heavy")
+    assert " kg: " in said
+    assert "reaches its limit of 700 N (" in said
+    assert "Leg forces (N) there, with the payload" in said
+    assert "from the study: force at most 700 N" in said
+    assert "moment (N mm) and force (N) for a turn" in words("stiffness ./heavy --leg-stiffness 1e4")
+    said = words("failure ./heavy --no-pairs")
+    assert "(N)" in said
+    assert "force (0, 0, 90) N" in said
+    proved = words("certify ./heavy --time 5")
+    assert "force (N)" in proved
+    assert "power (N mm/s)" in proved
+    space = words("workspace ./heavy --tolerance 0.2 --no-figures --no-report --out ./space")
+    assert "force at most 700 N, of the study" in space
+    assert "power at most 200000 N mm/s" in space
     assert "force mm" in words("sheet ./run")
     assert "N mm" not in words("sheet ./run")
 

@@ -83,6 +83,14 @@ def test_positions_from_that_of_home(tmp_path, end):
             nd.Trajectory.load(path, home, "m")
 
 
+@pytest.mark.parametrize(("end", "size"), [("", 1.0), ("_deg", 180.0 / math.pi)])
+def test_turns_from_that_of_home(tmp_path, end, size):
+    names = ["t", "x", "y", "z", *(name + end for name in ("rx_rel", "ry_rel", "rz_rel"))]
+    path = written(tmp_path / "path.csv", names, [TIMES, PLACES, size * TURNS.as_rotvec()])
+    result = nd.Trajectory.load(path, HOME)
+    assert result.rotation == pytest.approx(TURNS.as_matrix() @ HOME.rotation, abs=1e-14)
+
+
 GOOD = "t,x,y,z\n0,0,0,4\n1,0,0,4\n2,0,0,4\n"
 
 

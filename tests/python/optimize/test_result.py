@@ -157,7 +157,7 @@ def test_o_by_the_rule_of_each_pose():
     assert nd.Pose(internal_point="held") == nd.Pose()
     assert tuple(nd.Pose(shift).for_core().internal) == shift
     assert rule_words([nd.Pose(shift), nd.Pose(shift, internal_point="held"), nd.Pose()]) == (
-        "O is shifted with the platform's origin at 2 poses, held in the base at 1 pose"
+        "O is shifted with p at 2 poses, held in the base at 1 pose"
     )
 
 

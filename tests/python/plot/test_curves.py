@@ -237,6 +237,14 @@ def test_rows_of_legs_and_the_condition_number():
     assert pushed.axes[7].get_lines()[0].get_ydata()[-1] == 50.0 * LENGTHS[-1, 3] - 140.0
 
 
+def test_the_legend_of_many_limits_is_above_their_margins():
+    motion = followed(4.0 + np.cos(TIME), LENGTHS, TIME, unit="mm")
+    figure = plot.motion(motion, {f"limit {k}": np.full(len(TIME), 1.0 - 0.01 * k) for k in range(14)})
+    figure.draw_without_rendering()
+    axes = figure.axes[-1]
+    assert axes.get_legend().get_window_extent().y0 > axes.transData.transform((0.0, 100.0))[1]
+
+
 @pytest.mark.parametrize(("unit", "words"), [("mm", "time (s)"), ("", "time (in the unit of the path)")])
 def test_the_axis_of_time_says_its_unit(unit, words):
     motion = followed(4.0 + np.cos(TIME), LENGTHS, TIME, unit=unit)

@@ -15,7 +15,7 @@ def test_the_body_has_the_volume_where_the_limits_of_the_study_hold(result):
     made, said = quick_body(result)
     assert "base cone 45 degrees about each leg's direction at home" in said
     assert "orientation of the neutral pose" in said
-    assert "O is shifted with the platform's origin." in said
+    assert "O is shifted with p." in said
     assert "Not among them" not in said
     g, home = result.geometry, result.best.configuration
     vertices = np.array(made["vertices"])

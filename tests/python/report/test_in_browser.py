@@ -35,6 +35,14 @@ ROWS = "[...document.querySelectorAll('main tr')].filter((r) => r.offsetHeight).
 BROKEN = "[...document.querySelectorAll('tr')].filter((r) => getComputedStyle(r).breakInside !== 'avoid').length"
 
 
+TEXTS = """(() => {
+  const texts = [], canvas = CanvasRenderingContext2D.prototype, plain = canvas.fillText;
+  canvas.fillText = function (text, ...at) { texts.push(text); plain.call(this, text, ...at); };
+  dispatchEvent(new Event("beforeprint"));
+  return texts;
+})()"""
+
+
 @pytest.fixture(scope="module")
 def pages(page, tmp_path_factory):
     """The pages of an optimization, a front and a workspace."""
@@ -184,6 +192,8 @@ def test_a_report_has_at_most_four_pages_and_no_table_is_torn_or_cut(browser, tm
     if study is CERTIFIED:
         save_certificate(result.certify(time_limit=20.0), certificate_file(tmp_path))
     made = nd.report(tmp_path)
+    browser.open(made)
+    assert ("tool" in browser.run(TEXTS)) == bool(study.tool)
     for width in DESKTOP:
         browser.open(made, width, 1000)
         assert browser.run(MANY_REACHED) == 1

@@ -9,6 +9,7 @@ import pytest
 import ninedof as nd
 from ninedof.support.margins import is_violated
 from ninedof.viewer.folders import spread_words
+from ninedof.viewer.html import limits_html
 from ninedof.viewer.machine import machine_of
 from ninedof.viewer.numbers import numbers_of
 from ninedof.viewer.state import State
@@ -294,3 +295,18 @@ def test_spreads_are_those_of_the_region(rule):
     assert spread_words(state.machine) == (
         f"Stroke ratio and leg ratio compare the lengths of the legs over {over} and at the pose shown."
     )
+
+
+def test_forces_are_in_newtons_where_the_study_states_masses():
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 5.8, "b1": 2.9, "b2": 0.0, "zp": 4.0, "zs": 2.4, "theta_z": 0.0},
+        constraints={"force": (None, 700.0)},
+        loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -50.0]]},
+        masses={"platform": 2.0},
+        unit="m",
+        characteristic_length=1.0,
+    )
+    machine = machine_of(nd.optimize(study))
+    state = State(machine)
+    assert "≤ 700.0 N</td>" in limits_html(numbers(state), machine.unit, machine.force_unit)
+    assert machine_of().force_unit == ""

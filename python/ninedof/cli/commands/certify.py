@@ -157,7 +157,8 @@ def certificate_table(certificate: nd.MachineCertificate) -> Table:
         bounded = math.isfinite(one.value[one.side == "max"])
         proved = f"{word} {one.worded(9 if on_limit else 6)}" if bounded else "nothing"
         margin = f"within {certificate.slack:g}" if on_limit else margin_words(one.margin, one.kind)
-        rows.append((with_unit(one.name.replace("_", " "), one.unit(unit)), limit, proved, margin, one.answer))
+        name = with_unit(one.name.replace("_", " "), one.unit(unit, certificate.force_unit))
+        rows.append((name, limit, proved, margin, one.answer))
     high = certificate.condition[1]
     if not any(one.name == "condition_number" for one in certificate.limits):
         proved = f"≤ {outward(high, True)}" if math.isfinite(high) else "nothing"

@@ -15,6 +15,7 @@ from ninedof.robot.geometry import LEGS
 from ninedof.robot.idle import NEVER_CARRY, unloaded_names
 from ninedof.sheet.request import masses_besides_platform, masses_of, weight_of
 from ninedof.sheet.tables import load_words, weight_words
+from ninedof.support.units import with_unit
 from ninedof.tables import Table, columns, grouped
 from ninedof.tables.numbers import spread
 
@@ -47,10 +48,10 @@ def forces(options: _Options) -> Answer:
     least, most = result.min(axis=1), result.max(axis=1)
     rows = [(leg, *map(spread, least[:, k], most[:, k], size[:, None])) for k, leg in enumerate(LEGS)]
     parts: list[Any] = [load_words(k, row, at.unit, duty.force_unit) for k, row in enumerate(loads, start=1)]
-    parts += weight_words(weight, duty.tool, masses_besides_platform(duty) is not None)
+    parts += weight_words(weight, duty.tool, masses_besides_platform(duty) is not None, duty.force_unit)
     if masses is not None or not own:
         parts.append(f"from the study: {', '.join(['[loads]'] * (not own) + ['[masses]'] * (masses is not None))}")
-    parts.append(Table("Forces, + pushes", heads, list(grouped(rows))))
+    parts.append(Table(with_unit("Forces", duty.force_unit) + ", + pushes", heads, list(grouped(rows))))
     for k, each in enumerate(result, start=1):
         if (names := unloaded_names(each)) and len(names) < len(LEGS):
             parts.append(bold("never carry load", f" {k}: {', '.join(names)}; {NEVER_CARRY}"))

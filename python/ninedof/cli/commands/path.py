@@ -35,6 +35,7 @@ from ninedof.records.motion import motion_values
 from ninedof.records.record import run_folder, write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
+from ninedof.sheet.pose_words import turn_deg, vector_words
 from ninedof.sheet.request import masses_of
 from ninedof.support.store import Store
 from ninedof.support.units import amount, per, unit_entry
@@ -55,7 +56,8 @@ class _Options(JobOptions):
     design: str | None = argument(DESIGN_OR_PUBLISHED, None)
     file: Path | None = argument(
         "Poses (CSV): columns t x y z (or x_rel y_rel z_rel, from the neutral pose), and for the rotation "
-        "qw qx qy qz, rx ry rz or yaw pitch roll, in degrees as rx_deg, yaw_deg, or Q11 to Q33; poses.csv of a run.",
+        "qw qx qy qz, rx ry rz (or rx_rel ry_rel rz_rel) or yaw pitch roll, in degrees as rx_deg, rx_rel_deg, yaw_deg, "
+        "or Q11 to Q33; poses.csv of a run.",
         None,
     )
     circle: float | None = option("A horizontal circle about the neutral pose.", metavar="RADIUS")
@@ -124,6 +126,7 @@ def path(options: _Options) -> None:
         *motion_tables(motion),
         *chosen.tool.remark(chosen.unit),
         *(bold(*words) for words in motion_words(result, motion)),
+        *_turned(trajectory, home),
         *_faster(result, chosen.duty.speeds),
     ]
     if masses is not None and options.mass is None:
@@ -156,6 +159,15 @@ def _load(options: _Options, duty: nd.Study) -> tuple[Any, Any, list[str]]:
     if options.force is not None or options.moment is not None or not wrenches:
         return options.force, options.moment, []
     return *wrenches_along(wrenches), ["[loads]" if len(wrenches) == 1 else f"{len(wrenches)} loads of [loads]"]
+
+
+def _turned(path: nd.Trajectory, home: nd.Configuration) -> Iterator[str]:
+    """Yield a line where the neutral pose is turned and a path begins in another orientation: likely a mistake."""
+    first = nd.Configuration(path.position[0], path.rotation[0], home.internal_point)
+    turn = np.round(turn_deg(first, home.rotation), 4)
+    if turn.any() and not np.allclose(home.rotation, np.eye(3)):
+        words = "turns from it are columns rx_rel_deg ry_rel_deg rz_rel_deg of a file"
+        yield f"the path begins turned {vector_words(turn)}° from the neutral pose; {words}"
 
 
 def _faster(motion: nd.Followed, speeds: nd.Speeds) -> Iterator[Any]:

@@ -17,7 +17,7 @@ from ninedof.sheet.pose_words import vector_words
 from ninedof.sheet.request import masses_of
 from ninedof.sheet.tables import load_words
 from ninedof.support.arguments import Vector
-from ninedof.support.units import amount
+from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns, grouped
 from ninedof.tables.numbers import load_text
 
@@ -55,17 +55,18 @@ def payload(options: _Options) -> Answer:
             words = "a load counts as always there, so that one upward carries"
             parts.append(f"without these loads {alone.mass:.6g}: {words}")
     if options.force is None:
-        parts.append(f"from the study: force {_of_kinds(result.limits[0].tolist())}")
+        parts.append(f"from the study: force {_of_kinds(result.limits[0].tolist(), result.force_unit)}")
     if result.not_looked_at:
         parts.append(f"limits of the study that are not looked at: {', '.join(result.not_looked_at)}")
     return Answer(parts, result.to_dict(), DONE if result.fits else NO_RESULT)
 
 
-def _of_kinds(most: list[float]) -> str:
+def _of_kinds(most: list[float], unit: str) -> str:
     """Return the limits of nine legs in words: one number, or one for each kind of legs that has one."""
     if len(set(most)) == 1:
-        return f"at most {most[0]:g}"
-    kinds = [f"of {LEGS[k]} to {LEGS[k + 2]} at most {most[k]:g}" for k in (0, 3, 6) if np.isfinite(most[k])]
+        return amount(f"at most {most[0]:g}", unit)
+    ends = {k: amount(f"at most {most[k]:g}", unit) for k in (0, 3, 6) if np.isfinite(most[k])}
+    kinds = [f"of {LEGS[k]} to {LEGS[k + 2]} {end}" for k, end in ends.items()]
     return ", ".join(kinds) + "; the others are not limited" * (len(kinds) < 3)
 
 
@@ -74,8 +75,8 @@ def _parts(result: Payload, chosen: Chosen) -> Iterator[Any]:
     if result.leg:
         yield f"worst pose: {chosen.words(result.configuration)}"
         rows = [(leg, load_text(force, result.forces)) for leg, force in zip(LEGS, result.forces.tolist(), strict=True)]
-        under = "with the payload" if result.fits else "without a payload"
-        yield Table(f"Leg forces there, {under}, + pushes", columns("leg", ">force"), list(grouped(rows)))
+        title = f"{with_unit('Leg forces', result.force_unit)} there, with{'' if result.fits else 'out'} the payload"
+        yield Table(f"{title}, + pushes", columns("leg", ">force"), list(grouped(rows)))
     if result.region is not None:
         yield f"searched, not proved: {result.region.looked_at} poses of the region looked at, {result.region.region}"
 

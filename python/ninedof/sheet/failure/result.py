@@ -108,6 +108,11 @@ class Failure:
     """Name of the length unit; "" without one."""
 
     @property
+    def force_unit(self) -> str:
+        """The unit of forces: "N" where masses are stated and lengths have a unit, else ""."""
+        return "N" if self.unit and self.masses is not None else ""
+
+    @property
     def worst(self) -> LockedLegs:
         """The one internal leg whose locking is worst."""
         return max(self.locked[3:], key=lambda one: one.condition_number)

@@ -108,7 +108,7 @@ def loads_table(failure: Any) -> Table:
     for one in failure.free:
         cells = [text(x.largest) if x.borne else f"not borne ({text(x.carries)})" for x in one.loads]
         rows.append((one.leg, *cells))
-    notes = [load_words(k, load, failure.unit) for k, load in enumerate(failure.loads, start=1)]
+    notes = [load_words(k, load, failure.unit, failure.force_unit) for k, load in enumerate(failure.loads, start=1)]
     notes += [] if failure.masses is None else ["each with the weights of the masses of the study"]
     notes.append("the largest force in the other legs; in brackets what the leg has to carry")
     return Table(f"Loads with one leg free, {over(failure)}", columns, list(grouped(rows)), notes)
