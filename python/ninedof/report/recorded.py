@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from ninedof.design.duty import Tool
 from ninedof.design.limits import kind_of
 from ninedof.design.region import box_lines
 from ninedof.design.study import Study
@@ -26,18 +27,18 @@ from ninedof.workspace.tables import criterion_words, rule_words, workspace_tabl
 def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     """Return the page of a workspace; without machine and question where the record does not hold them."""
     question, view, machine = record.question, None, None
+    tool = Study(tool=question.get("tool", {})).tool
     sections = {
         "answer": html_of(workspace_table(workspace, most=100)),
         "proof": proof.of_workspace(workspace, question),
         "again": origin.of_question(question, record),
     }
     if "criteria" in question:
-        sections["question"] = _question(workspace, question)
+        sections["question"] = _question(workspace, question, tool)
     if {"geometry", "home"} <= set(question):
         machine = Geometry(**question["geometry"]), Configuration(**question["home"])
         box = [] if workspace.of_angles else box_lines(workspace.low, workspace.high)
         length, poses = float(question.get("characteristic_length", 1.0)), [("home", machine[1])]
-        tool = Study(tool=question.get("tool", {})).tool
         shown = scene.machine("robot", machine[0], length, poses, box, scene.body_of(workspace), tool)
         view = scene.scene([shown], workspace.unit)
         point = "tool's point" if tool else "platform's origin"
@@ -54,16 +55,15 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     return Page("workspace", headline, figures, sections, view, good, machine)
 
 
-def _question(workspace: WorkspaceMap, question: Any) -> Html:
+def _question(workspace: WorkspaceMap, question: Any, tool: Tool) -> Html:
     turn, unit = (math.degrees, "deg") if workspace.of_angles else (float, workspace.unit)
     low, high = (", ".join(f"{turn(x):.6g}" for x in ends) for ends in (workspace.low, workspace.high))
     where = f"{'the box' if not workspace.of_angles else 'coordinates'} from ({low}) to {amount(f'({high})', unit)}"
     sentence = f"Which poses keep all limits below? Looked at: {where}."
     if "internal_point" in question:
         sentence += f" O is {rule_words(question, workspace.unit)}."
-    limits = (
-        words for name, value in question["criteria"].items() for words in criterion_words(name, value, workspace.unit)
-    )
+    criteria = question["criteria"].items()
+    limits = (words for name, value in criteria for words in criterion_words(name, value, workspace.unit, tool))
     return joined(paragraphs([sentence]), bullets(limits))
 
 

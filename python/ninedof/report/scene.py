@@ -167,10 +167,9 @@ def quick_body(result: Result, run: str = "RUN") -> tuple[dict[str, Any] | None,
         return None, f"No position was found that keeps all limits, at a coarse look: {how}."
     rule = keywords["internal_point"]
     o = WORDS["shifted"] if isinstance(rule, Mapping) else where_o(rule, unit)  # the platform does not turn
-    limits = [
-        words for name, value in keywords["criteria"].items() for words in criterion_words(name, value, unit, True)
-    ]
-    whose = "tool's point" if result.study.tool else "platform"
+    tool, criteria = result.study.tool, keywords["criteria"]
+    limits = [words for name, value in criteria.items() for words in criterion_words(name, value, unit, tool, True)]
+    whose = "tool's point" if tool else "platform"
     note = (
         f"Workspace: positions of the {whose} in the orientation of the neutral pose, within {'; '.join(limits)}. "
         f"O is {o}. "

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ninedof import _core
+from ninedof.design.duty import Tool
 from ninedof.design.indices import INDICES
 from ninedof.design.region import Region
 from ninedof.redundancy.rules import point_words, where_o
@@ -111,7 +112,7 @@ ASKED = {
 
 
 def asked_lines(
-    keywords: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str], unit: str
+    keywords: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str], unit: str, tool: Tool
 ) -> Iterator[str]:
     """Yield what is asked, a line for each part."""
     yield f"workspace: {ASKED[keywords['archetype']]}"
@@ -120,7 +121,7 @@ def asked_lines(
     yield f"O: {rule_words(keywords, unit)}"
     for name, value in keywords["criteria"].items():
         whose = ", of the study" if name in own else ""
-        for words in criterion_words(name, value, unit):
+        for words in criterion_words(name, value, unit, tool):
             yield f"limit: {words}{whose}"
     if left:
         yield f"of the study, no limit of a single pose: {', '.join(left)}"
@@ -142,7 +143,7 @@ def rule_words(keywords: Mapping[str, Any], unit: str) -> str:
     return where_o(rule, unit) + ("; without turns as shifted" if isinstance(rule, Mapping) and not turns else "")
 
 
-def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> Iterator[str]:
+def criterion_words(name: str, value: Any, unit: str, tool: Tool | None = None, brief: bool = False) -> Iterator[str]:
     """Yield a criterion in words, for legs of several kinds one for each; without nine ranges of legs if brief."""
     if name == LEG_LIMITS:
         ranges = [*zip(*(np.broadcast_to(end, 9).tolist() for end in value), strict=True)]
@@ -168,7 +169,10 @@ def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> It
         if side not in entries:
             continue
         if row.is_angle:
-            about = f"the axis {point_words(entries['axis'])}" if "axis" in entries else "each leg's direction at home"
+            about = "each leg's direction at home"
+            if "axis" in entries:  # in the plate's frame, as the study has it
+                turn = tool.axes if tool and row.body == "platform" else np.eye(3)
+                about = f"the axis {point_words(np.round(turn @ entries['axis'], 12))}"
             yield f"{name.replace('_', ' ')} {math.degrees(entries[side]):.6g} degrees about {about}"
         else:
             yield amount(f"{name.replace('_', ' ')} {words[side]} {entries[side]:.6g}", of)

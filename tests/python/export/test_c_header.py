@@ -5,6 +5,7 @@ import subprocess
 
 import numpy as np
 import pytest
+from exported import machine
 from scipy.spatial.transform import Rotation
 from written_designs import PAPER, general, limited, text_of
 
@@ -47,6 +48,21 @@ int main(void) {
   printf(" %d", ninedof_robot_first_out_of_range(lengths));
   lengths[1] = 0.0 / (lengths[0] - lengths[0]);
   printf(" %d\n", ninedof_robot_first_out_of_range(lengths));
+  return 0;
+}
+"""
+NEEDED = r"""
+#include <stdio.h>
+#include "robot.h"
+
+int main(void) {
+  double lengths[9];
+  int k = 0;
+  while (scanf("%lf", &lengths[k]) == 1) {
+    if (++k < 9) continue;
+    k = 0;
+    printf("%d ", ninedof_robot_first_out_of_range(lengths));
+  }
   return 0;
 }
 """
@@ -102,6 +118,22 @@ def test_leg_lengths_are_those_of_the_package(design, tmp_path):
 @needs_compiler
 def test_the_range_of_the_legs(tmp_path):
     assert run(tmp_path, limited(), RANGES) == "robot mm 0 5 2\n"
+
+
+@needs_compiler
+def test_the_range_of_a_run_is_what_its_poses_need(tmp_path):
+    """And not what its study permits, which is wider."""
+    result = machine()
+    nd.export(result, "c", tmp_path / "robot.h")
+    needed = nd.leg_lengths(result.geometry, result.best.configurations)
+    low, high = needed.min(axis=0), needed.max(axis=0)
+    rows = [*needed, low, high]
+    for end, step in ((low, 1.0 - 1e-9), (high, 1.0 + 1e-9)):
+        rows += [np.where(np.arange(9) == k, step * end, needed[0]) for k in range(9)]
+    assert compiled(tmp_path, NEEDED).returncode == 0
+    text = "\n".join(" ".join(map(repr, row.tolist())) for row in rows)
+    said = subprocess.run(tmp_path / "main", input=text, capture_output=True, text=True, check=True).stdout.split()
+    assert list(map(int, said)) == [0] * (len(needed) + 2) + 2 * list(range(1, 10))
 
 
 @needs_compiler

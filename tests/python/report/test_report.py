@@ -105,11 +105,12 @@ def test_the_question_names_what_the_machine_is_for():
     for part in (
         "of the tool at (0, 0, -80) mm",
         "load 2: moment (0, 0, 5) N mm, force (100, 0, 0) N",
-        "Masses: platform 10, rod 0.5, the platform's centre at (0, 0, -20) mm in the frame of the plate",
+        "Masses: platform 10 kg, rod 0.5 kg, the platform's centre at (0, 0, -20) mm in the frame of the plate",
         "gravity (0, 0, -9.81)",
         "Speed of the platform: at most 200 mm/s and 30°/s. Acceleration of the platform: at most 1500 mm/s² and 0°/s²",
         "joint centres 0.03 mm, leg lengths 0.02 mm",
-        "Forces: of each leg under every load; in N where masses are in kg.",
+        "force 900 N",
+        "Forces: of each leg under every load.",
     ):
         assert part in words
     plain = " ".join(Reader(question(nd.Study.paper())).words)

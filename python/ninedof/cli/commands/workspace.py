@@ -101,13 +101,14 @@ def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -
 
 
 def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
-    lines = asked_lines(question.keywords, chosen.configuration, question.asked.own, question.asked.left, chosen.unit)
+    asked, unit, tool = question.asked, chosen.unit, chosen.tool
+    lines = asked_lines(question.keywords, chosen.configuration, asked.own, asked.left, unit, tool)
     yield next(lines)
-    yield from chosen.tool.remark(chosen.unit)
-    if question.asked.actuators:
-        yield question.asked.actuators
-    if question.asked.replaced:
-        yield f"limits of the study that options replace: {', '.join(question.asked.replaced)}"
+    yield from tool.remark(unit)
+    if asked.actuators:
+        yield asked.actuators
+    if asked.replaced:
+        yield f"limits of the study that options replace: {', '.join(asked.replaced)}"
     yield from lines
     yield workspace_table(result)
     yield from (bold(*words) for words in workspace_words(result))
