@@ -49,7 +49,7 @@ def machine(
         "base": numbers(base),
         "platform": numbers(platform),
         "basePlate": [numbers(face) for face in outlines(base)],
-        "plateOrigin": numbers(tool.seen(np.zeros(3))) if tool else None,
+        "plateOrigin": list(tool.seen((0.0, 0.0, 0.0))) if tool else None,
         "platformPlate": [numbers(face) for face in outlines(platform)],
         "poses": [_pose(words, g, c, length) for words, c in poses],
         "region": [numbers(line) for line in lines],
