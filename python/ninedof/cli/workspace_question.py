@@ -52,7 +52,7 @@ class WorkspaceOptions(JobOptions):
     base_cone_deg: float | None = option("Greatest angle at a base joint from home.")
     platform_cone_deg: float | None = option("The same at a platform joint.")
     base_cone_axis: Three | None = triple("Axis of the cones of the base, in place of the legs at home.")
-    platform_cone_axis: Three | None = triple("The same at the platform.")
+    platform_cone_axis: Three | None = triple("The same at the platform, in the frame of the plate.")
     leg_clearance: float | None = option("Least distance of legs that share no joint.", None, "--clearance")
     singularity_free: bool | None = option(
         "Connected with home, on its side of every singularity.", None, "--singularity-free/--any-singularity"
@@ -109,6 +109,8 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     region = None if study is None else study.objective.region
     numbers = options.given(*(one.name for one in fields(options) if _is_of_criteria(one.name))).items()
     values = {plain_name(name): _radians(name, x) if name.endswith(DEG) else x for name, x in numbers}
+    if (axis := options.platform_cone_axis) is not None:
+        values["platform_cone_axis"] = chosen.tool.turned(axis)
     choice("--actuators", options.actuators, ACTUATORS)
     limits = asked_criteria(chosen.result if options.study_limits else None, values, options.actuators)
     if not limits.criteria:

@@ -61,3 +61,31 @@ def test_all_poses_of_a_region_study_are_said_to_be_those_that_ruled(folder, run
         out = " ".join(run(f"accuracy {folder / name} --all-poses")[1].split())
         assert f"{len(ruled) + 1} poses: the neutral one, pose 0, and those of the region that ruled its" in out
         assert "extremes over the region: ninedof sheet" in out
+
+
+def test_axes_of_cones_are_in_the_frame_of_the_plate(run, tmp_path):
+    """The study had (0, 0, -1), the workspace (0.258819, 0, -0.965926), which is the same in the frame of the tool."""
+    cones = {"platform_cone": {"max_deg": 70.0, "axis": [0.0, 0.0, -1.0]}}
+    turned = replace(STUDY, constraints=cones, tool={"position": [0.0, 0.0, -10.0], "rotation_deg": [0.0, 15.0, 0.0]})
+    folder = solved_in(tmp_path, turned)
+    line = f"workspace {folder}/run --tolerance 0.5 --no-figures"
+    of_study = run(f"{line} --out {folder}/a")[1]
+    assert "limit: platform cone 70 degrees about the axis (0, 0, -1), of the study" in " ".join(of_study.split())
+    assert run(f"report {folder}/a")[0] == 0
+    assert "platform cone 70 degrees about the axis (0, 0, -1)" in (folder / "a" / "report.html").read_text()
+    given = run(f"{line} --platform-cone-deg 70 --platform-cone-axis 0 0 -1 --out {folder}/b")[1]
+    assert "limit: platform cone 70 degrees about the axis (0, 0, -1)" in " ".join(given.split())
+    a, b = (nd.load(folder / name) for name in "ab")
+    assert b.volume == pytest.approx(a.volume, rel=1e-4)
+
+
+def test_a_path_that_begins_turned_from_a_turned_neutral_pose_is_told(run, tmp_path):
+    turned = replace(STUDY, tool={"position": [0.0, 0.0, -10.0], "rotation_deg": [0.0, 15.0, 0.0]})
+    folder = solved_in(tmp_path, turned)
+    rows = "".join(f"{t},{t},0,0,0,0,0\n" for t in range(3))
+    for name in ("rx_rel_deg", "rx_deg"):
+        heads = f"t,x_rel,y_rel,z_rel,{','.join(name.replace('x', axis, 1) for axis in 'xyz')}\n"
+        (folder / f"{name}.csv").write_text(heads + rows)
+        out = run(f"path {folder}/run {folder}/{name}.csv --no-figures --no-report --out {folder}/{name}")[1]
+        told = "the path begins turned (0, -15, 0)° from the neutral pose" in " ".join(out.split())
+        assert told == (name == "rx_deg")
