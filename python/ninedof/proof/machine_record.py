@@ -76,9 +76,9 @@ class LimitProof:
         """Return a value as it is shown: angles in degrees."""
         return math.degrees(number("value", value)) if self.kind == "angle" else number("value", value)
 
-    def unit(self, length: str, force: str = "") -> str:
-        """Return the unit of shown values; `force` is that of forces."""
-        return kind_unit(self.kind, text("length", length), text("force", force))
+    def unit(self, length: str, force_unit: str = "") -> str:
+        """Return the unit of shown values."""
+        return kind_unit(self.kind, text("length", length), text("force_unit", force_unit))
 
     def worded(self, digits: int = 6) -> str:
         """Return the bound that is proved, rounded to the safe side."""

@@ -245,7 +245,7 @@ row(
     loose=("data",),
 )(lambda: {"data": it.certificate().to_dict()})
 row("LimitProof.shown", lambda **a: it.certificate().limits[0].shown(**a))(lambda: {"value": 1.0})
-row("LimitProof.unit", lambda **a: it.certificate().limits[0].unit(**a))(lambda: {"length": "mm", "force": "N"})
+row("LimitProof.unit", lambda **a: it.certificate().limits[0].unit(**a))(lambda: {"length": "mm", "force_unit": "N"})
 row("LimitProof.worded", lambda **a: it.certificate().limits[0].worded(**a))(lambda: {"digits": 6})
 row("LimitProof.outward", lambda **a: it.certificate().limits[0].outward(**a))(
     lambda: {"value": 1.0, "up": True, "digits": 6}
