@@ -1,13 +1,13 @@
 /// The extreme values of numbers over all poses, by branch and bound. Declared in ninedof/proof/machine.hpp.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <queue>
 
+#include "domains/bound.hpp"
 #include "limits/leg_clearance.hpp"
 #include "limits/table.hpp"
 #include "math/numbers.hpp"
+#include "math/time_limit.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "proof/region/pose.hpp"
@@ -16,8 +16,6 @@
 namespace ninedof {
 namespace over_region {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct Open {
   double bound;
@@ -109,7 +107,7 @@ class Sought {
 };
 
 /// Maximizes one quantity: always the box of the greatest bound next, until no bound is above what was met.
-class Climb {
+class Climb : public BoxSearch {
  public:
   Climb(const Domain& domain, const PoseQuantity& wanted, const ProofSettings& settings)
       : domain_(domain),
@@ -118,37 +116,38 @@ class Climb {
         settings_(settings),
         most_boxes_(settings.boxes * (domain.machine().rule.empty() ? 1 : 10)) {}
 
-  template <class Stop>
-  Extreme run(const Stop& stopped) {
+  Extreme run(const std::stop_token& stop) {
     at_ = middle_of(domain_.roots().front());  // to name where nothing is known of any pose: beyond the doubles
-    for (const Box& root : domain_.roots()) look(root);
-    long boxes = static_cast<long>(domain_.roots().size());
-    double done = -infinity;  // the greatest bound of boxes that were given up
-    while (!open_.empty()) {
-      const Open top = open_.top();
-      const bool near = contains(sought_.number({met_, top.bound}), wanted_.limit);
-      const double size = std::max(std::abs(met_), near ? 0.0 : wanted_.scale);
-      if (top.bound <= reached_ + (near ? settings_.relative : wanted_.relative) * size) break;
-      if (boxes >= most_boxes_ || (boxes % 256 == 0 && stopped())) break;
-      open_.pop();
-      if (top.divide < 0) {
-        done = std::max(done, top.bound);
-        continue;
-      }
-      for (const Box& half : halves(top.box, top.divide)) look(half);
-      ++boxes;
-    }
-    const double most = std::max({reached_, done, open_.empty() ? -infinity : open_.top().bound});
+    for (const Box& root : domain_.roots()) add(root);
+    looked = std::ssize(domain_.roots());
+    ninedof::bound(*this, {stop, {}});
+    const double most = std::max({reached_, done_, open.empty() ? -infinity : open.top().bound});
     if (sought_.loose())
       met_ = std::max(met_, sought_.attained(worst_machine(domain_.machine(),
                                                            [&](const Geometry& g) { return sought_.attained(g, at_); }),
                                              at_));
     const Interval number = sought_.number({met_, most});
-    return {number.lo, number.hi, domain_.met(at_), boxes};
+    return {number.lo, number.hi, domain_.met(at_), looked};
+  }
+
+  OpenHeap<Open> open;
+  bool enough() const {
+    const double most = open.top().bound;
+    const bool near = contains(sought_.number({met_, most}), wanted_.limit);
+    const double size = std::max(std::abs(met_), near ? 0.0 : wanted_.scale);
+    return most <= reached_ + (near ? settings_.relative : wanted_.relative) * size || looked >= most_boxes_;
+  }
+  void merge(const Open& top, Nothing) {
+    if (top.divide < 0) {
+      done_ = std::max(done_, top.bound);
+      return;
+    }
+    for (const Box& half : halves(top.box, top.divide)) add(half);
+    ++looked;
   }
 
  private:
-  void look(const Box& box) {
+  void add(const Box& box) {
     if (domain_.outside(box)) return;
     std::array<double, PoseForm::size> slope{};
     Moves moves;
@@ -162,7 +161,7 @@ class Climb {
     }
     Moves unused;
     reached_ = std::max(reached_, sought_.loose() ? sought_.bound(point, slope, unused) : value);
-    open_.push({bound, box, divided_coordinate(box, moves.along)});
+    open.push({bound, box, divided_coordinate(box, moves.along)});
   }
 
   const Domain& domain_;
@@ -170,9 +169,9 @@ class Climb {
   Sought sought_;
   const ProofSettings& settings_;
   long most_boxes_;
-  std::priority_queue<Open> open_;
   double met_ = -infinity;
   double reached_ = -infinity;  ///< no division makes bounds less: that of all machines at one pose
+  double done_ = -infinity;     ///< the greatest bound of boxes that cannot be divided
   Box at_;
 };
 
@@ -208,16 +207,12 @@ std::vector<Extreme> pose_extremes(const PosedRobot& machine, const std::vector<
   const Domain domain(machine);
   if (domain.roots().empty()) throw InvalidArgument("machine", "no poses", "a region or listed poses");
   for (const PoseQuantity& quantity : quantities) checked_row(quantity);  // throws before threads begin
-  const Clock::time_point start = Clock::now();
-  const auto stopped = [&] {
-    return control.stop.stop_requested() ||
-           std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
-  };
+  const TimeLimit limit(settings.seconds, control.stop);
   std::vector<Extreme> out(quantities.size());
   parallel_for(static_cast<long>(quantities.size()), 1, settings.threads, [&](long k, long) {
     const auto n = static_cast<std::size_t>(k);
     if (pose_row("limit_name", quantities[n].limit_name).first_locked < 0)
-      out[n] = Climb(domain, quantities[n], settings).run(stopped);
+      out[n] = Climb(domain, quantities[n], settings).run(limit.stop());
   });
   for (std::size_t n = 0; n < out.size(); ++n) {
     const int first = pose_row("limit_name", quantities[n].limit_name).first_locked;
