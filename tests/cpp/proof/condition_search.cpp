@@ -239,6 +239,16 @@ TEST_SUITE("condition_search") {
     CHECK(within(end, gap));
   }
 
+  TEST_CASE("a stop ends the search for the worst pose, too, that comes before the proof") {
+    std::stop_source source;
+    source.request_stop();
+    const WorstOverPoses stopped = worst_condition(small_machine(), {}, {}, {source.get_token(), {}});
+    const WorstOverPoses searched = worst_condition(small_machine(), {.seconds = 0.0});
+    CHECK(stopped.interrupted);
+    CHECK(stopped.extreme.low > 1.0);
+    CHECK(stopped.extreme.low < searched.extreme.low);
+  }
+
   TEST_CASE("more boxes than a state holds are those that the search began with") {
     const PosedRobot machine = small_machine();
     std::array<double, 13> all{};

@@ -49,7 +49,7 @@ WorstOverPoses worst_condition(const PosedRobot& machine, const ProofSettings& s
     throw InvalidArgument("locked", std::to_string(locked), "an internal leg, 3 to 8, or -1");
   const Domain domain(machine);
   const ConditionOverPoses index(domain, locked);
-  return worst(index, searched(index, settings.threads), settings, from, control);
+  return worst(index, searched(index, settings.threads, control.stop), settings, from, control);
 }
 
 }  // namespace ninedof

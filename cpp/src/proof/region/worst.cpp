@@ -1,20 +1,19 @@
 #include "proof/region/worst.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "domains/bound.hpp"
 #include "math/numbers.hpp"
 #include "math/splitmix.hpp"
+#include "math/time_limit.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "proof/region/worst_machine.hpp"
 
 namespace ninedof::over_region {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_boxes = 8'000'000;  // open at a time: a gigabyte
 
@@ -24,12 +23,13 @@ const Geometry& drawn_machine(const IndexOverPoses& index) {
 
 /// Moves along coordinates and along random directions while the index grows: the greatest condition numbers lie on
 /// ridges, where singular values meet, and along a ridge no coordinate leads upward.
-Met climbed(const IndexOverPoses& index, const Box& root, Met met, double first_step, double last_step) {
+Met climbed(const IndexOverPoses& index, const Box& root, Met met, double first_step, double last_step,
+            const std::stop_token& stop) {
   constexpr std::size_t ways = 36;  // two of each coordinate, the others random
   std::uint64_t drawn = 0;
   for (double step = first_step; step > last_step; step *= 0.5) {
     bool better = true;
-    while (better) {
+    while (better && !stop.stop_requested()) {
       better = false;
       for (std::size_t way = 0; way < ways; ++way) {
         Box next = met.at;
@@ -54,7 +54,7 @@ Met climbed(const IndexOverPoses& index, const Box& root, Met met, double first_
 
 }  // namespace
 
-Met searched(const IndexOverPoses& index, int threads) {
+Met searched(const IndexOverPoses& index, int threads, const std::stop_token& stop) {
   constexpr std::size_t samples = 64;
   struct Start {
     Met met;
@@ -86,7 +86,7 @@ Met searched(const IndexOverPoses& index, int threads) {
     starts.resize(std::min(starts.size(), climb.starts));
     parallel_for(static_cast<long>(starts.size()), 1, threads, [&](long n, long) {
       Start& start = starts[static_cast<std::size_t>(n)];
-      start.met = climbed(index, roots[start.root], start.met, climb.first_step, climb.last_step);
+      start.met = climbed(index, roots[start.root], start.met, climb.first_step, climb.last_step, stop);
     });
   }
   Met best = std::ranges::max_element(starts, {}, [](const Start& one) { return one.met.value; })->met;
@@ -98,7 +98,7 @@ Met searched(const IndexOverPoses& index, int threads) {
 namespace {
 
 struct Looked {
-  bool looked = false, proved = false;
+  bool proved;
   double met = 0.0;
   int divide = -1;
 };
@@ -125,16 +125,95 @@ PoseBoxes rows_of_boxes(const std::vector<Box>& boxes) {
   return out;
 }
 
-Looked look(const IndexOverPoses& index, const Box& box, double bound) {
-  Looked out{true, false, 0.0, -1};
-  const Domain& domain = index.domain();
-  Moves moves;
-  out.proved = domain.outside(box) || index.bounded(box, bound, moves);
-  if (out.proved) return out;
-  out.divide = divided_coordinate(box, moves.along);
-  out.met = index.at(drawn_machine(index), domain.nearest(middle_of(box)));
+std::vector<Box> boxes_of_rows(const PoseBoxes& rows, const Domain& domain) {
+  std::vector<Box> out;
+  for (const auto& row : rows) {
+    Box box;
+    box.piece = std::abs(row[0]) < 1e9 ? static_cast<int>(row[0]) : std::numeric_limits<int>::max();
+    std::copy_n(row.begin() + 1, PoseForm::size, box.low.begin());
+    std::copy_n(row.begin() + 7, PoseForm::size, box.high.begin());
+    require_part(domain, box);
+    out.push_back(box);
+  }
   return out;
 }
+
+/// Boxes of poses against one bound: all that are open in every round.
+class WorstSearch : public BoxSearch {
+ public:
+  WorstSearch(const IndexOverPoses& index, Met from) : met(std::move(from)), index_(index), domain_(index.domain()) {}
+
+  /// The bound is `condition` where that is above what is met, else as far above as `gap`.
+  void begin(std::vector<Box> boxes, double gap, double condition) {
+    open = {std::move(boxes)};
+    leaves.clear();
+    stuck.clear();
+    given = condition > met.value;
+    gap_ = gap;
+    target = given ? condition : met.value * (1.0 + gap);
+    top_ = met.at;
+  }
+  Met met;
+  double target = 0.0;
+  bool given = false;
+  double least_there = 0.0;
+  std::vector<Box> leaves, stuck;  ///< where the bound is proved, and that cannot be divided
+
+  OpenStack<Box> open;
+  std::size_t together() const { return open.size(); }
+  bool enough() {
+    if (open.size() >= most_boxes) return true;
+    if (hopeless(top_, target)) least_there = least_bound(top_, target);
+    return least_there > 0.0;
+  }
+  std::optional<Looked> look(const Box& box, const std::stop_token&) const {
+    Moves moves;
+    if (domain_.outside(box) || index_.bounded(box, target, moves)) return Looked{true};
+    return Looked{false, index_.at(drawn_machine(index_), domain_.nearest(middle_of(box))),
+                  divided_coordinate(box, moves.along)};
+  }
+  void merge(const Box& box, const Looked& seen) {
+    ++looked;
+    if (seen.met > best_.value) best_ = {seen.met, domain_.nearest(middle_of(box))};
+    if (seen.proved) leaves.push_back(box);
+    else if (seen.divide < 0) stuck.push_back(box);
+    else
+      for (const Box& half : halves(box, seen.divide)) open.push(half);
+  }
+  void end_round() {
+    top_ = best_.value > 0.0 ? best_.at : met.at;
+    if (best_.value > met.value) {
+      met = best_;
+      given = given && met.value < target;
+      if (!given) target = std::max(target, met.value * (1.0 + gap_));
+    }
+    best_ = {};
+  }
+  double value() const { return met.value; }
+
+ private:
+  /// No division of poses makes a bound of all machines at one pose less.
+  bool hopeless(const Box& point, double bound) const {
+    Moves unused;
+    return !domain_.built().exact() && !index_.bounded(point, bound, unused);
+  }
+  double least_bound(const Box& point, double below) const {
+    double above = 2.0 * below;
+    for (const double most = 1e6 * below; hopeless(point, above); below = std::exchange(above, 2.0 * above))
+      if (!(above < most)) return infinity;
+    while (above > 1.001 * below) {
+      const double between = std::sqrt(above * below);
+      (hopeless(point, between) ? below : above) = between;
+    }
+    return above;
+  }
+
+  const IndexOverPoses& index_;
+  const Domain& domain_;
+  double gap_ = 0.0;
+  Box top_;  ///< where a round met most
+  Met best_;  ///< of the round
+};
 
 }  // namespace
 
@@ -145,42 +224,10 @@ PoseBoxes all_boxes(const Domain& domain) {
 WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& settings, const PoseBoxes& from,
                      const Control& control) {
   const Domain& domain = index.domain();
-  std::vector<Box> boxes = domain.roots();
-  if (!from.empty()) {
-    boxes.clear();
-    for (const auto& row : from) {
-      Box box;
-      box.piece = std::abs(row[0]) < 1e9 ? static_cast<int>(row[0]) : std::numeric_limits<int>::max();
-      std::copy_n(row.begin() + 1, PoseForm::size, box.low.begin());
-      std::copy_n(row.begin() + 7, PoseForm::size, box.high.begin());
-      require_part(domain, box);
-      boxes.push_back(box);
-    }
-  }
-  const Clock::time_point start = Clock::now();  // the time is for boxes: every run goes on
-  const auto stopped = [&] {
-    return control.stop.stop_requested() ||
-           std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
-  };
-  const bool loose = !domain.built().exact();
-  // No division of poses makes a bound of all machines at one pose less.
-  const auto hopeless = [&](const Box& point, double bound) {
-    Moves unused;
-    return loose && !index.bounded(point, bound, unused);
-  };
-  const auto least_bound = [&](const Box& point, double below) {
-    double above = 2.0 * below;
-    for (const double most = 1e6 * below; hopeless(point, above); below = std::exchange(above, 2.0 * above))
-      if (!(above < most)) return infinity;
-    while (above > 1.001 * below) {
-      const double between = std::sqrt(above * below);
-      (hopeless(point, between) ? below : above) = between;
-    }
-    return above;
-  };
+  std::vector<Box> boxes = from.empty() ? domain.roots() : boxes_of_rows(from, domain);
+  const TimeLimit limit(settings.seconds, control.stop);  // the time is for boxes: every run goes on
   WorstOverPoses out;
   double proved = infinity;
-  long count = 0;
   // One bound after another: what is proved for one begins the next, and there always is a bound to return.
   std::vector<double> gaps{1.0, 0.3, 0.1};
   std::erase_if(gaps, [&](double gap) { return gap <= settings.gap; });
@@ -189,62 +236,27 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
   if (domain.machine().region.empty())  // points need no division
     for (const double narrow : {1e-6, 1e-9})
       if (narrow < settings.gap) gaps.push_back(narrow);
+  WorstSearch search(index, std::move(met));
   for (const double gap : gaps) {
-    bool given = gap == gaps.back() && settings.condition > met.value;
-    double target = given ? settings.condition : met.value * (1.0 + gap);
-    std::vector<Box> ahead = std::move(boxes), leaves, stuck;
-    boxes.clear();
-    Box top = met.at;
-    while (!ahead.empty() && !stopped() && ahead.size() < most_boxes) {
-      if (hopeless(top, target)) {
-        out.least_there = least_bound(top, target);
-        break;
-      }
-      std::vector<Looked> looked(ahead.size());
-      parallel_for(static_cast<long>(ahead.size()), 16, settings.threads, [&](long first, long last) {
-        if (stopped()) return;
-        for (long n = first; n < last; ++n)
-          looked[static_cast<std::size_t>(n)] = look(index, ahead[static_cast<std::size_t>(n)], target);
-      });
-      std::vector<Box> next;
-      Met best;
-      for (std::size_t n = 0; n < ahead.size(); ++n) {
-        const Looked& seen = looked[n];
-        if (!seen.looked) {
-          next.push_back(ahead[n]);
-          continue;
-        }
-        ++count;
-        if (seen.met > best.value) best = {seen.met, domain.nearest(middle_of(ahead[n]))};
-        if (seen.proved) leaves.push_back(ahead[n]);
-        else if (seen.divide < 0) stuck.push_back(ahead[n]);
-        else
-          for (const Box& half : halves(ahead[n], seen.divide)) next.push_back(half);
-      }
-      if (best.value > met.value) {
-        met = best;
-        given = given && met.value < target;
-        if (!given) target = std::max(target, met.value * (1.0 + gap));
-      }
-      top = best.value > 0.0 ? best.at : met.at;
-      ahead = std::move(next);
-      if (control.progress) control.progress(count, 0, met.value);
-    }
-    if (out.least_there > 0.0) {
-      out.tried = target;
+    search.begin(std::exchange(boxes, {}), gap, gap == gaps.back() ? settings.condition : 0.0);
+    bound(search, {limit.stop(), control.progress}, settings.threads, 16);
+    if (search.least_there > 0.0) {
+      out.tried = search.target;
       break;
     }
-    ahead.insert(ahead.end(), stuck.begin(), stuck.end());
-    if (!ahead.empty() && gap < settings.gap && !given) break;  // narrower than was asked for
-    out.tried = target;
-    if (!ahead.empty()) {
-      boxes = std::move(ahead);
+    std::vector<Box> left = std::move(search.open);
+    left.insert(left.end(), search.stuck.begin(), search.stuck.end());
+    if (!left.empty() && gap < settings.gap && !search.given) break;  // narrower than was asked for
+    out.tried = search.target;
+    if (!left.empty()) {
+      boxes = std::move(left);
       break;
     }
-    proved = target;
-    if (gap != gaps.back()) boxes = std::move(leaves);
+    proved = search.target;
+    if (gap != gaps.back()) boxes = std::move(search.leaves);
   }
-  out.extreme = {met.value, proved, domain.met(met.at), count};
+  out.least_there = search.least_there;
+  out.extreme = {search.met.value, proved, domain.met(search.met.at), search.looked};
   out.interrupted = control.stop.stop_requested();
   out.left = rows_of_boxes(boxes);
   return out;
