@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <optional>
 
+#include "domains/bound.hpp"
 #include "math/numbers.hpp"
 
 namespace ninedof::admissible {
@@ -42,60 +43,6 @@ int coordinate_to_divide(const Box& box, const std::vector<Box>& roots, const Se
   return over_region::divided_coordinate(box, width);
 }
 
-/// The loop that both searches share: boxes of poses, the least plane first, until `closed` says that no other matters.
-template <class Number>
-class Descent {
- public:
-  Descent(const DesignsAt& designs, const Number& number, const std::vector<Box>& roots, long most, const Stop& stop)
-      : designs_(designs), number_(number), most_(most + std::ssize(roots)), stop_(stop) {
-    for (const Box& root : roots) add(root);
-  }
-  bool done() const { return open_.empty(); }
-  bool spent() { return boxes_ >= most_ || (++turns_ % 32 == 0 && stop_()); }
-  long boxes() const { return boxes_; }
-  double least() const { return open_.top().least; }
-  Open take() {
-    Open out = open_.top();
-    open_.pop();
-    return out;
-  }
-  /// The pose of a box where the number is least in the middle of the designs, as far as its form says.
-  Box worst_pose(const Open& one) const {
-    const Domain& domain = designs_.poses().domain();
-    return one.seen.known ? domain.towards(one.seen.slope, one.box) : domain.nearest(over_region::middle_of(one.box));
-  }
-  bool near_enough(const Seen& seen, const Met& met, double allowed) const {
-    if (!seen.known || !std::isfinite(seen.kept.c)) return false;
-    double off = met.most.c - seen.kept.c, change = 0.0;
-    for (std::size_t k = 0; k < most_varied; ++k) {
-      off += std::abs(met.most.a[k] - seen.kept.a[k]);
-      change += std::abs(met.most.a[k]);
-    }
-    return off <= std::max({part_of_change * change, times_open * met.open, allowed});
-  }
-  bool divide(const Open& one) {
-    const int k = coordinate_to_divide(one.box, designs_.poses().all(), one.seen);
-    if (k < 0) return false;
-    for (const Box& half : over_region::halves(one.box, k)) add(half);
-    return true;
-  }
-
- private:
-  void add(const Box& box) {
-    if (designs_.poses().domain().outside(box)) return;
-    ++boxes_;
-    Seen seen = designs_.look(number_, box);
-    open_.push({seen.known ? least_of(seen.kept) : -infinity, box, seen});
-  }
-
-  const DesignsAt& designs_;
-  const Number& number_;
-  long most_;
-  const Stop& stop_;
-  std::priority_queue<Open> open_;
-  long boxes_ = 0, turns_ = 0;
-};
-
 Plane lowered(const Plane& x, const Met& met) {
   Plane out = x;
   out.c -= moved_down * std::max(met.most.c - x.c, 0.0);
@@ -106,66 +53,110 @@ bool covered(const Plane& x, const std::vector<Plane>& by) {
   return std::ranges::any_of(by, [&](const Plane& plane) { return is_above(x, plane); });
 }
 
+/// Boxes of poses, the least plane next, until planes are near the least of the number at all poses.
+template <class Number>
+struct PlaneSearch : BoxSearch {
+  PlaneSearch(const DesignsAt& of_designs, const Number& of, const std::vector<Box>& roots, double at_most)
+      : designs(of_designs), number(of), most(static_cast<long>(at_most) + std::ssize(roots)) {
+    for (const Box& root : roots) add(root);
+  }
+  const DesignsAt& designs;
+  const Number& number;
+  long most;
+  std::size_t most_planes = std::numeric_limits<std::size_t>::max();
+  double until = infinity;  ///< a least above which boxes do not matter
+  double allowed = 0.0;
+  OpenHeap<Open> open;
+  std::vector<Plane> planes;
+  std::vector<Met> met;
+  std::vector<Box> at, closed;
+  std::vector<Loss> losses;
+  std::optional<Found::Status> end;
+
+  bool over() const { return open.empty() || open.top().least > until; }
+  bool enough() const { return end || over() || looked >= most || planes.size() >= most_planes; }
+  void merge(const Open& one, Nothing) {
+    if (one.seen.known && covered(one.seen.kept, planes)) return closed.push_back(one.box);
+    const Box pose = worst_pose(one);
+    const Met here = designs.meet(number, pose);
+    if (here.known && lost(here, pose)) {
+      end = Found::Status::outside;
+      return;
+    }
+    if (here.known && !near_enough(one.seen, here) && divide(one)) return;
+    closed.push_back(one.box);
+    if (!(here.known && one.seen.known && std::isfinite(one.seen.kept.c))) {
+      end = Found::Status::unknown;
+      return;
+    }
+    planes.push_back(lowered(one.seen.kept, here));
+    met.push_back(here);
+    at.push_back(pose);
+  }
+
+ private:
+  void add(const Box& box) {
+    if (designs.poses().domain().outside(box)) return;
+    ++looked;
+    Seen seen = designs.look(number, box);
+    open.push({seen.known ? least_of(seen.kept) : -infinity, box, seen});
+  }
+  /// The pose of a box where the number is least in the middle of the designs, as far as its form says.
+  Box worst_pose(const Open& one) const {
+    const Domain& domain = designs.poses().domain();
+    return one.seen.known ? domain.towards(one.seen.slope, one.box) : domain.nearest(over_region::middle_of(one.box));
+  }
+  bool lost(const Met& here, const Box& pose) {
+    if constexpr (std::is_same_v<Number, Item>) {
+      if (least_of(here.most) >= 0.0) return false;
+      losses.push_back({here.most, number.demand, pose});
+      return most_of(here.most) < 0.0;
+    }
+    return false;
+  }
+  bool near_enough(const Seen& seen, const Met& here) const {
+    if (!seen.known || !std::isfinite(seen.kept.c)) return false;
+    double off = here.most.c - seen.kept.c, change = 0.0;
+    for (std::size_t k = 0; k < most_varied; ++k) {
+      off += std::abs(here.most.a[k] - seen.kept.a[k]);
+      change += std::abs(here.most.a[k]);
+    }
+    return off <= std::max({part_of_change * change, times_open * here.open, allowed});
+  }
+  bool divide(const Open& one) {
+    const int k = coordinate_to_divide(one.box, designs.poses().all(), one.seen);
+    if (k < 0) return false;
+    for (const Box& half : over_region::halves(one.box, k)) add(half);
+    return true;
+  }
+};
+
 }  // namespace
 
-Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width, const Stop& stop) {
-  Found out;
-  const auto lost = [&](const Met& met, const Box& at) {
-    if (!met.known || least_of(met.most) >= 0.0) return false;
-    out.losses.push_back({met.most, item.demand, at});
-    return most_of(met.most) < 0.0;
-  };
+Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width,
+            const std::stop_token& stop) {
   const bool keeps_open = item.kind == Item::Kind::condition;
-  const double most = std::min(keeps_open ? most_boxes_of_condition : most_boxes_of_item, boxes_of_whole / width);
-  Descent<Item> descent(designs, item, roots, static_cast<long>(most), stop);
-  const auto finish = [&](Found::Status status) {
-    out.status = status;
-    out.boxes = descent.boxes();
-    while (keeps_open && !descent.done() && !(descent.least() > 0.0)) out.open.push_back(descent.take().box);
-    return out;
-  };
-  while (!descent.done() && !(descent.least() > 0.0)) {
-    if (descent.spent() || out.cuts.size() >= most_cuts) return finish(Found::Status::unknown);
-    const Open one = descent.take();
-    if (one.seen.known && covered(one.seen.kept, out.cuts)) {
-      if (keeps_open) out.open.push_back(one.box);
-      continue;
-    }
-    const Box at = descent.worst_pose(one);
-    const Met met = designs.meet(item, at);
-    if (!met.known) {
-      if (keeps_open) out.open.push_back(one.box);
-      return finish(Found::Status::unknown);
-    }
-    if (lost(met, at)) return finish(Found::Status::outside);
-    if (!descent.near_enough(one.seen, met, 0.0) && descent.divide(one)) continue;
-    if (keeps_open) out.open.push_back(one.box);
-    if (!one.seen.known || !std::isfinite(one.seen.kept.c)) return finish(Found::Status::unknown);
-    out.cuts.push_back(lowered(one.seen.kept, met));
-  }
-  return finish(out.cuts.empty() ? Found::Status::kept : Found::Status::cut);
+  const double most = keeps_open ? most_boxes_of_condition : most_boxes_of_item;
+  PlaneSearch search(designs, item, roots, std::min(most, boxes_of_whole / width));
+  search.most_planes = most_cuts;
+  search.until = 0.0;
+  bound(search, {stop, {}});
+  if (!search.end && !search.over()) search.end = Found::Status::unknown;
+  const Found::Status proved = search.planes.empty() ? Found::Status::kept : Found::Status::cut;
+  Found out{search.end.value_or(proved), std::move(search.planes), std::move(search.losses), {}, search.looked};
+  if (!keeps_open) return out;
+  out.open = std::move(search.closed);
+  while (!search.over()) out.open.push_back(search.open.pop().box);
+  return out;
 }
 
 Envelope envelope(const DesignsAt& designs, const Length& length, const std::vector<Box>& roots, double allowed,
-                  const Stop& stop) {
-  Envelope out;
-  Descent<Length> descent(designs, length, roots, static_cast<long>(most_boxes_of_item), stop);
-  while (!descent.done()) {
-    const Open one = descent.take();
-    out.boxes = descent.boxes();
-    if (descent.spent()) return out;
-    if (one.seen.known && covered(one.seen.kept, out.least)) continue;
-    const Box at = descent.worst_pose(one);
-    const Met met = designs.meet(length, at);
-    if (!met.known) return out;
-    if (!descent.near_enough(one.seen, met, allowed) && descent.divide(one)) continue;
-    if (!one.seen.known) return out;
-    out.least.push_back(lowered(one.seen.kept, met));
-    out.met.push_back(met);
-    out.at.push_back(at);
-  }
-  out.known = !out.least.empty();
-  return out;
+                  const std::stop_token& stop) {
+  PlaneSearch search(designs, length, roots, most_boxes_of_item);
+  search.allowed = allowed;
+  bound(search, {stop, {}});
+  const bool known = !search.end && search.over() && !search.planes.empty();
+  return {known, std::move(search.planes), std::move(search.met), std::move(search.at), search.looked};
 }
 
 }  // namespace ninedof::admissible

@@ -1,7 +1,7 @@
 #pragma once
 /// An item over all its poses as planes over a box of designs: a branch and bound whose bounds are linear in the design.
 
-#include <functional>
+#include <stop_token>
 #include <vector>
 
 #include "proof/admissible/items.hpp"
@@ -31,11 +31,9 @@ struct Found {
   long boxes = 0;
 };
 
-/// Asked now and then; the search then ends with what is known.
-using Stop = std::function<bool()>;
-
-/// `width`: of the box of designs, as a part of all: large boxes are hardly ever proved, and searched for less long.
-Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width, const Stop& stop);
+/// On a stop it ends with what is known. `width`: of the box of designs, as a part of all: large boxes are hardly ever proved, and searched for less long.
+Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width,
+            const std::stop_token& stop);
 
 /// Planes none of whose least is above the length, or less the length, and the poses that they were found at.
 struct Envelope {
@@ -47,6 +45,6 @@ struct Envelope {
 };
 /// `allowed`: planes may be off by so much.
 Envelope envelope(const DesignsAt& designs, const Length& length, const std::vector<Box>& roots, double allowed,
-                  const Stop& stop);
+                  const std::stop_token& stop);
 
 }  // namespace ninedof::admissible

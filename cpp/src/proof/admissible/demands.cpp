@@ -148,7 +148,7 @@ Demands::Demands(const DesignQuestion& question) {
   add_condition(*this, question.problem.objective.neutral_condition_limit, "condition_number at neutral", true);
 }
 
-Spreads::Spreads(const DesignsAt& designs, const Stop& stop) : designs_(designs), stop_(stop) {}
+Spreads::Spreads(const DesignsAt& designs, const std::stop_token& stop) : designs_(designs), stop_(stop) {}
 
 const Envelope& Spreads::of(const Spread& spread, int leg, double sign, bool closely) {
   Envelope& one = known_[spread.at_neutral][closely][sign > 0.0][at_index(leg)];

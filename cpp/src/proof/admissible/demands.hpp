@@ -41,7 +41,7 @@ struct Demands {
 /// The lengths of the legs over all poses, each looked for once.
 class Spreads {
  public:
-  Spreads(const DesignsAt& designs, const Stop& stop);
+  Spreads(const DesignsAt& designs, const std::stop_token& stop);
   Found look_at(const Spread& spread);
   /// The margin of a spread at the poses of a loss.
   Met meet(const Spread& spread, const Loss& loss) const;
@@ -52,7 +52,7 @@ class Spreads {
   Plane margin(const Spread& spread, const Plane& less_longest, const Plane& shortest, bool above) const;
 
   const DesignsAt& designs_;
-  const Stop& stop_;
+  const std::stop_token& stop_;
   /// At the neutral pose alone or not, closely or not, shortest or longest.
   std::array<std::array<std::array<std::array<Envelope, 9>, 2>, 2>, 2> known_;
   long boxes_ = 0;

@@ -76,7 +76,7 @@ bool Examiner::breaks(const DesignBox& box, const std::vector<Loss>& witnesses, 
   for (const Alone& alone : demands_.alone)
     if (took(look_at(designs.forms(), alone))) return true;
   if (!designs.known()) return false;
-  const Stop never = [] { return false; };
+  const std::stop_token never;
   const Spreads spreads(designs, never);
   for (const int k : some)
     if (is_lost(designs, spreads, witnesses[static_cast<std::size_t>(k)], known)) return true;
@@ -94,7 +94,7 @@ bool Examiner::is_lost(const DesignsAt& designs, const Spreads& spreads, const L
 std::vector<int> Examiner::worst_of(const DesignBox& design, const std::vector<Loss>& witnesses) const {
   const DesignsAt designs(question_, poses_, design);
   if (!designs.known()) return {};
-  const Stop never = [] { return false; };
+  const std::stop_token never;
   const Spreads spreads(designs, never);
   std::map<int, std::pair<double, int>> worst;
   for (std::size_t k = 0; k < witnesses.size(); ++k) {
@@ -108,7 +108,7 @@ std::vector<int> Examiner::worst_of(const DesignBox& design, const std::vector<L
   return out;
 }
 
-Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
+Examined Examiner::examine(const ToExamine& asked, const std::stop_token& stop) const {
   Examined out;
   const DesignsAt designs(question_, poses_, asked.box);
   Knowledge& known = out.known;
@@ -158,7 +158,7 @@ Examined Examiner::examine(const ToExamine& asked, const Stop& stop) const {
     all_looked_at = true;
   };
   all();
-  out.finished = !stop();
+  out.finished = !stop.stop_requested();
   known.complete = complete && all_looked_at;
   out.inherited.near = some_losses(known.losses);
   return out;

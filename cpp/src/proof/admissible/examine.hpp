@@ -31,7 +31,7 @@ class Examiner {
   explicit Examiner(const DesignQuestion& question);
   const std::vector<Demand>& names() const { return demands_.names; }
   /// Not finished where it was stopped.
-  Examined examine(const ToExamine& asked, const Stop& stop) const;
+  Examined examine(const ToExamine& asked, const std::stop_token& stop) const;
   /// Whether these witnesses show that no design of the box is inside; their planes go to `known`.
   bool breaks(const DesignBox& box, const std::vector<Loss>& witnesses, const std::vector<int>& some,
               Knowledge& known) const;

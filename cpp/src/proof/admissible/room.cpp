@@ -1,12 +1,12 @@
 /// The largest box around a design that is proved to be inside. Declared in ninedof/proof/admissible.hpp.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
 #include "math/linear/least_squares.hpp"
 #include "math/numbers.hpp"
+#include "math/time_limit.hpp"
 #include "ninedof/math/error.hpp"
 #include "proof/admissible/examine.hpp"
 
@@ -87,13 +87,13 @@ Vector widest(const std::vector<Bound>& bounds, const Vector& start) {
 class RoomSearch {
  public:
   RoomSearch(const DesignQuestion& question, const std::vector<double>& design, const std::vector<double>& proportions,
-             Stop stop)
+             std::stop_token stop)
       : question_(question), examiner_(question), design_(design), proportions_(proportions), stop_(std::move(stop)) {}
 
   DesignRoom run() {
     double part = 0.25, growth = 0.15;
     DesignBox outer = around(part);
-    while (growth > 0.005 && wide(outer) && !stop_()) {
+    while (growth > 0.005 && wide(outer) && !stop_.stop_requested()) {
       const Examined found = examiner_.examine({outer, {}, {}, {}}, stop_);
       out_.boxes += found.boxes;
       if (!found.finished) break;
@@ -223,7 +223,7 @@ class RoomSearch {
   /// Planes of a whole box lose where limits are curved: sides go on by slabs, each proved alone; in given proportions all
   /// sides at once. All keep step: a side on a limit leaves the slabs of others nothing that could be proved.
   void push_sides() {
-    for (double step = 0.25; step > 2e-3 && !stop_();) {
+    for (double step = 0.25; step > 2e-3 && !stop_.stop_requested();) {
       bool grew = false;
       for (std::size_t n = 0; n < (proportions_.empty() ? 2 * count() : 1); ++n) {
         const DesignBox from{out_.low, out_.high};
@@ -271,7 +271,7 @@ class RoomSearch {
   Examiner examiner_;
   const std::vector<double>& design_;
   const std::vector<double>& proportions_;
-  Stop stop_;
+  std::stop_token stop_;
   double size_ = 0.0;
   DesignRoom out_;
 };
@@ -290,14 +290,8 @@ DesignRoom room_around(const DesignQuestion& question, const std::vector<double>
       throw InvalidArgument("design", format_number(design[k]), format_interval(question.low[k], question.high[k]));
   for (const double one : proportions)
     if (!(one > 0.0 && std::isfinite(one))) throw InvalidArgument("proportions", format_number(one), "numbers above 0");
-  const auto start = std::chrono::steady_clock::now();
-  return admissible::RoomSearch(
-             question, design, proportions,
-             [&] {
-               return control.stop.stop_requested() ||
-                      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds;
-             })
-      .run();
+  const TimeLimit limit(seconds, control.stop);
+  return admissible::RoomSearch(question, design, proportions, limit.stop()).run();
 }
 
 }  // namespace ninedof

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "domains/bound.hpp"
 #include "math/time_limit.hpp"
-#include "ninedof/math/parallel.hpp"
 #include "proof/admissible/examine.hpp"
 
 namespace ninedof {
@@ -13,43 +13,62 @@ namespace {
 
 constexpr std::size_t boxes_at_once = 64;  // of a round: the result does not depend on the number of threads
 
-/// A box that is to be looked at.
+/// A box that is to be looked at, the largest next.
 struct Waiting {
   ToExamine asked;
   double undecided;                 ///< volume
   std::vector<DesignPiece> pieces;  ///< what is known of it
+  bool operator<(const Waiting& other) const { return undecided < other.undecided; }
 };
 
 /// What one look gives.
 struct LookedAt {
   std::vector<DesignPiece> decided;
   std::vector<Waiting> rests;
-  long boxes = 0;
-  bool finished = false;
+  long boxes;
 };
 
-class Search {
+class Search : public BoxSearch {
  public:
-  explicit Search(const DesignQuestion& question)
-      : examiner_(question), dimensions_(question.varied.size()), range_(range_of(question)) {}
-  const std::vector<Demand>& names() const { return examiner_.names(); }
-  double volume() const { return volume_of(range_, dimensions_); }
-  Waiting whole() const { return again({range_.low, range_.high, Membership::undecided, -1, {}, {}}); }
-  Waiting again(const DesignPiece& piece) const {
-    const DesignBox box{piece.low, piece.high};
-    return {{box, {}, {}, {}}, volume_of(box, dimensions_), {piece}};
+  Search(const DesignQuestion& question, const DesignSettings& settings, const std::vector<DesignPiece>& from)
+      : examiner_(question),
+        dimensions_(question.varied.size()),
+        range_(range_of(question)),
+        whole_(volume_of(range_, dimensions_)),
+        settings_(settings) {
+    if (from.empty()) open.push_back(whole_of({range_.low, range_.high, Membership::undecided, -1, {}, {}}));
+    for (const DesignPiece& piece : from) {
+      if (piece.state != Membership::undecided) out_.pieces.push_back(piece);
+      else if (Waiting one = whole_of(piece); divisible(one)) open.push_back(std::move(one));
+      else small_.push_back(std::move(one));
+    }
+    std::make_heap(open.begin(), open.end());
+    for (const Waiting& one : open) undecided_ += one.undecided;
   }
-  bool divisible(const Waiting& one, double resolution) const {
-    return is_divisible(one.asked.box, dimensions_, range_, resolution);
+
+  DesignSet found() {
+    out_.demands = examiner_.names();
+    out_.looked_at = looked;
+    for (const std::vector<Waiting>* all : {static_cast<std::vector<Waiting>*>(&open), &small_})
+      for (const Waiting& one : *all) out_.pieces.insert(out_.pieces.end(), one.pieces.begin(), one.pieces.end());
+    out_.inside = out_.outside = out_.undecided = 0.0;
+    for (const DesignPiece& piece : out_.pieces) {
+      const double share = volume_of({piece.low, piece.high}, dimensions_) / whole_;
+      (piece.state == Membership::inside    ? out_.inside
+       : piece.state == Membership::outside ? out_.outside
+                                            : out_.undecided) += share;
+    }
+    return std::move(out_);
   }
-  LookedAt look(const Waiting& one, const Stop& stop) const {
-    LookedAt out;
+
+  OpenHeap<Waiting> open;
+  std::size_t together() const { return boxes_at_once; }
+  bool enough() const { return !(undecided_ > settings_.undecided * whole_); }
+  std::optional<LookedAt> look(const Waiting& one, const std::stop_token& stop) const {
     const Examined found = examiner_.examine(one.asked, stop);
-    out.finished = found.finished;
-    if (!out.finished) return out;  // what was known stays
-    out.boxes = found.boxes;
+    if (!found.finished) return {};  // what was known stays
     const Divided parts = divided(one.asked.box, dimensions_, range_, found.known);
-    out.decided = examiner_.pieces_of(parts.decided);
+    LookedAt out{examiner_.pieces_of(parts.decided), {}, found.boxes};
     for (const Rest& rest : parts.rests) {
       ToExamine next = found.inherited;
       next.box = rest.box;
@@ -57,11 +76,36 @@ class Search {
     }
     return out;
   }
+  void merge(const Waiting& one, LookedAt seen) {
+    ++looked;
+    out_.boxes += seen.boxes;
+    undecided_ -= one.undecided;
+    out_.pieces.insert(out_.pieces.end(), seen.decided.begin(), seen.decided.end());
+    for (Waiting& rest : seen.rests) {
+      undecided_ += rest.undecided;
+      if (divisible(rest)) open.push(std::move(rest));
+      else small_.push_back(std::move(rest));
+    }
+  }
+  double value() const { return undecided_ / whole_; }
 
  private:
+  bool divisible(const Waiting& one) const {
+    return is_divisible(one.asked.box, dimensions_, range_, settings_.resolution);
+  }
+  Waiting whole_of(const DesignPiece& piece) const {
+    const DesignBox box{piece.low, piece.high};
+    return {{box, {}, {}, {}}, volume_of(box, dimensions_), {piece}};
+  }
+
   Examiner examiner_;
   std::size_t dimensions_;
   DesignBox range_;
+  double whole_;
+  const DesignSettings& settings_;
+  std::vector<Waiting> small_;
+  double undecided_ = 0.0;
+  DesignSet out_;
 };
 
 }  // namespace
@@ -72,65 +116,10 @@ DesignSet admissible_designs(const DesignQuestion& question, const DesignSetting
   using namespace admissible;
   question.validate();
   const TimeLimit limit(settings.seconds, control.stop);
-  const auto stopped = [stop = limit.stop()] { return stop.stop_requested(); };
-  const Search search(question);
-  DesignSet out;
-  out.demands = search.names();
-  const double whole = search.volume();
-  std::vector<Waiting> waiting, small;
-  if (from.empty()) waiting.push_back(search.whole());
-  for (const DesignPiece& piece : from) {
-    Waiting one = search.again(piece);
-    if (piece.state != Membership::undecided) out.pieces.push_back(piece);
-    else (search.divisible(one, settings.resolution) ? waiting : small).push_back(std::move(one));
-  }
-  const auto fewer = [](const Waiting& a, const Waiting& b) { return a.undecided < b.undecided; };
-  std::ranges::make_heap(waiting, fewer);
-  double undecided = 0.0;
-  for (const Waiting& one : waiting) undecided += one.undecided;
-  while (!waiting.empty() && undecided > settings.undecided * whole && !stopped()) {
-    std::vector<Waiting> now;
-    while (!waiting.empty() && now.size() < boxes_at_once) {
-      std::ranges::pop_heap(waiting, fewer);
-      now.push_back(std::move(waiting.back()));
-      waiting.pop_back();
-    }
-    std::vector<LookedAt> found(now.size());
-    parallel_for(static_cast<long>(now.size()), 1, settings.threads, [&](long first, long last) {
-      for (long n = first; n < last; ++n)
-        found[static_cast<std::size_t>(n)] = search.look(now[static_cast<std::size_t>(n)], stopped);
-    });
-    for (std::size_t n = 0; n < found.size(); ++n) {
-      if (!found[n].finished) {
-        small.push_back(std::move(now[n]));
-        continue;
-      }
-      ++out.looked_at;
-      out.boxes += found[n].boxes;
-      undecided -= now[n].undecided;
-      out.pieces.insert(out.pieces.end(), found[n].decided.begin(), found[n].decided.end());
-      for (Waiting& rest : found[n].rests) {
-        undecided += rest.undecided;
-        if (!search.divisible(rest, settings.resolution)) {
-          small.push_back(std::move(rest));
-          continue;
-        }
-        waiting.push_back(std::move(rest));
-        std::ranges::push_heap(waiting, fewer);
-      }
-    }
-    if (control.progress) control.progress(out.looked_at, 0, undecided / whole);
-  }
+  Search search(question, settings, from);
+  bound(search, {limit.stop(), control.progress}, settings.threads);
+  DesignSet out = search.found();
   out.interrupted = control.stop.stop_requested();
-  for (const std::vector<Waiting>* all : {&waiting, &small})
-    for (const Waiting& one : *all) out.pieces.insert(out.pieces.end(), one.pieces.begin(), one.pieces.end());
-  out.inside = out.outside = out.undecided = 0.0;
-  for (const DesignPiece& piece : out.pieces) {
-    const double share = volume_of({piece.low, piece.high}, question.varied.size()) / whole;
-    (piece.state == Membership::inside    ? out.inside
-     : piece.state == Membership::outside ? out.outside
-                                          : out.undecided) += share;
-  }
   return out;
 }
 
