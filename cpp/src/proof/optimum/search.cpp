@@ -4,10 +4,11 @@
 #include <chrono>
 #include <optional>
 
+#include "domains/bound.hpp"
 #include "limits/rows.hpp"
 #include "math/numbers.hpp"
+#include "math/time_limit.hpp"
 #include "ninedof/math/error.hpp"
-#include "ninedof/math/parallel.hpp"
 #include "ninedof/proof/bounds.hpp"
 #include "ninedof/proof/optimum.hpp"
 #include "proof/nonplanar/line_search.hpp"
@@ -30,6 +31,7 @@ struct Open {
 /// Open boxes by what is proved of them, in steps from 1 to the target; within a step, the last one first.
 class Heap {
  public:
+  using value_type = Open;
   explicit Heap(double target) : target_(target), steps_(256) {}
 
   bool empty() const { return count_ == 0; }
@@ -40,6 +42,9 @@ class Heap {
     const auto step = static_cast<std::size_t>(std::clamp(part, 0.0, static_cast<double>(steps_.size() - 1)));
     steps_[step].push_back(box);
     ++count_;
+  }
+  void take(std::size_t most, std::vector<Open>& round) {
+    while (round.size() < most && !empty()) round.push_back(pop());
   }
   /// One of which least is known; one of which most is known where there are so many that memory runs out.
   Open pop() {
@@ -77,74 +82,48 @@ BoxBound excluded_by_domain() {
   return out;
 }
 
-class Search {
+class Search : public BoxSearch {
  public:
   Search(const AxisDomain& domain, const OptimumSettings& settings)
-      : domain_(domain), settings_(settings), open_(settings.target) {
-    open_.push({domain.box, 1.0, 0});
+      : open(settings.target), domain_(domain), settings_(settings) {
+    open.push({domain_.box, 1.0, 0});
     if (settings.keep_tree) tree_.emplace();
   }
-
-  void run(const Control& control, OptimumProof& out) {
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
-    const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-    while (!open_.empty() && better_ == infinity && out.boxes < settings_.box_limit && !control.stop.stop_requested() &&
-           !(settings_.time_limit > 0.0 && seconds() > settings_.time_limit)) {
-      round();
-      out.boxes += static_cast<long>(batch_.size());
-      if (control.progress) control.progress(out.boxes, 0, open_.bound());
-    }
-    out.complete = open_.empty();
-    out.lower_bound = std::min(open_.bound(), settings_.target);
-    out.open = static_cast<long>(open_.size());
-    out.better = better_;
-    out.seconds = seconds();
-  }
-
   std::vector<std::uint8_t> tree() const { return tree_->bytes(); }
 
- private:
-  /// Bounds the boxes of which least is known, and cuts those that remain. A fixed number at a time: the tree does not
-  /// depend on the number of threads.
-  void round() {
-    constexpr std::size_t at_a_time = 1024;
-    batch_.clear();
-    while (batch_.size() < at_a_time && !open_.empty()) batch_.push_back(open_.pop());
-    found_.resize(batch_.size());
-    parallel_for(static_cast<long>(batch_.size()), 64, settings_.threads, [&](long first, long last) {
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-        if (domain_.excludes(batch_[i].box)) found_[i] = excluded_by_domain();
-        else found_[i] = bound_box(batch_[i].box, domain_.dimension, settings_.target, domain_.log_leg_ratio);
-      }
-    });
-    for (std::size_t i = 0; i < batch_.size(); ++i) {
-      if (found_[i].condition_number >= settings_.target) {
-        if (tree_) tree_->close(batch_[i].node, found_[i]);
-        continue;
-      }
-      if (found_[i].at_middle < std::min(better_, settings_.target) && domain_.contains(middle_of(batch_[i].box)))
-        better_ = found_[i].at_middle;
-      const double bound = std::max(batch_[i].bound, found_[i].condition_number);
-      const std::size_t k = found_[i].cut;
-      const double m = middle_of(batch_[i].box, k);
-      const std::uint32_t first = tree_ ? tree_->cut(batch_[i].node, k) : 0;
-      for (std::uint32_t side : {0U, 1U}) {
-        Open half{batch_[i].box, bound, first + side};
-        (side == 0 ? half.box[k].hi : half.box[k].lo) = m;
-        if (domain_.dimension == hexagonal_coordinates) half.box[at_lower] = half.box[at_ratio];
-        open_.push(half);
-      }
+  Heap open;
+  double better = infinity;
+  std::size_t together() const { return 1024; }
+  bool enough() const { return better < infinity || looked >= settings_.box_limit; }
+  std::optional<BoxBound> look(const Open& one, const std::stop_token&) const {
+    if (domain_.excludes(one.box)) return excluded_by_domain();
+    return bound_box(one.box, domain_.dimension, settings_.target, domain_.log_leg_ratio);
+  }
+  /// Cuts a box that remains.
+  void merge(const Open& one, const BoxBound& seen) {
+    ++looked;
+    if (seen.condition_number >= settings_.target) {
+      if (tree_) tree_->close(one.node, seen);
+      return;
+    }
+    if (seen.at_middle < std::min(better, settings_.target) && domain_.contains(middle_of(one.box)))
+      better = seen.at_middle;
+    const double bound = std::max(one.bound, seen.condition_number);
+    const double m = middle_of(one.box, seen.cut);
+    const std::uint32_t first = tree_ ? tree_->cut(one.node, seen.cut) : 0;
+    for (std::uint32_t side : {0U, 1U}) {
+      Open half{one.box, bound, first + side};
+      (side == 0 ? half.box[seen.cut].hi : half.box[seen.cut].lo) = m;
+      if (domain_.dimension == hexagonal_coordinates) half.box[at_lower] = half.box[at_ratio];
+      open.push(half);
     }
   }
+  double value() const { return open.bound(); }
 
+ private:
   const AxisDomain& domain_;
   const OptimumSettings& settings_;
-  Heap open_;
   std::optional<ProofTree> tree_;
-  double better_ = infinity;
-  std::vector<Open> batch_;
-  std::vector<BoxBound> found_;
 };
 
 }  // namespace
@@ -176,8 +155,16 @@ OptimumProof prove_optimum(const Problem& study, const OptimumSettings& settings
     if (settings.keep_tree) out.certificate = certificate(study, settings.target, out.left_out, nothing.bytes());
     return out;
   }
+  const auto start = std::chrono::steady_clock::now();
+  const TimeLimit limit(settings.time_limit > 0.0 ? settings.time_limit : infinity, control.stop);
   Search search(domain, settings);
-  search.run(control, out);
+  bound(search, {limit.stop(), control.progress}, settings.threads, 64);
+  out.boxes = search.looked;
+  out.better = search.better;
+  out.complete = search.open.empty();
+  out.lower_bound = std::min(search.open.bound(), settings.target);
+  out.open = static_cast<long>(search.open.size());
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (out.complete && settings.keep_tree)
     out.certificate = certificate(study, settings.target, out.left_out, search.tree());
   return out;
