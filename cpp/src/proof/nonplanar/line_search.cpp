@@ -2,8 +2,8 @@
 
 #include <chrono>
 
+#include "domains/bound.hpp"
 #include "math/time_limit.hpp"
-#include "ninedof/math/parallel.hpp"
 #include "proof/nonplanar/line_domain.hpp"
 #include "proof/nonplanar/line_test.hpp"
 
@@ -30,49 +30,33 @@ std::vector<OpenLines> whole(const LineLimits& limits, double target) {
   return out;
 }
 
-class LineSearch {
- public:
-  LineSearch(const LineLimits& limits, const OptimumSettings& settings, const Control& control)
-      : limits_(limits), settings_(settings), control_(control) {}
+/// Designs below a target: depth first.
+struct LineSearch : BoxSearch {
+  OpenStack<OpenLines> open;
+  const LineLimits& limits;
+  double target, proved;
+  long box_limit;
+  double better = infinity;
+  bool divisible = true;
 
-  /// Whether no design of the study is below the target. Depth first, a fixed number of boxes at a time: the result
-  /// does not depend on the number of threads.
-  bool proves(double target, OptimumProof& out, const std::stop_token& stop) const {
-    std::vector<OpenLines> open = whole(limits_, target), batch;
-    std::vector<LineVerdict> found;
-    while (!open.empty() && out.boxes < settings_.box_limit && !stop.stop_requested()) {
-      const std::size_t count = std::min<std::size_t>(open.size(), 4096);
-      batch.assign(open.end() - static_cast<std::ptrdiff_t>(count), open.end());
-      open.resize(open.size() - count);
-      found.resize(count);
-      parallel_for(static_cast<long>(count), 64, settings_.threads, [&](long first, long last) {
-        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-          found[i] = test_box(batch[i].box, limits_, batch[i].sides, target);
-      });
-      out.boxes += static_cast<long>(count);
-      bool divisible = true;
-      for (std::size_t i = 0; i < count; ++i) {
-        if (found[i].empty) continue;
-        if (found[i].at_middle < target) out.better = std::min(out.better, found[i].at_middle);
-        divisible = divisible && found[i].divisible;
-        const double middle = cut_at(batch[i].box, found[i].cut);
-        for (const bool upper : {false, true}) {
-          open.push_back(batch[i]);
-          Interval& side = open.back().box[found[i].cut];
-          (upper ? side.lo : side.hi) = middle;
-        }
-      }
-      if (control_.progress) control_.progress(out.boxes, 0, out.lower_bound);
-      if (!divisible || out.better < infinity) break;
-    }
-    out.open = static_cast<long>(open.size());
-    return open.empty();
+  std::size_t together() const { return 4096; }
+  bool enough() const { return !divisible || better < infinity || looked >= box_limit; }
+  std::optional<LineVerdict> look(OpenLines& one, const std::stop_token&) const {
+    return test_box(one.box, limits, one.sides, target);
   }
-
- private:
-  const LineLimits& limits_;
-  const OptimumSettings& settings_;
-  const Control& control_;
+  void merge(const OpenLines& one, const LineVerdict& seen) {
+    ++looked;
+    if (seen.empty) return;
+    if (seen.at_middle < target) better = std::min(better, seen.at_middle);
+    divisible = divisible && seen.divisible;
+    const double middle = cut_at(one.box, seen.cut);
+    for (const bool upper : {false, true}) {
+      open.push(one);
+      Interval& side = open.back().box[seen.cut];
+      (upper ? side.lo : side.hi) = middle;
+    }
+  }
+  double value() const { return proved; }
 };
 
 }  // namespace
@@ -82,12 +66,17 @@ OptimumProof prove_nonplanar(const Problem& study, const OptimumSettings& settin
   const TimeLimit limit(settings.time_limit > 0.0 ? settings.time_limit : infinity, control.stop);
   OptimumProof out;
   const LineLimits limits = line_limits(study, out.left_out);
-  const LineSearch search(limits, settings, control);
   // Bounds that are there when the time ends; each takes less than the next one.
   for (const double gap : {0.3, 0.1, 0.02, 0.005, 0.0}) {
     const double target = settings.target * (1.0 - gap);
     if (!(target > 1.0)) continue;
-    if (!search.proves(target, out, limit.stop())) break;
+    LineSearch search{{.looked = out.boxes}, {whole(limits, target)}, limits, target,
+                      out.lower_bound,       settings.box_limit};
+    bound(search, {limit.stop(), control.progress}, settings.threads, 64);
+    out.boxes = search.looked;
+    out.better = search.better;
+    out.open = std::ssize(search.open);
+    if (out.open > 0) break;
     out.lower_bound = target;
   }
   out.complete = out.lower_bound == settings.target;
