@@ -1,9 +1,9 @@
 #include "ninedof/workspace/certified.hpp"
 
-#include <chrono>
 #include <cmath>
 
 #include "math/numbers.hpp"
+#include "math/time_limit.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/proof/bounds.hpp"
 #include "workspace/certified/home_piece.hpp"
@@ -66,13 +66,13 @@ std::vector<PositionBox> rest_of(PositionBox all, const PositionBox& box) {
 }
 
 CertifiedWorkspace::Beyond beyond(const LimitsOverBox& cuts, const PositionBox& reached, const PositionBox& box,
-                                  bool some, const std::function<bool()>& over) {
+                                  bool some, const std::stop_token& stop) {
   using Beyond = CertifiedWorkspace::Beyond;
   if ((reached.low.array() > reached.high.array()).any()) return Beyond::nothing;  // no leg lengths fit anywhere
   if (!(reached.low.allFinite() && reached.high.allFinite())) return Beyond::unknown;
   Beyond out = Beyond::nothing;
   for (const PositionBox& slab : rest_of(reached, box)) {
-    const Beyond one = anything_in(cuts, slab, some, looks_beyond, over);
+    const Beyond one = anything_in(cuts, slab, some, looks_beyond, stop);
     if (one == Beyond::something) return one;
     if (one == Beyond::unknown) out = one;
   }
@@ -108,8 +108,7 @@ CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain&
                                        const WorkspaceCriteria& criteria, const CertifySettings& settings,
                                        const std::optional<Configuration>& home, const Control& control) {
   using namespace certified;
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const TimeLimit limit(settings.seconds, control.stop), beside(part_beyond * settings.seconds, control.stop);
   require_sound_arithmetic();
   require_question(domain, rule, criteria, home);
   require_certified(domain, rule, criteria, settings);
@@ -126,25 +125,22 @@ CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain&
     throw InvalidArgument("box", "one whose volume is no double beside the size of the joints", "a smaller one");
 
   CertifiedWorkspace out;
-  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   // Before the search, which may take all the time there is. With many rotations each look takes long.
-  out.beyond = beyond(cuts, reached, given, some,
-                      [&] { return control.stop.stop_requested() || seconds() > part_beyond * settings.seconds; });
+  out.beyond = beyond(cuts, reached, given, some, beside.stop());
   if (nothing_there) {
     out.home_outside = true;
     out.first_cut.push_back(0);
   } else {
-    const auto time_is_over = [&] { return seconds() > settings.seconds; };
     Grown grown = seed(cuts, box, some);
     CertifySettings now = settings;
-    grow(grown, cuts, some, now, time_is_over, control);
+    grow(grown, cuts, some, now, limit.stop(), control);
     HomePiece piece = home_piece(grown.tree, question.home.position);
     // Where only home's piece counts, its own gap is to be small: others go on for as long as it takes.
     const auto wide = [&] { return piece.volume.high - piece.volume.low > settings.gap * piece.volume.high; };
     while (asks_for_connection(criteria) && wide() && grown.end == CertifiedWorkspace::End::gap &&
            now.gap > least_gap * settings.gap) {
       now.gap *= 0.5;
-      grow(grown, cuts, some, now, time_is_over, control);
+      grow(grown, cuts, some, now, limit.stop(), control);
       piece = home_piece(grown.tree, question.home.position);
     }
     out.end = grown.end;

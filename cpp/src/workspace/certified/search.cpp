@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <queue>
 
-#include "ninedof/math/parallel.hpp"
+#include "domains/bound.hpp"
 
 namespace ninedof::certified {
 namespace {
@@ -14,8 +14,8 @@ using End = CertifiedWorkspace::End;
 constexpr std::size_t least_together = 16, most_together = 1024, part_together = 8;
 
 struct Gap {
-  double volume;
-  int node;
+  double volume = 0.0;
+  int node = 0;
   bool operator<(const Gap& other) const {
     return volume < other.volume || (volume == other.volume && node > other.node);
   }
@@ -24,6 +24,72 @@ struct Gap {
 double plain_volume(const PositionBox& box) {
   return (box.high - box.low).prod();
 }
+
+/// Halves leaves of a tree, the one with the largest gap next.
+class GapSearch : public BoxSearch {
+ public:
+  GapSearch(Tree& tree, const LimitsOverBox& cuts, bool some, const CertifySettings& settings)
+      : tree_(tree), cuts_(cuts), some_(some), settings_(settings) {
+    for (int n = 0; n < static_cast<int>(tree_.size()); ++n)
+      if (node(n).leaf()) add(n);
+  }
+  End end(const Control& control) const {
+    if (reached() || open.empty()) return stuck_ && !reached() ? End::smallest : End::gap;
+    return control.stop.stop_requested() ? End::stopped : looked >= settings_.boxes ? End::boxes : End::time;
+  }
+
+  struct Halves {
+    std::vector<PositionBox> box;
+    std::array<Seen, 2> seen;
+  };
+  OpenHeap<Gap> open;
+  std::size_t together() const { return std::clamp(open.size() / part_together, least_together, most_together); }
+  bool enough() const { return reached() || looked >= settings_.boxes; }
+  std::optional<Halves> look(const Gap& one, const std::stop_token& stop) const {
+    Halves out{halves_of(node(one.node).box), {}};
+    for (std::size_t h = 0; h < out.box.size(); ++h) {
+      if (stop.stop_requested()) return {};
+      out.seen[h] = seen_of(cuts_, out.box[h], node(one.node).seen.left, some_);
+    }
+    return out;
+  }
+  void merge(const Gap& one, Halves halves) {
+    if (halves.box.empty()) {  // stays as it is
+      stuck_ = true;
+      return;
+    }
+    count(one.node, -1.0);
+    const int first = static_cast<int>(tree_.size());
+    node(one.node).first_half = first;
+    node(one.node).seen = {};
+    for (std::size_t h = 0; h < 2; ++h) tree_.push_back({halves.box[h], std::move(halves.seen[h])});
+    for (const int n : {first, first + 1}) add(n);
+    looked += 2;
+  }
+  double value() const { return std::max(low_, 0.0); }
+
+ private:
+  Node& node(int n) const { return tree_[static_cast<std::size_t>(n)]; }
+  /// Of sums that are no doubles nothing is known, and the gap is not reached.
+  bool reached() const { return high_ - low_ <= settings_.gap * high_; }
+  void count(int n, double sign) {
+    const double volume = plain_volume(node(n).box);
+    low_ += sign * node(n).seen.low * volume;
+    high_ += sign * node(n).seen.high * volume;
+  }
+  void add(int n) {
+    count(n, 1.0);
+    const Seen& seen = node(n).seen;
+    if (!seen.inner() && !seen.outer()) open.push({(seen.high - seen.low) * plain_volume(node(n).box), n});
+  }
+
+  Tree& tree_;
+  const LimitsOverBox& cuts_;
+  bool some_;
+  const CertifySettings& settings_;
+  double low_ = 0.0, high_ = 0.0;
+  bool stuck_ = false;
+};
 
 std::vector<Seen::Left> everything(const LimitsOverBox& cuts) {
   std::vector<Seen::Left> out;
@@ -51,80 +117,16 @@ Grown seed(const LimitsOverBox& cuts, const PositionBox& box, bool some) {
 }
 
 void grow(Grown& out, const LimitsOverBox& cuts, bool some, const CertifySettings& settings,
-          const std::function<bool()>& time_is_over, const Control& control) {
-  Tree& tree = out.tree;
-  out.end = End::gap;
-  std::priority_queue<Gap> open;
-  const auto volume = [&](int n) { return plain_volume(tree[static_cast<std::size_t>(n)].box); };
-  double low = 0.0, high = 0.0;
-  const auto count = [&](int n, double sign) {
-    const Seen& seen = tree[static_cast<std::size_t>(n)].seen;
-    low += sign * seen.low * volume(n);
-    high += sign * seen.high * volume(n);
-  };
-  const auto put = [&](int n) {
-    const Seen& seen = tree[static_cast<std::size_t>(n)].seen;
-    if (!seen.inner() && !seen.outer()) open.push({(seen.high - seen.low) * volume(n), n});
-  };
-  for (int n = 0; n < static_cast<int>(tree.size()); ++n)
-    if (tree[static_cast<std::size_t>(n)].leaf()) {
-      count(n, 1.0);
-      put(n);
-    }
-  const auto over = [&] { return control.stop.stop_requested() || time_is_over(); };
-  bool stuck = false;
-  // Of sums that are no doubles nothing is known, and the gap is not reached.
-  while (!open.empty() && !(high - low <= settings.gap * high)) {
-    if (control.stop.stop_requested() || time_is_over() || out.looked >= settings.boxes) {
-      out.end = control.stop.stop_requested() ? End::stopped : out.looked >= settings.boxes ? End::boxes : End::time;
-      return;
-    }
-    struct Item {
-      int node;
-      std::vector<PositionBox> half;
-      std::array<Seen, 2> seen;
-    };
-    std::vector<Item> items;
-    const std::size_t together = std::clamp(open.size() / part_together, least_together, most_together);
-    while (!open.empty() && items.size() < together) {
-      const int n = open.top().node;
-      open.pop();
-      Item item{n, halves_of(tree[static_cast<std::size_t>(n)].box), {}};
-      if (item.half.empty()) stuck = true;  // stays as it is
-      else items.push_back(std::move(item));
-    }
-    parallel_for(std::ssize(items), 4, settings.threads, [&](long first, long last) {
-      for (long k = first; k < last; ++k) {
-        Item& item = items[static_cast<std::size_t>(k)];
-        const Seen& whole = tree[static_cast<std::size_t>(item.node)].seen;
-        for (std::size_t h = 0; h < 2; ++h)
-          if (!over()) item.seen[h] = seen_of(cuts, item.half[h], whole.left, some);
-      }
-    });
-    for (Item& item : items) {
-      if (!item.seen[0].looked || !item.seen[1].looked) {
-        put(item.node);
-        continue;
-      }
-      count(item.node, -1.0);
-      const int first = static_cast<int>(tree.size());
-      Node& whole = tree[static_cast<std::size_t>(item.node)];
-      whole.first_half = first;
-      whole.seen = {};
-      for (std::size_t h = 0; h < 2; ++h) tree.push_back({item.half[h], std::move(item.seen[h])});
-      for (const int n : {first, first + 1}) {
-        count(n, 1.0);
-        put(n);
-      }
-      out.looked += 2;
-    }
-    if (control.progress) control.progress(out.looked, 0, std::max(low, 0.0));
-  }
-  if (stuck && !(high - low <= settings.gap * high)) out.end = End::smallest;
+          const std::stop_token& stop, const Control& control) {
+  GapSearch search(out.tree, cuts, some, settings);
+  search.looked = out.looked;
+  bound(search, {stop, control.progress}, settings.threads, 4);
+  out.looked = search.looked;
+  out.end = search.end(control);
 }
 
 CertifiedWorkspace::Beyond anything_in(const LimitsOverBox& cuts, const PositionBox& box, bool some, long looks,
-                                       const std::function<bool()>& over) {
+                                       const std::stop_token& stop) {
   using Beyond = CertifiedWorkspace::Beyond;
   struct Part {
     PositionBox box;
@@ -132,7 +134,7 @@ CertifiedWorkspace::Beyond anything_in(const LimitsOverBox& cuts, const Position
   };
   std::queue<Part> ahead;  // the largest first
   ahead.push({box, everything(cuts)});
-  for (; !ahead.empty() && looks > 0 && !over(); --looks) {
+  for (; !ahead.empty() && looks > 0 && !stop.stop_requested(); --looks) {
     const Part part = std::move(ahead.front());
     ahead.pop();
     const Seen seen = seen_of(cuts, part.box, part.left, some);
