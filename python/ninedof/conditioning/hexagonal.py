@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.support.arrays import Floats, all_finite, as_floats, filled, leading_shape, thread_argument
+from ninedof.support.arrays import Floats, all_finite, as_floats, leading_shape, thread_argument
 
 HEXAGONAL = ("a1", "a2", "b1", "b2", "zp", "zs")
 GATHERED = 2**16  # designs passed to the core at once, so that they stay in the caches
@@ -22,7 +22,6 @@ def hexagonal_condition_number(
     zp: ArrayLike,
     zs: ArrayLike,
     threads: int | None = None,
-    out: Floats | None = None,
 ) -> Any:
     """Return the condition number of many hexagonal designs, each at its neutral configuration (eqs. 6, 37, 38).
 
@@ -40,9 +39,6 @@ def hexagonal_condition_number(
         Sides of base and platform, heights of platform and O, divided by the characteristic length. They broadcast.
     threads : int, optional
         Number of threads; one per processor by default. The result does not depend on it.
-    out : numpy.ndarray, optional
-        Array for the result: float64, C-contiguous, aligned, of the shape the arguments broadcast to. It may be or
-        overlap an argument.
 
     Returns
     -------
@@ -52,7 +48,7 @@ def hexagonal_condition_number(
     Raises
     ------
     ValueError
-        If shapes do not broadcast, a number is infinite, or `out` does not fit.
+        If shapes do not broadcast or a number is infinite.
 
     Examples
     --------
@@ -64,22 +60,18 @@ def hexagonal_condition_number(
     arguments = dict(zip(HEXAGONAL, (a1, a2, b1, b2, zp, zs), strict=True))
     columns = {name: all_finite(name, _column(name, value), missing=True) for name, value in arguments.items()}
     shape, count = leading_shape({name: (values, 0) for name, values in columns.items()}), thread_argument(threads)
-
-    def compute(array: Floats | None) -> Floats:
-        results = np.empty(shape) if array is None else array
-        pieces: Any = np.nditer(
-            [*columns.values(), results],
-            flags=["external_loop", "buffered", "zerosize_ok", "copy_if_overlap"],
-            op_flags=[["readonly"]] * 6 + [["writeonly"]],  # type: ignore[call-overload]
-            buffersize=GATHERED,
-            order="C",
-        )
-        with pieces:
-            for *designs, piece in pieces:
-                _core.hexagonal_condition_numbers(np.stack(designs, axis=1), count, piece)
-        return results
-
-    return filled(out, shape, compute)
+    results = np.empty(shape)
+    pieces: Any = np.nditer(
+        [*columns.values(), results],
+        flags=["external_loop", "buffered", "zerosize_ok"],
+        op_flags=[["readonly"]] * 6 + [["writeonly"]],  # type: ignore[call-overload]
+        buffersize=GATHERED,
+        order="C",
+    )
+    with pieces:
+        for *designs, piece in pieces:
+            _core.hexagonal_condition_numbers(np.stack(designs, axis=1), count, piece)
+    return results[()]
 
 
 def _column(name: str, value: ArrayLike) -> Floats:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +25,7 @@ from ninedof.statics.dynamics import GRAVITY, gravity_for_core, inverse_dynamics
 from ninedof.support.arguments import choice, finite, instance, items
 from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_leading
 from ninedof.support.files import Saved
-from ninedof.support.structs import entries_of, plain_fields
+from ninedof.support.structs import entries_of, options_of, plain_fields
 from ninedof.support.text import short_repr
 from ninedof.support.units import metres, unit_entry
 from ninedof.tables.html import notebook
@@ -230,6 +230,14 @@ class Followed(Saved):
         return cls(Geometry(**entries["geometry"]), path, c, **entries_of(cls, entries, skipped=ROBOT))
 
 
+class FollowDuty(TypedDict, total=False):
+    """What the legs bear in `follow`, which says what the options mean."""
+
+    load: tuple[ArrayLike | None, ArrayLike | None]
+    masses: Any
+    gravity: ArrayLike | None
+
+
 def follow(
     geometry: Geometry | HasRobot,
     trajectory: Trajectory,
@@ -237,9 +245,7 @@ def follow(
     internal_point: str | float | None = None,
     limits: tuple[ArrayLike, ArrayLike] | None = None,
     characteristic_length: float | str | None = None,
-    load: tuple[ArrayLike | None, ArrayLike | None] = (None, None),
-    masses: Any = None,
-    gravity: ArrayLike | None = None,
+    **duty: Unpack[FollowDuty],
 ) -> Followed:
     """Return lengths, rates and accelerations of the legs along a trajectory, and what limits it.
 
@@ -303,7 +309,9 @@ def follow(
 
     """
     instance("trajectory", trajectory, Trajectory)
-    rule, lc, design, ends = internal_point, characteristic_length, geometry, items("load", load, "force and moment", 2)
+    bears = options_of("follow", FollowDuty, duty, load=(None, None))
+    ends, masses, gravity = items("load", bears["load"], "force and moment", 2), bears["masses"], bears["gravity"]
+    rule, lc, design = internal_point, characteristic_length, geometry
     study: Any = None if isinstance(design, Geometry) else getattr(design, "study", None)
     own: str = "" if isinstance(design, Geometry) else getattr(study or design, "unit", "")
     if own and trajectory.unit and own != trajectory.unit:
@@ -334,7 +342,7 @@ def follow(
     c = Configuration(path.position, path.rotation, motion.pop("internal_point"))
     if masses is not None or any(end is not None for end in ends):
         v, a = motion["velocity"], motion["acceleration"]
-        forces = inverse_dynamics(g, c, v, a, masses, gravity, _loads(*ends), unit).forces
+        forces = inverse_dynamics(g, c, (v, a), masses, gravity, _loads(*ends), unit).forces
     followed = Followed(
         geometry=g,
         trajectory=path,

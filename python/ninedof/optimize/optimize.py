@@ -10,6 +10,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
+from typing import TypedDict, Unpack
 
 from ninedof import _core
 from ninedof.design.region_poses import posed
@@ -26,10 +27,18 @@ from ninedof.support.arguments import choice, flag, instance, number, path_argum
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, part_of, phase, progress_argument
 from ninedof.support.store import Store
-from ninedof.support.structs import from_core, within
+from ninedof.support.structs import from_core, options_of, within
 from ninedof.support.text import short_repr
 
 LONGEST, LEAST = 600.0, 1.0  # seconds of a proof without a time limit, and where the search took all of one
+
+
+class OptimizeOptions(TypedDict, total=False):
+    """Options of `optimize`, which says what they mean."""
+
+    warm: Warm | Iterable[Warm] | None
+    time_limit: float
+    out: str | os.PathLike[str] | None
 
 
 def optimize(
@@ -38,11 +47,9 @@ def optimize(
     seed: int | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
-    warm: Warm | Iterable[Warm] | None = None,
     *,
     certify: bool = False,
-    time_limit: float = math.inf,
-    out: str | os.PathLike[str] | None = None,
+    **options: Unpack[OptimizeOptions],
 ) -> Result:
     """Minimize the objective of a study: by default, the condition number.
 
@@ -65,14 +72,14 @@ def optimize(
         design. A start is one run, or two where it is followed to its end after a short run. Runs in all grow where
         more starts follow. If it has a method `phase`, that is called with a few words where a part of the work begins:
         over a region, all starts and every round behind them, and the proofs that a reserve needs, which are no runs.
-    warm : Result, Candidate, mapping of names to values, or a sequence of them, optional
-        Additional starts, tried first: a result of a similar study (its best four candidates), or a known design. They
-        are moved inside the bounds.
     certify : bool
         Whether to prove afterwards how much better a design of the study can be at most, see `prove_optimum`:
         `Result.lower_bound` and `Result.proof`. Of hexagons to 1e-12 in a second or two, of other planar designs to
         3 per cent and of non-planar ones to 0.2 per cent in minutes, over a region with up to four free variables to
         0.1 per cent in a minute or so.
+    warm : Result, Candidate, mapping of names to values, or a sequence of them, optional
+        Additional starts, tried first: a result of a similar study (its best four candidates), or a known design. They
+        are moved inside the bounds.
     time_limit : float
         Seconds after which the search ends with the best design so far and status "stopped"; infinite by default. Of a
         region study that design is then searched over the region once more, which takes a second or two longer: what
@@ -104,6 +111,7 @@ def optimize(
     True
 
     """
+    values = options_of("optimize", OptimizeOptions, options, time_limit=math.inf)
     instance("study", study, Study)
     for note in study.notes:
         warnings.warn(note, stacklevel=2)
@@ -112,12 +120,12 @@ def optimize(
     count = thread_argument(threads)
     if flag("certify", certify):
         left_out_of(study)  # raises where no proof is known, before the work
-    additional = warm_variables(warm)
-    seconds = number("time_limit", time_limit)
+    additional = warm_variables(values["warm"])
+    seconds = number("time_limit", values["time_limit"])
     if not seconds > 0.0:
-        raise ValueError(f"time_limit: got {shown(time_limit)}, expected seconds, more than 0")
+        raise ValueError(f"time_limit: got {shown(values['time_limit'])}, expected seconds, more than 0")
+    out = None if values["out"] is None else path_argument("out", values["out"])
     if out is not None:
-        out = path_argument("out", out)
         warm_starts(study, additional)  # raises, before there is a folder
     question = {
         "kind": "optimize",

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands_with
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import shown
+from ninedof.support.arguments import items, shown
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.text import short_repr
 from ninedof.support.units import metres, unit_argument
@@ -70,8 +70,7 @@ class InverseDynamics(NamedTuple):
 def inverse_dynamics(
     geometry: Geometry,
     configuration: Configuration,
-    velocity: ArrayLike = (0.0,) * 9,
-    acceleration: ArrayLike = (0.0,) * 9,
+    motion: tuple[ArrayLike, ArrayLike] = ((0.0,) * 9, (0.0,) * 9),
     masses: Any = None,
     gravity: ArrayLike = GRAVITY,
     load: ArrayLike = (0.0,) * 6,
@@ -87,7 +86,7 @@ def inverse_dynamics(
     geometry : Geometry
     configuration : Configuration
         Shape (...).
-    velocity, acceleration : array_like, shape (..., 9)
+    motion : (velocity, acceleration), each array_like of shape (..., 9)
         Angular velocity of the platform (rad/time), velocities of its origin p and of O (length/time), base frame, and
         their time derivatives, as `Followed.velocity` and `Followed.acceleration` have them. 0 by default: the forces
         that hold the machine at rest.
@@ -118,19 +117,20 @@ def inverse_dynamics(
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=0.58124, b1=0.29062, b2=0.0)
     >>> c = nd.Configuration.neutral(0.39828, 0.24432)
-    >>> up = [0, 0, 0, 0, 0, 2, 0, 0, 2]
-    >>> motion = nd.inverse_dynamics(g, c, acceleration=up, masses=nd.Masses(platform=5.0))
-    >>> motion.forces.round(1)[[3, 6]]
+    >>> rest, up = [0] * 9, [0, 0, 0, 0, 0, 2, 0, 0, 2]
+    >>> lift = nd.inverse_dynamics(g, c, (rest, up), nd.Masses(platform=5.0))
+    >>> lift.forces.round(1)[[3, 6]]
     array([29.1, 33.4])
 
     """
     name = unit_argument(unit)
+    velocity, acceleration = items("motion", motion, "velocity and acceleration", 2)
     bodies = _core.Masses() if masses is None else masses_for_core(masses, name)
     shape, flat, rows = operands_with(
         geometry, configuration, velocity=(velocity, 9), acceleration=(acceleration, 9), load=(load, 6)
     )
-    motion = np.hstack([rows, np.zeros((len(rows), 3))])
-    out = _core.inverse_dynamics(*flat, motion, bodies, gravity_for_core(gravity, name), 0)
+    rows = np.hstack([rows, np.zeros((len(rows), 3))])
+    out = _core.inverse_dynamics(*flat, rows, bodies, gravity_for_core(gravity, name), 0)
     forces, rates, unbalanced = (out.reshape(*shape, 3, 9)[..., k, :].copy() for k in range(3))
     with np.errstate(over="ignore", invalid="ignore"):  # infinite where it is no number of double precision
         power = metres(name) * forces * rates

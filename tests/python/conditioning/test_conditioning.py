@@ -136,28 +136,8 @@ def test_many_hexagonal_designs_are_gathered_block_by_block():
         g = nd.Geometry.hexagonal(a1[i, j], a2[i, j], b1[j], 1.0)
         expected = nd.condition_number(g, nd.Configuration.neutral(zp[j], 0.25))
         assert_allclose(result[i, j], expected, rtol=1e-10)
-    out = np.zeros_like(result)
-    assert nd.hexagonal_condition_number(a1, a2, b1, 1, zp, 0.25, out=out, threads=1) is out
-    assert out.tobytes() == result.tobytes()
-
-
-@pytest.mark.parametrize("shift", [0, 1, 7])
-@pytest.mark.parametrize("threads", [1, 4])
-def test_an_out_that_overlaps_an_argument(shift, threads):
-    """As numpy does it: the result is that of arguments which nothing overlaps."""
-    rng = np.random.default_rng(16)
-    memory = rng.uniform(1.0, 2.0, 150_000 + shift)
-    a1, out = memory[shift:], memory[: memory.size - shift]
-    result = nd.hexagonal_condition_number(a1.copy(), 2.0, a1[::-1].copy(), 1.0, out.copy(), 0.5)
-    nd.hexagonal_condition_number(a1, 2.0, a1[::-1], 1.0, out, 0.5, threads=threads, out=out)
-    assert out.tobytes() == result.tobytes()
-
-
-def test_an_out_that_holds_a_number_of_the_arguments():
-    a1, out = np.linspace(1.0, 2.0, 100_000), np.full(100_000, 0.5)
-    result = nd.hexagonal_condition_number(a1, 2.0, 1.0, 1.0, 1.5, 0.5)
-    nd.hexagonal_condition_number(a1, 2.0, 1.0, 1.0, 1.5, out[:1], out=out)
-    assert out.tobytes() == result.tobytes()
+    alone = nd.hexagonal_condition_number(a1, a2, b1, 1, zp, 0.25, threads=1)
+    assert alone.tobytes() == result.tobytes()
 
 
 def test_characteristic_lengths_in_out(published, stack):
@@ -185,9 +165,5 @@ def test_characteristic_lengths_in_out(published, stack):
     ],
 )
 def test_an_out_that_does_not_fit_is_described(published, stack, out, words):
-    for call in (
-        lambda: nd.condition_number(published, stack, out=out),
-        lambda: nd.hexagonal_condition_number(1, 1, 1, 1, 1, np.full(5, 0.5), out=out),
-    ):
-        with pytest.raises(ValueError, match=rf"^out: {words}, expected a writeable aligned C-contiguous float64"):
-            call()
+    with pytest.raises(ValueError, match=rf"^out: {words}, expected a writeable aligned C-contiguous float64"):
+        nd.condition_number(published, stack, out=out)

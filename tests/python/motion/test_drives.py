@@ -32,7 +32,9 @@ def lifted():
 
 
 def test_forces_are_those_of_inverse_dynamics(lifted):
-    expected = nd.inverse_dynamics(lifted.geometry, lifted.configurations, lifted.velocity, lifted.acceleration, MASSES)
+    expected = nd.inverse_dynamics(
+        lifted.geometry, lifted.configurations, (lifted.velocity, lifted.acceleration), MASSES
+    )
     assert_allclose(lifted.leg_forces, expected.forces, rtol=1e-12, atol=1e-12)
     assert_allclose(lifted.leg_powers, expected.power, rtol=1e-12, atol=1e-12)
 

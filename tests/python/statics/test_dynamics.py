@@ -113,7 +113,7 @@ def test_powers_of_the_actuators_are_the_rate_of_the_energy(seed):
     masses, path, load, t, h = some_masses(rng), at_time(m, rng), rng.normal(size=6), 0.1, 4e-3
     g = m.geometry()
     velocity, acceleration = derivatives(path, t)
-    motion = nd.inverse_dynamics(g, path(t), velocity, acceleration, masses, GRAVITY, load)
+    motion = nd.inverse_dynamics(g, path(t), (velocity, acceleration), masses, GRAVITY, load)
     values = [energy(g, path, t + k * h, masses) for k in (-2, -1, 1, 2)]
     expected = np.array([1, -8, 8, -1]) @ values / (12.0 * h) - load @ velocity[:6]
     scale = np.abs(motion.power).sum()
@@ -190,7 +190,7 @@ def test_forces_are_those_of_mujoco(seed):
     slides = np.zeros((engine.nv, 9))
     slides[models.slides(engine)[1], range(9)] = 1.0
     solution = np.linalg.lstsq(np.hstack([slides, j.T]), wanted, rcond=1e-12)[0]
-    motion = nd.inverse_dynamics(g, c, velocity, acceleration, masses, GRAVITY, load)
+    motion = nd.inverse_dynamics(g, c, (velocity, acceleration), masses, GRAVITY, load)
     assert_allclose(motion.forces, solution[:9], rtol=0.0, atol=1e-9 * np.abs(solution).max())
 
 
@@ -222,9 +222,11 @@ def test_a_machine_in_another_unit_has_the_same_forces(unit):
     }
     same = SimpleNamespace(platform=5.0, cylinder=masses.cylinder, rod=masses.rod, internal_point=0.7, **own)
     wrench = load * ([size] * 3 + [1.0] * 3)
-    one = nd.inverse_dynamics(m.geometry(), m.configuration(), velocity, acceleration, masses, GRAVITY, load, unit="m")
+    one = nd.inverse_dynamics(
+        m.geometry(), m.configuration(), (velocity, acceleration), masses, GRAVITY, load, unit="m"
+    )
     g, c = larger.geometry(), larger.configuration()
-    other = nd.inverse_dynamics(g, c, by * velocity, by * acceleration, same, GRAVITY, wrench, unit=unit)
+    other = nd.inverse_dynamics(g, c, (by * velocity, by * acceleration), same, GRAVITY, wrench, unit=unit)
     assert_allclose(other.forces, one.forces, rtol=1e-9, atol=1e-9 * np.abs(one.forces).max())
     assert_allclose(other.power, one.power, rtol=1e-9, atol=1e-9 * np.abs(one.power).max())
 
@@ -233,9 +235,9 @@ def test_rows_of_a_stack_are_independent(published, stack):
     rng = np.random.default_rng(2)
     velocity, acceleration, load = rng.normal(size=(5, 9)), rng.normal(size=9), rng.normal(size=(4, 1, 6))
     masses = some_masses(rng)
-    motion = nd.inverse_dynamics(published, stack, velocity, acceleration, masses, load=load)
+    motion = nd.inverse_dynamics(published, stack, (velocity, acceleration), masses, load=load)
     assert motion.forces.shape == motion.power.shape == (4, 5, 9)
-    one = nd.inverse_dynamics(published, stack[2], velocity[2], acceleration, masses, load=load[1, 0])
+    one = nd.inverse_dynamics(published, stack[2], (velocity[2], acceleration), masses, load=load[1, 0])
     assert_allclose(motion.forces[1, 2], one.forces, rtol=0.0, atol=0.0)
 
 

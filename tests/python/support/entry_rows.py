@@ -66,9 +66,9 @@ row("singular_values", loose=("out",), **OVERFLOW)(lambda: {**robot(**LENGTH, **
 row("axis_singular_values", **OVERFLOW)(on_the_axis(**LENGTH))
 row("characteristic_length")(robot(kind="optimal"))
 DESIGN = {"a1": 0.25, "a2": 5.75, "b1": 3.0, "b2": 0.25, "zp": 4.0, "zs": 2.375}
-row("hexagonal_condition_number", loose=("out",), **OVERFLOW)(lambda: {**DESIGN, **THREADS, "out": np.zeros(())})
+row("hexagonal_condition_number", **OVERFLOW)(lambda: {**DESIGN, **THREADS})
 row("hexagonal_condition_number", of="hexagonal_condition_number: stacks", **OVERFLOW)(
-    lambda: {**{name: np.full(2, value) for name, value in DESIGN.items()}, "threads": 1, "out": None}
+    lambda: {**{name: np.full(2, value) for name, value in DESIGN.items()}, "threads": 1}
 )
 row("forward_position")(lambda: {"geometry": it.g(), "leg_lengths": it.lengths(), "certify": True, **THREADS})
 row("track", nan=("leg_lengths",))(
@@ -83,10 +83,9 @@ row("nearest_singularity")(
     robot(part="position", most=2.0, directions=3, **THREADS),
 )
 row("leg_forces")(robot(moment=[0.0, 0.0, 1.0], force=[0.0, 1.0, -9.0], force_at_o=[0.0, 0.5, 0.0]))
-row("inverse_dynamics", nan=("velocity", "load"))(
+row("inverse_dynamics", nan=("motion", "load"), words={"motion": ("velocity", "acceleration")})(
     robot(
-        velocity=RATES,
-        acceleration=RATES,
+        motion=(RATES, RATES),
         masses=nd.Masses(platform=2.0, cylinder=0.5, cylinder_centre=0.2),
         gravity=[0.0, 0.0, -9.81],
         load=[0.0, 0.0, 1.0, 0.0, 1.0, -9.0],
