@@ -17,9 +17,9 @@ from ninedof.cli.ending import finish, interruptible
 from ninedof.support.running import running
 
 PROGRAM = "ninedof"
+OWN = ("-h", "--help", "--version", "--install-completion", "--show-completion")  # options of no command
 
 app = typer.Typer(
-    add_completion=False,
     no_args_is_help=False,
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,
@@ -59,7 +59,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     words = list(sys.argv[1:] if arguments is None else arguments)
     if not os.environ.get("COLUMNS", "1").strip("0"):
         del os.environ["COLUMNS"]  # nothing can be written on no columns: as wide as the terminal
-    own_option = bool(words) and words[0] in ("-h", "--help", "--version")
+    own_option = bool(words) and words[0] in OWN
     if not words or words[0].endswith(".toml") or (words[0].startswith("-") and not own_option):
         words.insert(0, "optimize")
     with interruptible(), running(PROGRAM, words):

@@ -14,12 +14,18 @@ import typer
 from ninedof.cli.screen import Screen
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.conditioning.hexagonal import HEXAGONAL
+from ninedof.design.study import FAMILIES, variable_kinds
 from ninedof.redundancy.rules import RULES
+from ninedof.support.units import DEG
 
 Two = tuple[float, float]
 Three = tuple[float, float, float]
 T = TypeVar("T")
 
+VARIABLES = dict.fromkeys(
+    name + DEG * (kind == "angle") for family in FAMILIES for name, kind in variable_kinds(family).items()
+)
+"""Of all families, angles in degrees."""
 HEXAGON = (*HEXAGONAL, "theta_z_deg")
 
 THREADS = "Threads; one per processor by default. The result does not depend on it."
@@ -38,9 +44,19 @@ SCHEDULER = "Address of a Dask scheduler, as tcp://host:8786; its workers comput
 LEG_LIMITS = "Limits of all nine legs; those of the run's study by default."
 
 
-def option(words: str | None, default: Any = None, *names: str, metavar: str | None = None) -> Any:
-    """Return a field of a struct that is an option, with its words in --help; `...` as the default: it is required."""
-    return field(default=default, metadata={"typer": typer.Option(default, *names, help=words, metavar=metavar)})
+def option(
+    words: str | None, default: Any = None, *names: str, metavar: str | None = None, values: Iterable[str] = ()
+) -> Any:
+    """Return a field of a struct that is an option, with its words in --help; `...` as the default: it is required.
+
+    A shell completes the values, of which the option may have others too.
+    """
+
+    def complete(incomplete: str) -> list[str]:
+        return [value for value in values if value.startswith(incomplete)]
+
+    mark = typer.Option(default, *names, help=words, metavar=metavar, autocompletion=complete if values else None)
+    return field(default=default, metadata={"typer": mark})
 
 
 def typed(name: str) -> str:
@@ -170,4 +186,4 @@ class HexagonalOptions(Options):
     zp: float | None = option("Height of the platform.")
     zs: float | None = option("Height of the internal point.")
     theta_z_deg: float | None = option("Twist of the platform, degrees; 0 by default.")
-    lc: str | None = option(LC)
+    lc: str | None = option(LC, values=KINDS)

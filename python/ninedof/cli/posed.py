@@ -136,7 +136,8 @@ class PoseOptions(Options):
     rotation_deg: Three | None = triple("Rotation vector from the neutral orientation, base axes, degrees.")
     internal_point: str | None = option(
         'O at that pose: carried, shifted, held, best, a fraction between the plates, or "X Y Z"; by default as in the '
-        "region of the run's study, else carried."
+        "region of the run's study, else carried.",
+        values=RULES,
     )
 
     def at(self) -> DesignAtPoses:

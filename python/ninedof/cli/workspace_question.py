@@ -24,12 +24,15 @@ from ninedof.cli.options import (
     typed,
 )
 from ninedof.cli.posed import Chosen, length_at_home
+from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.design.indices import computed
 from ninedof.design.limits import OF_LENGTHS
+from ninedof.redundancy.rules import RULES
 from ninedof.support.arguments import choice, finite
 from ninedof.support.units import DEG, plain_name, unit_entry
 from ninedof.workspace.certified import GAPS, require_certifiable
-from ninedof.workspace.question import CRITERIA
+from ninedof.workspace.question import ARCHETYPES, CRITERIA
+from ninedof.workspace.search import METHODS
 from ninedof.workspace.study_question import ACTUATORS, Asked, asked_criteria, place_of, rule_of_region
 
 
@@ -39,7 +42,9 @@ class WorkspaceOptions(JobOptions):
 
     design: str | None = argument(DESIGN_OR_PUBLISHED, None)
     archetype: str = option(
-        "constant_orientation, orientation, reachable, inclusive or dexterous.", "constant_orientation"
+        "constant_orientation, orientation, reachable, inclusive or dexterous.",
+        "constant_orientation",
+        values=ARCHETYPES,
     )
     x: Two | None = ends()
     y: Two | None = ends()
@@ -62,6 +67,7 @@ class WorkspaceOptions(JobOptions):
         "Legs of a study that compares lengths: permitted (as long as its limits leave them), or needed (as "
         "its poses need them).",
         ACTUATORS[0],
+        values=ACTUATORS,
     )
     angle_deg: float | None = option("Region: rotations of at most this angle.")
     tilt_deg: float | None = option("Region: tilts of at most this angle.")
@@ -70,15 +76,18 @@ class WorkspaceOptions(JobOptions):
     position: Three | None = triple("Position of the platform, for orientation; the home position by default.")
     internal_point: str | None = option(
         "Position of O: carried, shifted, held, best, or a fraction between the plates; "
-        "by default as in the region of the run's study, else the design's."
+        "by default as in the region of the run's study, else the design's.",
+        values=RULES,
     )
-    lc: str | None = option(LC)
-    method: str = option("octree, grid or sample.", "octree")
+    lc: str | None = option(LC, values=KINDS)
+    method: str = option("octree, grid or sample.", "octree", values=METHODS)
     tolerance: float = option("Wanted error, as a share of the volume.", 1e-3)
     resolution: int | None = option("Cells along each side before any is divided.")
     points: int | None = option("Poses of the audit, or of each shift of a sample.")
     seed: int | None = option("Of the audit and of a sample; 0 by default.")
-    index: list[str] | None = option(f"An index over the workspace, may be repeated: {', '.join(computed())}.")
+    index: list[str] | None = option(
+        f"An index over the workspace, may be repeated: {', '.join(computed())}.", values=computed()
+    )
     certify: bool = option("Prove bounds of the volume, and boxes where every pose is allowed.", False, "--certify")
     gap: float | None = option("Of the bounds, relative to the upper one; 0.05 by default.")
     time: float | None = option("Seconds for the proof; 60 by default.")

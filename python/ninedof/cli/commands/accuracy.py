@@ -32,7 +32,9 @@ class _Options(PosesOptions):
     leg_error: float | None = option(LEG_ERROR)
     joint_error: float | None = option(JOINT_ERROR)
     distribution: str = option(
-        "Of the errors behind the standard deviation: uniform or normal (three sigma).", DISTRIBUTIONS[0]
+        "Of the errors behind the standard deviation: uniform or normal (three sigma).",
+        DISTRIBUTIONS[0],
+        values=DISTRIBUTIONS,
     )
     within: float | None = option("Largest displacement of p that is allowed: prints the tolerances for it.")
     within_deg: float | None = option("The same of the angle the platform turns, degrees.")

@@ -8,7 +8,7 @@ from typing import Any
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import SCHEDULER, THREADS, Options, argument, changes_option, option, struct
+from ninedof.cli.options import SCHEDULER, THREADS, VARIABLES, Options, argument, changes_option, option, struct
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.proof.admissible_set import UNDECIDED, NoRoom, room_words
@@ -37,9 +37,10 @@ EXAMPLES = """
 class _Options(Options):
     of: str = argument("A study file, a run folder, or RUN#7 of a front.", metavar="STUDY|RUN")
     vary: list[str] | None = option(
-        "A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH. Needed, but with --around alone."
+        "A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH. Needed, but with --around alone.",
+        values=VARIABLES,
     )
-    set: list[str] | None = option("Another variable: zs=320, or zs=+10%. Repeatable.")
+    set: list[str] | None = option("Another variable: zs=320, or zs=+10%. Repeatable.", values=VARIABLES)
     condition: float | None = option("A bound of the condition number besides the limits.")
     time: float = option("Seconds, with --scheduler of each root; what is proved by then is kept.", 300.0)
     resolution: float = option("The least size of a box, as a part of each range.", 0.01)

@@ -14,6 +14,7 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import LC, LEG_LIMITS, Two, ends, option, struct
 from ninedof.cli.posed import DesignAtPoses, PosesOptions, length_at_home, with_length, xyz
 from ninedof.cli.screen import DONE, NO_RESULT
+from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.redundancy.redundancy import CRITERIA
 from ninedof.sheet.pose_words import decimals_of, fixed, outside_words, vector_words
 from ninedof.support.arrays import Floats
@@ -32,9 +33,9 @@ SHOWN = 12  # poses, the worst ones
 
 @struct
 class _Options(PosesOptions):
-    criterion: str = option(f"One of {', '.join(CRITERIA)}.", "condition_number")
+    criterion: str = option(f"One of {', '.join(CRITERIA)}.", "condition_number", values=CRITERIA)
     legs: Two | None = ends(LEG_LIMITS)
-    lc: str | None = option(LC)
+    lc: str | None = option(LC, values=KINDS)
 
 
 def best(options: _Options) -> Answer:

@@ -11,7 +11,17 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.commands.compare import compared, plot_argument
-from ninedof.cli.options import HEXAGON, ONE_DESIGN, PLOT, HexagonalOptions, argument, changes_option, option, struct
+from ninedof.cli.options import (
+    HEXAGON,
+    ONE_DESIGN,
+    PLOT,
+    VARIABLES,
+    HexagonalOptions,
+    argument,
+    changes_option,
+    option,
+    struct,
+)
 from ninedof.cli.posed import beyond_words, chosen_design, named_design
 from ninedof.design.indices import computed
 from ninedof.records.design_file import indices
@@ -35,7 +45,7 @@ EXAMPLES = """
 class _Options(HexagonalOptions):
     design: str | None = argument(ONE_DESIGN, None)
     changes: list[str] | None = option(
-        "What if? A variable of the run's study: a2=900 or a2=+10%. Repeatable.", None, "--set"
+        "What if? A variable of the run's study: a2=900 or a2=+10%. Repeatable.", None, "--set", values=VARIABLES
     )
     plot: Path | None = option(PLOT)
 

@@ -13,6 +13,7 @@ from ninedof.export.export import formats
 from ninedof.export.model import Format
 from ninedof.support.arguments import choice
 from ninedof.support.files import own_or_new
+from ninedof.support.units import UNITS
 
 PLACE = 4
 BODIES = {"platform": "platform", "cylinder": "each cylinder", "rod": "each rod", "internal_point": "O"}
@@ -27,14 +28,16 @@ WORDS = "; ".join(f"{name}: {row.words}" for name, row in formats().items())
 @struct
 class _Options(Options):
     design: str = argument(ONE_DESIGN)
-    to: str | None = option(f"{WORDS}. Follows from the suffix of --out if that is given.")
+    to: str | None = option(f"{WORDS}. Follows from the suffix of --out if that is given.", values=formats())
     out: Path | None = option("The file; in this folder, with the name of the design, by default.")
     leg_mass: float | None = option("mjcf, urdf, sdf: mass of a leg, kg; that of the study, or 1, by default.")
     platform_mass: float | None = option(
         "mjcf, urdf, sdf: mass of the platform, kg; that of the study, or 5, by default."
     )
     gravity: float | None = option("mjcf: downward, m/s²; 0 by default.")
-    unit: str | None = option("The length unit (mm, cm, m, in, ft); that of the study or file by default.")
+    unit: str | None = option(
+        "The length unit (mm, cm, m, in, ft); that of the study or file by default.", values=UNITS
+    )
 
 
 def export(options: _Options) -> Answer:

@@ -39,7 +39,8 @@ class _Options(JobOptions):
     against: str | None = option(
         'The limit that is swept: a constraint ("leg_ratio at neutral", "base_cone_deg"), '
         "condition_limit, or tolerance: what accuracy costs. By default radius_ratio, of a run the limit of "
-        "greatest price."
+        "greatest price.",
+        values=[*names_with_max(), CONDITION_LIMIT, TOLERANCE],
     )
     value: list[float] | None = option(
         "A limit to solve, angles in degrees; may be repeated. By default the command selects the limits."

@@ -29,10 +29,12 @@ from ninedof.cli.options import (
 )
 from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
+from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.motion.follow import wrenches_along
 from ninedof.motion.tables import motion_tables, motion_words
 from ninedof.records.motion import motion_values
 from ninedof.records.record import run_folder, write_run
+from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.pose_words import turn_deg, vector_words
@@ -67,7 +69,8 @@ class _Options(JobOptions):
     points: int | None = option("Poses of a circle, line or spiral; 1001 by default.")
     internal_point: str | None = option(
         "Position of O: carried, shifted, held, best, or a fraction between the plates; by default as in the "
-        "region of the run's study, else carried."
+        "region of the run's study, else carried.",
+        values=RULES,
     )
     legs: Two | None = ends(LEG_LIMITS)
     force: Three | None = triple("Force on the platform at its origin.")
@@ -75,7 +78,7 @@ class _Options(JobOptions):
     mass: float | None = option("Mass of the platform: weight and inertia are added to the load; of the study.")
     centre: Three | None = triple("Its centre in the frame of the plate; of the study.")
     gravity: Three | None = triple("Force per mass, base axes; 0 0 -9.81 by default.")
-    lc: str | None = option(LC)
+    lc: str | None = option(LC, values=KINDS)
 
 
 def path(options: _Options) -> None:

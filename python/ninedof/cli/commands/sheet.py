@@ -22,6 +22,7 @@ from ninedof.cli.options import (
     typed,
 )
 from ninedof.cli.posed import named_design
+from ninedof.design.leg_duty import INTERNAL
 from ninedof.sheet.tables import sheet_parts
 from ninedof.support.arguments import finite
 from ninedof.support.files import own_or_new, write_whole
@@ -42,7 +43,9 @@ class _Options(Options):
     design: str = argument(ONE_DESIGN)
     speed: float | None = option("Platform speed for the leg speeds, length/time; of the study, or 1.")
     turn_deg: float | None = option("Angular speed beside it, degrees/time; of the study, or 0.")
-    internal: str | None = option("How O moves: least, held, shifted or carried; as in the poses by default.")
+    internal: str | None = option(
+        "How O moves: least, held, shifted or carried; as in the poses by default.", values=INTERNAL
+    )
     twist: str | None = option(
         'A motion "wx wy wz vx vy vz": angular velocity (rad/time) and velocity of the platform.'
     )

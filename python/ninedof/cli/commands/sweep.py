@@ -18,6 +18,7 @@ from ninedof.design.indices import computed
 from ninedof.design.study import FAMILIES as FAMILY_NAMES
 from ninedof.design.variables import variables_of
 from ninedof.paper.published import published_variables
+from ninedof.redundancy.rules import RULES
 from ninedof.support.arguments import choice
 from ninedof.support.units import DEG, plain_name
 from ninedof.sweep.axis import Values
@@ -46,16 +47,19 @@ class _Options(HexagonalOptions, Job):
     over: list[str] | None = option(
         "NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,..., up to three times. Names: x_p y_p z_p theta_x theta_y "
         "theta_z x_s y_s z_s, or variables of the design's family, as a1 a2 b1 b2 zp zs. Angles in radians, or in "
-        "degrees with _deg behind the name."
+        "degrees with _deg behind the name.",
+        values=sorted({*COORDINATES, *VARIABLES}),
     )
     index: list[str] | None = option(
         f"The index, condition_number by default; may be repeated. One of "
-        f"{', '.join(computed())}; over designs also six_legged."
+        f"{', '.join(computed())}; over designs also six_legged.",
+        values=computed(),
     )
     absolute: bool = option("Values are the coordinates themselves, not displacements.", False, "--absolute")
     internal_point: str | None = option(
         "Position of O while the platform moves: held, carried, shifted or best; by default as in the region of the "
-        "run's study, else held, and held where O is swept."
+        "run's study, else held, and held where O is swept.",
+        values=RULES,
     )
     points: int | None = option("Points of each curve of a figure.")
     chunk: int | None = option("Points per chunk. The result does not depend on it.")
