@@ -71,15 +71,14 @@ class Function:
             self.inside += perf_counter() - begin
             self.evaluations += 1
             zp, zs = (self.full[k] for k in self.heights)
-            kappa = float(core["objective"] if "objective" in core else math.exp(core["log_condition_number"]))
-            kappa = min(kappa, 1e9)  # SciPy takes no infinity
-            margins = [m for _, m, _ in core["margins"]] + [1.0 - zs / zp]
+            kappa = min(core.objective, 1e9)  # SciPy takes no infinity
+            margins = [one.value for one in core.margins] + [1.0 - zs / zp]
             below = np.zeros_like(self.full)  # gradient of 1 - zs/zp
             below[[*self.heights]] = zs / zp**2, -1.0 / zp
-            slopes = np.array([*(s for _, _, s in core["margins"]), below])[:, self.free]
+            slopes = np.array([*(one.gradient for one in core.margins), below])[:, self.free]
             if len(self.memory) >= MEMORY:
                 self.memory.clear()
-            self.memory[key] = kappa, kappa * core["gradient"][self.free], np.array(margins), slopes
+            self.memory[key] = kappa, kappa * core.gradient[self.free], np.array(margins), slopes
             inside = all(low <= v <= high for v, (low, high) in zip(x, self.bounds, strict=True))
             if kappa < self.best and inside and min(margins) >= -FEASIBLE:
                 self.best = kappa

@@ -146,8 +146,19 @@ def best_internal_map(
     /,
 ) -> InternalPointMap: ...
 
-# The fields of `Followed` that are computed; "singularity_margins" (3, n), "leg_forces" (0, 9) without a load and
-# masses, "tracked" the number of poses. The trajectory is `time`, `position` and `rotation`.
+class Followed:
+    internal_point: _Floats
+    leg_lengths: _Floats
+    leg_rates: _Floats
+    leg_accelerations: _Floats
+    velocity: _Floats
+    acceleration: _Floats
+    condition_number: _Floats
+    singularity_margins: _Floats
+    tracked: int
+    tracking_error: float
+
+# The trajectory is `time`, `position` and `rotation`.
 def follow(
     g: Geometry,
     home: _Poses,
@@ -158,7 +169,7 @@ def follow(
     limits: tuple[_Floats, _Floats],
     characteristic_length: float,
     /,
-) -> dict[str, Any]: ...
+) -> Followed: ...
 
 # Each (9,); times (n,), forces and rates (n, 9).
 def drive_figures(time: _Floats, forces: _Floats, rates: _Floats, /) -> dict[str, _Floats]: ...
@@ -349,8 +360,24 @@ class Problem:
     def configurations(self, x: Sequence[float], /) -> tuple[_Floats, _Floats, _Floats]: ...
     def characteristic_length(self, x: Sequence[float], /) -> float: ...
     def exempt_pairs(self, /) -> list[bool]: ...
-    def evaluate(self, x: Sequence[float], /) -> dict[str, Any]: ...
+    def evaluate(self, x: Sequence[float], /) -> Evaluation: ...
     def starts(self, count: int, seed: int, /) -> _Floats: ...
+
+class Margin:
+    name: str
+    value: float
+    gradient: _Floats
+    limited: float
+    part: str
+
+class Evaluation:
+    objective: float
+    log_objective: float
+    gradient: _Floats
+    condition_number: float
+    conditions: list[float]
+    characteristic_length: float
+    margins: list[Margin]
 
 limit_parts: dict[str, tuple[str, ...]]
 limits_over_lengths: dict[str, tuple[str, ...]]

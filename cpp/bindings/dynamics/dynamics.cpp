@@ -13,16 +13,16 @@ T three_vectors(const double* from) {
 
 void bind_masses(py::module_& m) {
   request<Masses>(m, "Masses", "Masses of the platform, of the two bodies of each leg and of O.")
-      .def_readwrite("platform", &Masses::platform)
+      .def_readwrite("platform", &Masses::platform, "With what it carries.")
       .def_readwrite("centre", &Masses::centre, "Platform frame.")
       .def_readwrite("inertia", &Masses::inertia, "About the centre, platform frame.")
       .def_readwrite("cylinder", &Masses::cylinder, "Shape (9,), as the rest of the legs.")
-      .def_readwrite("rod", &Masses::rod)
+      .def_readwrite("rod", &Masses::rod, "Shape (9,).")
       .def_readwrite("cylinder_centre", &Masses::cylinder_centre, "From the leg's start.")
       .def_readwrite("rod_centre", &Masses::rod_centre, "From the leg's other end.")
       .def_readwrite("cylinder_inertia", &Masses::cylinder_inertia, "Across the leg, about the centre.")
       .def_readwrite("rod_inertia", &Masses::rod_inertia, "Across the leg, about the centre.")
-      .def_readwrite("internal_point", &Masses::internal_point);
+      .def_readwrite("internal_point", &Masses::internal_point, "A point mass at O.");
 }
 
 }  // namespace

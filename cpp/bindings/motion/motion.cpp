@@ -7,6 +7,7 @@
 #include "ninedof/motion/follow.hpp"
 #include "support/module.hpp"
 #include "support/poses.hpp"
+#include "support/struct.hpp"
 
 namespace ninedof::python {
 namespace {
@@ -57,31 +58,47 @@ py::list tuples_of(const std::vector<LimitBreak>& breaks) {
   return out;
 }
 
-py::dict followed(const Geometry& g, const Configuration& home, const Array& time, const Array& position,
+Followed followed(const Geometry& g, const Configuration& home, const Array& time, const Array& position,
                   const Array& rotation, const py::object& rule, const std::pair<Array, Array>& limits,
                   double characteristic_length) {
   const Trajectory trajectory{{time.data(), time.data() + time.size()}, poses_from(position, rotation)};
   const FollowSettings settings{trajectory_rule_from(rule), limits_from(limits.first, limits.second),
                                 characteristic_length};
-  const Followed found =
-      interruptible(py::none(), [&](const Control& control) { return follow(g, trajectory, home, settings, control); });
-  py::dict out;
-  out["internal_point"] = table(found.internal_point, 3);
-  out["leg_lengths"] = table(found.leg_lengths, 9);
-  out["leg_rates"] = table(found.leg_rates, 9);
-  out["leg_accelerations"] = table(found.leg_accelerations, 9);
-  out["velocity"] = table(found.derivatives.velocity, 9);
-  out["acceleration"] = table(found.derivatives.acceleration, 9);
-  out["condition_number"] = array_from(Eigen::VectorXd::Map(found.condition_number.data(), time.size()));
-  out["singularity_margins"] = rows_from(found.singularity_margins);
-  out["tracked"] = found.tracked;
-  out["tracking_error"] = found.tracking_error;
-  return out;
+  return interruptible(py::none(),
+                       [&](const Control& control) { return follow(g, trajectory, home, settings, control); });
+}
+
+/// A getter of one row of nine numbers for each pose.
+template <class T>
+auto legs_of(std::vector<T> Followed::* member) {
+  return [member](const Followed& motion) { return table(motion.*member, 9); };
+}
+
+void bind_followed(py::module_& m) {
+  py::class_<Followed>(m, "Followed", "A motion along a trajectory of n poses, legs in the order of leg_lengths.")
+      .def_property_readonly("internal_point", points_of(&Followed::internal_point), "O, shape (n, 3).")
+      .def_property_readonly("leg_lengths", legs_of(&Followed::leg_lengths), "Shape (n, 9).")
+      .def_property_readonly("leg_rates", legs_of(&Followed::leg_rates), "Length/time, shape (n, 9).")
+      .def_property_readonly("leg_accelerations", legs_of(&Followed::leg_accelerations), "Length/time^2, shape (n, 9).")
+      .def_property_readonly(
+          "velocity", [](const Followed& motion) { return table(motion.derivatives.velocity, 9); },
+          "Angular velocity, velocities of p and O, base frame, shape (n, 9).")
+      .def_property_readonly(
+          "acceleration", [](const Followed& motion) { return table(motion.derivatives.acceleration, 9); },
+          "Their time derivatives, shape (n, 9).")
+      .def_property_readonly("condition_number", column_of<double>(&Followed::condition_number),
+                             "Infinite where singular, shape (n,).")
+      .def_property_readonly(
+          "singularity_margins", [](const Followed& motion) { return rows_from(motion.singularity_margins); },
+          "det N, det B and det C, shape (3, n).")
+      .def_readonly("tracked", &Followed::tracked, "Poses from the first on that `track` returns.")
+      .def_readonly("tracking_error", &Followed::tracking_error, "Of Q, and of p and O over the longest leg.");
 }
 
 }  // namespace
 
 void bind_motion(py::module_& m) {
+  bind_followed(m);
   m.def("follow", &followed);
   m.def("drive_figures", [](const Array& time, const Array& forces, const Array& rates) {
     const DriveFigures f = drive_figures(span_of(time), lengths_from(forces), lengths_from(rates));

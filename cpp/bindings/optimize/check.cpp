@@ -26,22 +26,27 @@ RegionCheck region_checked(const Problem& problem, const Region& region, const s
 
 void bind_check(py::module_& m) {
   py::class_<OptimumCheck>(m, "OptimumCheck", "Whether a design is an optimum: the first-order test and random steps.")
-      .def_readonly("residual", &OptimumCheck::residual)
-      .def_readonly("active", &OptimumCheck::active)
-      .def_readonly("steps", &OptimumCheck::steps)
-      .def_readonly("better", &OptimumCheck::better)
-      .def_readonly("gain", &OptimumCheck::gain);
+      .def_readonly("residual", &OptimumCheck::residual, "Of the first-order conditions; 0 at a stationary point.")
+      .def_readonly("active", &OptimumCheck::active, "Bounds and limits that are reached.")
+      .def_readonly("steps", &OptimumCheck::steps, "Random steps; 0 where no variable is free.")
+      .def_readonly("better", &OptimumCheck::better, "Of them, those to a smaller objective, allowed or not.")
+      .def_readonly("gain", &OptimumCheck::gain, "Largest relative improvement by an allowed design; 0 for none.");
   py::class_<RegionCheck>(m, "RegionCheck", "Where a design is worst over a region.")
-      .def_readonly("index", &RegionCheck::index)
-      .def_readonly("margin", &RegionCheck::margin)
-      .def_readonly("excess", &RegionCheck::excess)
-      .def_readonly("poses", &RegionCheck::poses)
+      .def_readonly("index", &RegionCheck::index, "The greatest value of the index.")
+      .def_readonly("margin", &RegionCheck::margin, "The least of a limit, relative; infinite without limits.")
+      .def_readonly("excess", &RegionCheck::excess,
+                    "By how much a limit or the index is passed, in logarithms; negative where none is.")
+      .def_readonly("poses", &RegionCheck::poses, "Looked at.")
       .def_property_readonly(
           "mean",
-          [](const RegionCheck& c) { return c.mean ? c.mean->value : std::numeric_limits<double>::quiet_NaN(); })
-      .def_property_readonly("standard_error", [](const RegionCheck& c) {
-        return c.mean ? c.mean->standard_error : std::numeric_limits<double>::quiet_NaN();
-      });
+          [](const RegionCheck& c) { return c.mean ? c.mean->value : std::numeric_limits<double>::quiet_NaN(); },
+          "Of the index, NaN where the objective is no mean.")
+      .def_property_readonly(
+          "standard_error",
+          [](const RegionCheck& c) {
+            return c.mean ? c.mean->standard_error : std::numeric_limits<double>::quiet_NaN();
+          },
+          "Of the mean.");
   m.def("check_optimum", &optimum_checked);
   m.def("check_region", &region_checked);
 }

@@ -31,37 +31,39 @@ auto tuple_of(U T::* member) {
 void bind_results(py::module_& m) {
   py::class_<Candidate>(m, "Candidate", "A local optimum and the results of its checks.")
       .def_readonly("variables", &Candidate::variables, "A full set, in the order of the names of the problem.")
-      .def_readonly("objective", &Candidate::objective)
+      .def_readonly("objective", &Candidate::objective, "The index: its worst value over the poses, or its mean.")
       .def_readonly("neutral_condition_number", &Candidate::condition_number, "At the neutral pose.")
       .def_property_readonly("conditions", tuple_of(&Candidate::conditions), "At each evaluated pose.")
-      .def_readonly("characteristic_length", &Candidate::characteristic_length)
+      .def_readonly("characteristic_length", &Candidate::characteristic_length, "Of this design, a length.")
       .def_property_readonly("active", tuple_of(&Candidate::active), "Active bounds and constraints, by name.")
       .def_readonly("prices", &Candidate::prices, "Per cent of the objective for one of what is active.")
-      .def_readonly("optimality_residual", &Candidate::optimality_residual)
+      .def_readonly("optimality_residual", &Candidate::optimality_residual,
+                    "Of the first-order conditions; 0 at a stationary point.")
       .def_readonly("constraint_violation", &Candidate::constraint_violation, "Largest negative margin; 0 if none.")
       .def_readonly("reached", &Candidate::reached, "Starts that ended at this objective, warm ones aside.");
   py::class_<Result>(m, "Result", "Distinct local optima and how the search ended.")
-      .def_property_readonly("status", [](const Result& r) { return to_string(r.status); })
+      .def_property_readonly(
+          "status", [](const Result& r) { return to_string(r.status); }, "optimal, unbounded, infeasible or stopped.")
       .def_readonly("reason", &Result::reason, "One sentence.")
       .def_property_readonly("causes", tuple_of(&Result::causes), "Variables or limits behind the status.")
       .def_readonly("candidates", &Result::candidates, "Best first.")
-      .def_readonly("evaluations", &Result::evaluations)
-      .def_readonly("starts_done", &Result::starts_done)
+      .def_readonly("evaluations", &Result::evaluations, "Designs evaluated, over all starts.")
+      .def_readonly("starts_done", &Result::starts_done, "Starts that ran.")
       .def_readonly("runs_abandoned", &Result::runs_abandoned, "Given up after a short run.")
       .def_readonly("runs_completed", &Result::runs_completed, "In the round that found the best design.")
-      .def_readonly("interrupted", &Result::interrupted);
+      .def_readonly("interrupted", &Result::interrupted, "By Ctrl-C.");
   py::class_<RegionMean>(m, "RegionMean", "The harmonic mean of an index over a region.")
-      .def_readonly("nodes", &RegionMean::nodes)
-      .def_readonly("quadrature", &RegionMean::quadrature)
-      .def_readonly("value", &RegionMean::value)
-      .def_readonly("error", &RegionMean::error)
-      .def_readonly("standard_error", &RegionMean::standard_error);
+      .def_readonly("nodes", &RegionMean::nodes, "Poses of the quadrature that the search used.")
+      .def_readonly("quadrature", &RegionMean::quadrature, "The mean over them.")
+      .def_readonly("value", &RegionMean::value, "Over other poses.")
+      .def_readonly("error", &RegionMean::error, "Of the quadrature.")
+      .def_readonly("standard_error", &RegionMean::standard_error, "Of the value.");
   py::class_<RegionReport>(m, "RegionReport", "What is known of the best design over the region.")
       .def_readonly("poses", &RegionReport::poses, "Where limits and index were imposed.")
       .def_readonly("rounds", &RegionReport::rounds, "Designs that were searched over the region.")
       .def_readonly("looked_at", &RegionReport::looked_at, "Poses of the last search.")
       .def_readonly("objective", &RegionReport::objective, "The largest value of the index found.")
-      .def_readonly("objective_at", &RegionReport::objective_at)
+      .def_readonly("objective_at", &RegionReport::objective_at, "The pose where it is.")
       .def_readonly("margin", &RegionReport::margin, "The least of a limit found, relative.")
       .def_readonly("limit", &RegionReport::limit, "Its name; empty without limits.")
       .def_readonly("gain", &RegionReport::gain, "By how much the objective could still fall near this design.")
@@ -69,7 +71,7 @@ void bind_results(py::module_& m) {
       .def_readonly("leg_ranges", &RegionReport::leg_ranges, "Lengths that O, placed at every pose, keeps.");
   py::class_<Trace>(m, "Trace", "One run from one start.")
       .def_property_readonly("best", tuple_of(&Trace::best), "Least objective of a feasible design so far.")
-      .def_readonly("end", &Trace::end);
+      .def_readonly("end", &Trace::end, "The design at the end.");
 }
 
 std::array<double, 6> numbers(const Vec6& at) {
@@ -180,7 +182,7 @@ void bind_optimize(py::module_& m) {
   m.attr("built_with") = built_with;
 
   const Settings defaults;
-  py::class_<Settings>(m, "Settings")
+  py::class_<Settings>(m, "Settings", "How a study is searched.")
       .def(py::init([](int starts, std::uint64_t seed, int threads, int max_evaluations,
                        const std::optional<Vectors>& warm, double time_limit, bool explain) {
              Settings settings{starts, seed, threads, max_evaluations, {}, time_limit, explain};

@@ -75,27 +75,23 @@ void bind_requests(py::module_& m) {
           "Greatest moduli of the six coordinates of a pose.");
 }
 
-/// log of the objective with its gradient, condition numbers, and every constraint's smallest margin with its own.
-py::dict evaluate_at(const Problem& problem, const std::vector<double>& x) {
-  const Evaluation e = evaluate(problem, vector_from(x));
-  py::list margins;
-  py::dict limited, parts;
-  for (const Evaluation::Margin& m : e.margins) {
-    limited[py::str(m.name)] = m.limited;
-    parts[py::str(m.name)] = m.part;
-  }
-  for (const Evaluation::Margin& m : e.margins) margins.append(py::make_tuple(m.name, m.value, array_from(m.gradient)));
-  py::dict out;
-  out["log_objective"] = e.log_objective;
-  out["objective"] = std::exp(e.log_objective);
-  out["gradient"] = array_from(e.gradient);
-  out["condition_number"] = e.condition_number;
-  out["conditions"] = e.conditions;
-  out["characteristic_length"] = e.characteristic_length;
-  out["margins"] = margins;
-  out["limited"] = limited;
-  out["parts"] = parts;
-  return out;
+void bind_evaluation(py::module_& m) {
+  using Margin = Evaluation::Margin;
+  py::class_<Margin>(m, "Margin", "The smallest margin of a constraint.")
+      .def_readonly("name", &Margin::name, "Of the constraint, with its pose.")
+      .def_readonly("value", &Margin::value, "Relative, negative where the limit is violated.")
+      .def_readonly("gradient", &Margin::gradient, "By the variables, shape (n,).")
+      .def_readonly("limited", &Margin::limited, "What is limited, in the unit of the limit.")
+      .def_readonly("part", &Margin::part, "The leg, pair of legs or determinant that reaches it, if it has parts.");
+  py::class_<Evaluation>(m, "Evaluation", "One design of a problem.")
+      .def_property_readonly(
+          "objective", [](const Evaluation& e) { return std::exp(e.log_objective); }, "The index over the poses.")
+      .def_readonly("log_objective", &Evaluation::log_objective, "Its logarithm.")
+      .def_readonly("gradient", &Evaluation::gradient, "Of the logarithm, by the variables, shape (n,).")
+      .def_readonly("condition_number", &Evaluation::condition_number, "At the neutral pose.")
+      .def_readonly("conditions", &Evaluation::conditions, "Condition numbers at the evaluated poses.")
+      .def_readonly("characteristic_length", &Evaluation::characteristic_length, "A length.")
+      .def_readonly("margins", &Evaluation::margins, "One for each constraint.");
 }
 
 /// Stacks (n, 3), (n, 3, 3), (n, 3): the neutral configuration, then the poses of the objective.
@@ -118,6 +114,7 @@ py::tuple configurations_at(const Problem& problem, const std::vector<double>& x
 
 void bind_problem(py::module_& m) {
   bind_requests(m);
+  bind_evaluation(m);
   m.def("design_family_names", &design_family_names);
   m.attr("constraint_table") = rows_of(constraint_table());
   m.attr("criterion_table") = rows_of(criterion_table());
@@ -146,7 +143,7 @@ void bind_problem(py::module_& m) {
            py::arg("family"), py::arg("bounds"), py::arg("limits"), py::arg("characteristic_length"),
            py::arg("objective"), py::arg("tool_position") = Vec3(0.0, 0.0, 0.0),
            py::arg("tool_rotation") = Vec3(0.0, 0.0, 0.0))
-      .def_property_readonly("names", &Problem::names)
+      .def_property_readonly("names", &Problem::names, "Of the variables, in the order of a full set.")
       .def("with_limits",
            [](Problem p, const std::vector<Limit>& limits, double condition_limit, double neutral_condition_limit) {
              p.limits = limits;
@@ -159,7 +156,7 @@ void bind_problem(py::module_& m) {
       .def("characteristic_length",
            [](const Problem& p, const std::vector<double>& x) { return characteristic_length(p, vector_from(x)); })
       .def("exempt_pairs", &exempt_pairs)
-      .def("evaluate", &evaluate_at)
+      .def("evaluate", [](const Problem& p, const std::vector<double>& x) { return evaluate(p, vector_from(x)); })
       .def("starts", [](const Problem& p, int count, std::uint64_t seed) {
         Settings settings;
         settings.starts = count;

@@ -62,11 +62,10 @@ py::dict found_designs(const DesignQuestion& question, const DesignSet& found) {
 /// The pieces of an earlier run, from the arrays that it gave.
 std::vector<DesignPiece> pieces_from(const py::dict& from, std::size_t count) {
   const auto low = from["low"].cast<Array>(), high = from["high"].cast<Array>(), poses = from["poses"].cast<Array>();
-  const auto state = from["state"].cast<std::vector<int>>(), demand = from["demand"].cast<std::vector<int>>();
-  const auto n = static_cast<py::ssize_t>(state.size());
-  if (low.ndim() != 2 || low.shape(0) != n || low.shape(1) != static_cast<py::ssize_t>(count) || high.ndim() != 2 ||
-      high.shape(0) != n || high.shape(1) != low.shape(1) || poses.ndim() != 2 || poses.shape(0) != n ||
-      poses.shape(1) != 14 || demand.size() != state.size())
+  const py::ssize_t n = low.ndim() > 0 ? low.shape(0) : 0;
+  const auto state = list_from<int>("state", from["state"], n), demand = list_from<int>("demand", from["demand"], n);
+  if (low.ndim() != 2 || low.shape(1) != static_cast<py::ssize_t>(count) || high.ndim() != 2 || high.shape(0) != n ||
+      high.shape(1) != low.shape(1) || poses.ndim() != 2 || poses.shape(0) != n || poses.shape(1) != 14)
     throw InvalidArgument("earlier", "arrays of other shapes", "those of an earlier run");
   std::vector<DesignPiece> out(state.size());
   for (py::ssize_t k = 0; k < n; ++k) {

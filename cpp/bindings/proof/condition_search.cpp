@@ -28,7 +28,7 @@ ConditionState search(const PosedRobot& machine, const ConditionSettings& settin
 
 void bind_condition_search(py::module_& m) {
   const ConditionSettings defaults;
-  py::class_<ConditionSettings>(m, "ConditionSettings")
+  py::class_<ConditionSettings>(m, "ConditionSettings", "When the search for the worst condition number ends.")
       .def(py::init([](int threads, double seconds, double gap, const std::vector<double>& wanted, double tolerance,
                        double slice_seconds, double least_seconds, double keep_share) {
              return ConditionSettings{threads,   seconds,       gap,           wanted,
@@ -37,16 +37,17 @@ void bind_condition_search(py::module_& m) {
            py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("gap"), py::arg("wanted"),
            py::arg("tolerance"), py::arg("slice_seconds") = defaults.slice_seconds,
            py::arg("least_seconds") = defaults.least_seconds, py::arg("keep_share") = defaults.keep_share);
-  py::class_<ConditionState>(m, "ConditionState")
+  py::class_<ConditionState>(m, "ConditionState",
+                             "What is proved of the worst condition number, and what is left to look at.")
       .def(py::init<>())
-      .def_readwrite("low", &ConditionState::low)
-      .def_readwrite("high", &ConditionState::high)
-      .def_readwrite("at", &ConditionState::at)
-      .def_readwrite("boxes", &ConditionState::boxes)
-      .def_readwrite("left", &ConditionState::left)
-      .def_readonly("left_count", &ConditionState::left_count)
-      .def_readwrite("target", &ConditionState::target)
-      .def_readwrite("interrupted", &ConditionState::interrupted);
+      .def_readwrite("low", &ConditionState::low, "A condition number that was met; 0 before any.")
+      .def_readwrite("high", &ConditionState::high, "A proved upper bound.")
+      .def_readwrite("at", &ConditionState::at, "Where `low` was met.")
+      .def_readwrite("boxes", &ConditionState::boxes, "Looked at.")
+      .def_readwrite("left", &ConditionState::left, "Boxes to go on with; none where they are too many.")
+      .def_readonly("left_count", &ConditionState::left_count, "The number of them.")
+      .def_readwrite("target", &ConditionState::target, "The bound that was tried last.")
+      .def_readwrite("interrupted", &ConditionState::interrupted, "By Ctrl-C.");
   m.def("search_condition", &search);
 }
 

@@ -36,8 +36,8 @@ PosedRobot robot_from(const Geometry& g, const ConfigurationStack& all, double c
 
 void bind_structs(py::module_& m) {
   request<PointRule>(m, "PointRule", "Where O is in a region: a polynomial in the coordinates of a pose.")
-      .def_readwrite("scale", &PointRule::scale)
-      .def_readwrite("powers", &PointRule::powers)
+      .def_readwrite("scale", &PointRule::scale, "Of the six coordinates of a pose, shape (6,): lengths, then radians.")
+      .def_readwrite("powers", &PointRule::powers, "Of each term, six.")
       .def_property("coefficients", copy_of(&PointRule::coefficients), setter_of(&PointRule::coefficients), "Copied.");
   py::class_<PosedRobot>(m, "PosedRobot", "A robot and all poses at which it is looked at.")
       .def(py::init(&robot_from), py::arg(), py::arg(), py::arg(), py::arg(), py::arg(), py::arg() = py::none());
@@ -48,31 +48,40 @@ void bind_structs(py::module_& m) {
       .def_property(
           "tilt", [](const MetAt& at) { return numbers(at.tilt); }, [](MetAt& at, const Vec3& v) { at.tilt = v; },
           "Rotation vector about a horizontal axis.")
-      .def_readwrite("yaw", &MetAt::yaw)
+      .def_readwrite("yaw", &MetAt::yaw, "Radians.")
       .def_readwrite("pose", &MetAt::pose, "Index of a listed pose; -1: a pose of the region.");
   using Proof = LimitOverPoses;
   py::class_<Proof>(m, "LimitOverPoses", "One side of a limit over all poses.")
-      .def_readonly("name", &Proof::name)
-      .def_property_readonly("kind", [](const Proof& one) { return to_string(one.kind); })
-      .def_property_readonly("side", [](const Proof& one) { return one.side == Side::high ? "max" : "min"; })
-      .def_readonly("limit", &Proof::limit)
-      .def_property_readonly("value", [](const Proof& one) { return std::pair(one.value.lo, one.value.hi); })
-      .def_property_readonly("answer",
-                             [](const Proof& one) {
-                               constexpr std::array words{"proved", "violated", "undecided"};
-                               return words[static_cast<std::size_t>(one.answer)];
-                             })
-      .def_readonly("which", &Proof::part)
-      .def_readonly("at", &Proof::at)
-      .def_readonly("at_neutral", &Proof::at_neutral)
-      .def_readonly("boxes", &Proof::boxes);
+      .def_readonly("name", &Proof::name, "Its label.")
+      .def_property_readonly(
+          "kind", [](const Proof& one) { return to_string(one.kind); }, "As in the table of limits.")
+      .def_property_readonly(
+          "side", [](const Proof& one) { return one.side == Side::high ? "max" : "min"; }, "min or max.")
+      .def_readonly("limit", &Proof::limit, "A length, radians or a ratio.")
+      .def_property_readonly(
+          "value", [](const Proof& one) { return std::pair(one.value.lo, one.value.hi); },
+          "Lower and upper bound of the worst value.")
+      .def_property_readonly(
+          "answer",
+          [](const Proof& one) {
+            constexpr std::array words{"proved", "violated", "undecided"};
+            return words[static_cast<std::size_t>(one.answer)];
+          },
+          "proved, violated or undecided.")
+      .def_readonly("which", &Proof::part, "The leg, pair of legs or determinant that is worst.")
+      .def_readonly("at", &Proof::at, "Where; of a stroke where the leg is longest and shortest.")
+      .def_readonly("at_neutral", &Proof::at_neutral, "Whether it is of the neutral pose alone.")
+      .def_readonly("boxes", &Proof::boxes, "Looked at.");
   py::class_<LimitsOverPoses>(m, "LimitsOverPoses", "The limits of a machine over all its poses.")
-      .def_readonly("limits", &LimitsOverPoses::limits)
-      .def_property_readonly("lengths", [](const LimitsOverPoses& found) {
-        py::list out;
-        for (const Interval& length : found.lengths) out.append(py::make_tuple(length.lo, length.hi));
-        return py::tuple(out);
-      });
+      .def_readonly("limits", &LimitsOverPoses::limits, "The three determinants first, then the limits in their order.")
+      .def_property_readonly(
+          "lengths",
+          [](const LimitsOverPoses& found) {
+            py::list out;
+            for (const Interval& length : found.lengths) out.append(py::make_tuple(length.lo, length.hi));
+            return py::tuple(out);
+          },
+          "Least and greatest length of each of the nine legs.");
 }
 
 }  // namespace

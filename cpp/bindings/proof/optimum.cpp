@@ -21,16 +21,22 @@ struct InterruptibleProof : OptimumProof {
 void bind_optimum(py::module_& m) {
   using Proof = InterruptibleProof;
   py::class_<Proof>(m, "OptimumProof", "A proved lower bound of the condition number; the public class says more.")
-      .def_readonly("lower_bound", &Proof::lower_bound)
-      .def_readonly("complete", &Proof::complete)
-      .def_readonly("boxes", &Proof::boxes)
-      .def_readonly("open", &Proof::open)
+      .def_readonly("lower_bound", &Proof::lower_bound,
+                    "Of the condition number of every design; the target if complete.")
+      .def_readonly("complete", &Proof::complete, "Whether the target is proved.")
+      .def_readonly("boxes", &Proof::boxes, "Examined.")
+      .def_readonly("open", &Proof::open, "Boxes for which less than the target is proved.")
       .def_property_readonly(
-          "better", [](const Proof& p) { return std::isfinite(p.better) ? std::optional(p.better) : std::nullopt; })
-      .def_readonly("seconds", &Proof::seconds)
-      .def_readonly("interrupted", &Proof::interrupted)
-      .def_property_readonly("left_out", [](const Proof& p) { return py::tuple(py::cast(p.left_out)); })
-      .def_property_readonly("certificate", [](const Proof& p) { return py::bytes(p.certificate); });
+          "better", [](const Proof& p) { return std::isfinite(p.better) ? std::optional(p.better) : std::nullopt; },
+          "A condition number below the target that a design of the domain has, or None.")
+      .def_readonly("seconds", &Proof::seconds, "Wall time.")
+      .def_readonly("interrupted", &Proof::interrupted, "By Ctrl-C.")
+      .def_property_readonly(
+          "left_out", [](const Proof& p) { return py::tuple(py::cast(p.left_out)); },
+          "Limits of the study that the proof does not use.")
+      .def_property_readonly(
+          "certificate", [](const Proof& p) { return py::bytes(p.certificate); },
+          "Bytes of a file for the checker; empty unless the tree was kept.");
   request<OptimumSettings>(m, "OptimumSettings", "What is to be proved, and when the search ends.")
       .def_readwrite("target", &OptimumSettings::target, "No condition number below it.")
       .def_readwrite("threads", &OptimumSettings::threads, "0: one for each processor.")
@@ -43,12 +49,15 @@ void bind_optimum(py::module_& m) {
         [](Proof& found) { return found.interrupted = true; });
   });
   py::class_<checker::Verdict>(m, "Verdict", "What the checker of a certificate says.")
-      .def_readonly("proved", &checker::Verdict::proved)
-      .def_readonly("incomplete", &checker::Verdict::incomplete)
-      .def_readonly("words", &checker::Verdict::words)
-      .def_readonly("boxes", &checker::Verdict::leaves)
-      .def_readonly("recut", &checker::Verdict::recut)
-      .def_property_readonly("study", [](const checker::Verdict& v) { return py::tuple(py::cast(v.study)); });
+      .def_readonly("proved", &checker::Verdict::proved, "Whether the certificate proves what it says.")
+      .def_readonly("incomplete", &checker::Verdict::incomplete,
+                    "Whether a set of designs is right as far as it could be confirmed, and not all of it could.")
+      .def_readonly("words", &checker::Verdict::words, "What is proved, or why the certificate is refused.")
+      .def_readonly("boxes", &checker::Verdict::leaves, "Looked at.")
+      .def_readonly("recut", &checker::Verdict::recut, "Of them, those that were divided further.")
+      .def_property_readonly(
+          "study", [](const checker::Verdict& v) { return py::tuple(py::cast(v.study)); },
+          "The designs that the proof is about, lines of text.");
   m.def("check_certificate", [](std::string_view certificate, const py::object& progress) {
     return interruptible(progress, [&](const Control& control) {
       return checker::check(certificate, [&](std::size_t done, std::size_t total) {

@@ -44,26 +44,32 @@ py::dict names_of(const InternalPoints& points) {
 
 void bind_points(py::module_& m) {
   py::class_<InternalPoints>(m, "InternalPoints", "The internal points of n poses, in columns.")
-      .def_property_readonly("internal_point",
-                             [](const InternalPoints& points) {
-                               std::vector<Vec3> out;
-                               for (const InternalPoint& p : points) out.push_back(p.s);
-                               return array_from(out);
-                             })
-      .def_property_readonly("value",
-                             [](const InternalPoints& points) {
-                               std::vector<double> out;
-                               for (const InternalPoint& p : points) out.push_back(p.value);
-                               return column<double>(out);
-                             })
-      .def_property_readonly("status", &statuses_of)
-      .def_property_readonly("active", &active_of)
+      .def_property_readonly(
+          "internal_point",
+          [](const InternalPoints& points) {
+            std::vector<Vec3> out;
+            for (const InternalPoint& p : points) out.push_back(p.s);
+            return array_from(out);
+          },
+          "O, lengths, base frame, shape (n, 3); NaN where there is none.")
+      .def_property_readonly(
+          "value",
+          [](const InternalPoints& points) {
+            std::vector<double> out;
+            for (const InternalPoint& p : points) out.push_back(p.value);
+            return column<double>(out);
+          },
+          "Of the criterion, shape (n,).")
+      .def_property_readonly("status", &statuses_of, "Indices into internal_point_statuses, shape (n,).")
+      .def_property_readonly("active", &active_of, "A bit for each active bound, shape (n,).")
       .def_property_readonly("active_names", &names_of, "The words of each number in `active`.");
   py::class_<InternalPointMap>(m, "InternalPointMap", "The internal points of a grid.")
-      .def_property_readonly("points", [](const InternalPointMap& map) { return InternalPoints(map.points); })
-      .def_readonly("audit", &InternalPointMap::audit)
-      .def_readonly("searched", &InternalPointMap::searched)
-      .def_readonly("followed", &InternalPointMap::followed);
+      .def_property_readonly(
+          "points", [](const InternalPointMap& map) { return InternalPoints(map.points); },
+          "One for each pose of the grid.")
+      .def_readonly("audit", &InternalPointMap::audit, "Of the map before what it found was entered.")
+      .def_readonly("searched", &InternalPointMap::searched, "Poses that were searched, audited ones included.")
+      .def_readonly("followed", &InternalPointMap::followed, "Local optima continued from a neighbour.");
 }
 
 InternalPoints best_points(const Geometry& g, const Array& position, const Array& rotation, const Array& start,

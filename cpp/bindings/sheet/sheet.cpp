@@ -43,8 +43,9 @@ Array coordinates_of(const std::vector<Vec6>& poses) {
 
 void bind_question(py::module_& m) {
   request<TwistMotion>(m, "TwistMotion", "A twist of the platform and its time derivative, (omega, pdot), base axes.")
-      .def_readwrite("twist", &TwistMotion::twist)
-      .def_readwrite("rate", &TwistMotion::rate);
+      .def_readwrite("twist", &TwistMotion::twist,
+                     "Angular velocity and velocity of the origin, shape (6,), rad/time and length/time.")
+      .def_readwrite("rate", &TwistMotion::rate, "Its time derivative, shape (6,).");
   auto motion =
       request<PlatformMotion>(m, "PlatformMotion", "A motion of the platform in any direction, and a given one.");
   word_attribute(motion, "internal", &PlatformMotion::internal, std::array{"least", "held", "shifted", "carried"},
@@ -53,7 +54,7 @@ void bind_question(py::module_& m) {
       .def_readwrite("angular_speed", &PlatformMotion::angular_speed, "rad/time.")
       .def_readwrite("given", &PlatformMotion::given, "A twist, or None.");
   request<Weight>(m, "Weight", "The weight of the platform.")
-      .def_readwrite("mass", &Weight::mass)
+      .def_readwrite("mass", &Weight::mass, "Of the platform and what it carries.")
       .def_readwrite("centre", &Weight::centre, "Of mass, platform frame.")
       .def_readwrite("gravity", &Weight::gravity, "Force per mass, base axes.");
   request<PayloadLimits>(m, "PayloadLimits", "Greatest forces of the legs, and where a payload is.")
@@ -70,7 +71,7 @@ void bind_question(py::module_& m) {
       }))
       .def_readwrite("limits", &SheetQuestion::limits, "Limits at poses.")
       .def_readwrite("exempt", &SheetQuestion::exempt, "The pairs of legs that may meet.")
-      .def_readwrite("motion", &SheetQuestion::motion)
+      .def_readwrite("motion", &SheetQuestion::motion, "For speeds and accelerations of the legs.")
       .def_property(
           "loads", [](const SheetQuestion& q) { return q.loads.size(); },
           [](SheetQuestion& q, const std::vector<Vec6>& rows) { q.loads = loads_from(rows); },

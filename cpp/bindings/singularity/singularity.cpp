@@ -80,11 +80,15 @@ void bind_singularity(py::module_& m) {
   });
   using Place = SingularityPlace;
   py::class_<Place>(m, "NearestSingularity", "The nearest singularity about some configurations.")
-      .def_readonly("distance", &Place::distance)
-      .def_property_readonly("mechanism", [](const Place& p) { return static_cast<int>(p.mechanism); })
-      .def_property_readonly("direction", [](const Place& p) { return array_from(p.direction); })
-      .def_readonly("pose", &Place::pose)
-      .def_property_readonly("configuration", [](const Place& p) { return p.there; });
+      .def_readonly("distance", &Place::distance, "In the unit of the motions; infinite where none was found.")
+      .def_property_readonly(
+          "mechanism", [](const Place& p) { return static_cast<int>(p.mechanism); },
+          "The determinant that is 0 there: 0 none, 1 N, 2 B, 3 C.")
+      .def_property_readonly(
+          "direction", [](const Place& p) { return array_from(p.direction); },
+          "Of unit length, in the coordinates of the motions.")
+      .def_readonly("pose", &Place::pose, "Index in the stack.")
+      .def_property_readonly("configuration", [](const Place& p) { return p.there; }, "The singular one.");
   m.def("nearest_singularity", [](const Geometry& g, const ConfigurationStack& c, const Motions& motions, double most,
                                   int directions, int threads) {
     const std::vector<Configuration> poses = listed(c);

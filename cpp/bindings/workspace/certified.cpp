@@ -62,30 +62,50 @@ void bind_certified_workspace(py::module_& m) {
       .def_readwrite("boxes", &CertifySettings::boxes, "Looked at, at most.");
   using C = CertifiedWorkspace;
   py::class_<C>(m, "CertifiedWorkspace", "A workspace between proved bounds; the public class says what each means.")
-      .def_property_readonly("end",
-                             [](const C& c) {
-                               constexpr std::array ends{"gap", "time", "boxes", "stopped", "smallest"};
-                               return ends[static_cast<std::size_t>(c.end)];
-                             })
-      .def_property_readonly("volume", [](const C& c) { return ends_of(c.volume); })
-      .def_property_readonly("home_volume", [](const C& c) { return ends_of(c.home_volume); })
-      .def_property_readonly("home",
-                             [](const C& c) {
-                               return c.home_inside ? "allowed" : c.home_outside ? "forbidden" : "unknown";
-                             })
-      .def_property_readonly("beyond", [](const C& c) { return beyond[static_cast<std::size_t>(c.beyond)]; })
-      .def_property_readonly("box_low", [](const C& c) { return array_from(c.box_low); })
-      .def_property_readonly("box_high", [](const C& c) { return array_from(c.box_high); })
-      .def_property_readonly("low", [](const C& c) { return array_from(c.low); })
-      .def_property_readonly("high", [](const C& c) { return array_from(c.high); })
-      .def_property_readonly("inner_low", points_of(&C::inner_low))
-      .def_property_readonly("inner_high", points_of(&C::inner_high))
-      .def_property_readonly("open_low", points_of(&C::open_low))
-      .def_property_readonly("open_high", points_of(&C::open_high))
-      .def_property_readonly("open_volume", &open_volumes)
-      .def_property_readonly("first_cut", column_of<std::int64_t>(&C::first_cut))
-      .def_property_readonly("cuts", &planes_of)
-      .def_readonly("looked", &C::looked);
+      .def_property_readonly(
+          "end",
+          [](const C& c) {
+            constexpr std::array ends{"gap", "time", "boxes", "stopped", "smallest"};
+            return ends[static_cast<std::size_t>(c.end)];
+          },
+          "Why the search ended: gap, time, boxes, stopped or smallest.")
+      .def_property_readonly(
+          "volume", [](const C& c) { return ends_of(c.volume); },
+          "Lower and upper bound of all that is allowed in the box, lengths cubed or radians cubed.")
+      .def_property_readonly(
+          "home_volume", [](const C& c) { return ends_of(c.home_volume); }, "The same of what is connected with home.")
+      .def_property_readonly(
+          "home",
+          [](const C& c) {
+            if (c.home_inside) return "allowed";
+            return c.home_outside ? "forbidden" : "unknown";
+          },
+          "allowed, forbidden or unknown.")
+      .def_property_readonly(
+          "beyond", [](const C& c) { return beyond[static_cast<std::size_t>(c.beyond)]; },
+          "What is allowed outside the box: nothing, something or unknown.")
+      .def_property_readonly(
+          "box_low", [](const C& c) { return array_from(c.box_low); }, "Of the box asked for, shape (3,).")
+      .def_property_readonly(
+          "box_high", [](const C& c) { return array_from(c.box_high); }, "Shape (3,).")
+      .def_property_readonly(
+          "low", [](const C& c) { return array_from(c.low); },
+          "Of the box that was divided, outside which nothing is allowed, shape (3,).")
+      .def_property_readonly(
+          "high", [](const C& c) { return array_from(c.high); }, "Shape (3,).")
+      .def_property_readonly("inner_low", points_of(&C::inner_low),
+                             "Of boxes in which every pose is allowed, shape (n, 3).")
+      .def_property_readonly("inner_high", points_of(&C::inner_high), "Shape (n, 3).")
+      .def_property_readonly("open_low", points_of(&C::open_low),
+                             "Of boxes that hold all other allowed poses, shape (m, 3).")
+      .def_property_readonly("open_high", points_of(&C::open_high), "Shape (m, 3).")
+      .def_property_readonly("open_volume", &open_volumes, "Bounds of the allowed part of each open box, shape (m, 2).")
+      .def_property_readonly("first_cut", column_of<std::int64_t>(&C::first_cut),
+                             "Open box n has the cuts from first_cut[n] to first_cut[n + 1], shape (m + 1,).")
+      .def_property_readonly(
+          "cuts", &planes_of,
+          "Planes: slope, then the offset above which poses are allowed and that below which none is, shape (k, 5).")
+      .def_readonly("looked", &C::looked, "Boxes looked at.");
   m.def("certified_workspace", [](const WorkspaceQuestion& q, const CertifySettings& s, const py::object& progress) {
     return interruptible(
         progress,

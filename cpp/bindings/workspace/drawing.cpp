@@ -106,12 +106,18 @@ void bind_workspace_drawing(py::module_& m) {
                std::to_string(n[2]) + " points>";
       });
   py::class_<WorkspaceSection>(m, "WorkspaceSection", "A plane section; rows lie along the vertical.")
-      .def_property_readonly("horizontal", column_of<double>(&WorkspaceSection::horizontal))
-      .def_property_readonly("vertical", column_of<double>(&WorkspaceSection::vertical))
-      .def_property_readonly("state", rows_of<std::uint8_t>(&WorkspaceSection::state))
-      .def_property_readonly("limit", rows_of<std::int16_t>(&WorkspaceSection::limit))
-      .def_property_readonly("condition_number", rows_of<double>(&WorkspaceSection::condition_number))
-      .def_property_readonly("fraction", rows_of<double>(&WorkspaceSection::fraction));
+      .def_property_readonly("horizontal", column_of<double>(&WorkspaceSection::horizontal),
+                             "Coordinates of the columns, shape (n,).")
+      .def_property_readonly("vertical", column_of<double>(&WorkspaceSection::vertical),
+                             "Coordinates of the rows, shape (m,).")
+      .def_property_readonly("state", rows_of<std::uint8_t>(&WorkspaceSection::state),
+                             "0 outside, 1 boundary, 2 inside, shape (m, n).")
+      .def_property_readonly("limit", rows_of<std::int16_t>(&WorkspaceSection::limit),
+                             "Index into workspace_limits, -1 for none, shape (m, n).")
+      .def_property_readonly("condition_number", rows_of<double>(&WorkspaceSection::condition_number),
+                             "NaN where no pose is allowed, shape (m, n).")
+      .def_property_readonly("fraction", rows_of<double>(&WorkspaceSection::fraction),
+                             "Allowed share, shape (m, n); its contour at one half is the boundary.");
   m.def("workspace_field", [](const py::object& map, long most) {
     const WorkspaceMap cells = map_from(map);
     return interruptible(py::none(), [&](const Control& control) { return field_of(cells, most, control.stop); });

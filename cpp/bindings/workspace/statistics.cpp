@@ -13,14 +13,16 @@ void bind_workspace_statistics(py::module_& m) {
     return [at](const IndexStatistics& s) { return array_from(s.*at).attr("tolist")(); };
   };
   py::class_<IndexStatistics>(m, "IndexStatistics", "An index over a workspace.")
-      .def_readonly("mean", &IndexStatistics::mean)
-      .def_readonly("least", &IndexStatistics::least)
-      .def_property_readonly("least_at", place(&IndexStatistics::least_at))
-      .def_readonly("greatest", &IndexStatistics::greatest)
-      .def_property_readonly("greatest_at", place(&IndexStatistics::greatest_at));
+      .def_readonly("mean", &IndexStatistics::mean, "Over the volume.")
+      .def_readonly("least", &IndexStatistics::least, "The least value.")
+      .def_property_readonly("least_at", place(&IndexStatistics::least_at), "Where, three coordinates of the map.")
+      .def_readonly("greatest", &IndexStatistics::greatest, "The greatest value.")
+      .def_property_readonly("greatest_at", place(&IndexStatistics::greatest_at),
+                             "Where, three coordinates of the map.");
   py::class_<WorkspacePoses>(m, "WorkspacePoses", "The poses at the centres of cells.")
-      .def_property_readonly("configurations",
-                             [](const WorkspacePoses& poses) { return stack_of(poses.configurations); })
+      .def_property_readonly(
+          "configurations", [](const WorkspacePoses& poses) { return stack_of(poses.configurations); },
+          "A stack, one for each centre.")
       .def("statistics", [](const WorkspacePoses& poses, const Array& values, bool by_modulus) {
         return statistics_of(poses, {values.data(), static_cast<std::size_t>(values.size())}, by_modulus);
       });

@@ -76,19 +76,19 @@ def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:
     """Evaluate one full vector of variables."""
     names = list(problem.names)
     core = problem.evaluate(x)
-    objective = infinite_if_singular(core["objective"])
+    objective = infinite_if_singular(core.objective)
     with np.errstate(over="ignore"):  # nearly singular: the slope may be infinite where the value is not
-        slope = objective * core["gradient"] if math.isfinite(objective) else np.full(len(names), np.nan)
+        slope = objective * core.gradient if math.isfinite(objective) else np.full(len(names), np.nan)
     return DesignPoint(
         variables=dict(zip(names, x, strict=True)),
         objective=objective,
-        neutral_condition_number=infinite_if_singular(core["condition_number"]),
-        conditions=tuple(infinite_if_singular(k) for k in core["conditions"]),
-        characteristic_length=core["characteristic_length"],
+        neutral_condition_number=infinite_if_singular(core.condition_number),
+        conditions=tuple(infinite_if_singular(k) for k in core.conditions),
+        characteristic_length=core.characteristic_length,
         gradient=dict(zip(names, slope.tolist(), strict=True)),
-        margins={name: margin for name, margin, _ in core["margins"]},
-        margin_gradients={n: dict(zip(names, s.tolist(), strict=True)) for n, _, s in core["margins"]},
-        values=core["limited"],
+        margins={one.name: one.value for one in core.margins},
+        margin_gradients={one.name: dict(zip(names, one.gradient.tolist(), strict=True)) for one in core.margins},
+        values={one.name: one.limited for one in core.margins},
         **robot_at(problem, x),
     )
 

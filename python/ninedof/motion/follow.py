@@ -25,7 +25,7 @@ from ninedof.statics.dynamics import GRAVITY, gravity_for_core, inverse_dynamics
 from ninedof.support.arguments import choice, finite, instance, items
 from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_leading
 from ninedof.support.files import Saved
-from ninedof.support.structs import entries_of, options_of, plain_fields
+from ninedof.support.structs import entries_of, from_core, options_of, plain_fields
 from ninedof.support.text import short_repr
 from ninedof.support.units import metres, unit_entry
 from ninedof.tables.html import notebook
@@ -338,25 +338,26 @@ def follow(
     gravity = GRAVITY if gravity is None else gravity
     gravity_for_core(gravity, unit)  # refuses what is no gravity, even where nothing weighs
     motion = _core.follow(g, home, path.time, path.position, path.rotation, rule, bounds, lc)
-    poses, margins = (motion.pop(name) for name in ("tracked", "singularity_margins"))
-    c = Configuration(path.position, path.rotation, motion.pop("internal_point"))
+    c = Configuration(path.position, path.rotation, motion.internal_point)
     if masses is not None or any(end is not None for end in ends):
-        v, a = motion["velocity"], motion["acceleration"]
-        forces = inverse_dynamics(g, c, (v, a), masses, gravity, _loads(*ends), unit).forces
-    followed = Followed(
+        speeds = (motion.velocity, motion.acceleration)
+        forces = inverse_dynamics(g, c, speeds, masses, gravity, _loads(*ends), unit).forces
+    followed = from_core(
+        Followed,
+        motion,
         geometry=g,
         trajectory=path,
         configurations=c,
         internal_point=rule,
         characteristic_length=lc,
-        singularity_margins=SingularityMargins(*margins),
+        singularity_margins=SingularityMargins(*motion.singularity_margins),
         limits=bounds,
         leg_forces=forces,
-        tracked=poses == len(path),
-        tracked_until=float(path.time[poses - 1]),
+        tracked=motion.tracked == len(path),
+        tracked_until=float(path.time[motion.tracked - 1]),
         unit=unit,
         force_unit="N" if masses is not None and unit else "",
-        **motion,
+        study_breaks=None,
     )
     held = getattr(design, "path_limits", None)  # of a study; a geometry has none
     return replace(followed, study_breaks=held(followed, home).breaks) if study and held else followed

@@ -12,7 +12,7 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.study import Study
-from ninedof.proof.admissible_set import PIECES, STATES, AdmissibleSet, for_core
+from ninedof.proof.admissible_set import PIECES, STATES, AdmissibleSet
 from ninedof.proof.design_range import LONGEST, DesignRange, HasDesign, design_range
 from ninedof.support.arguments import executor_argument, finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS, Floats
@@ -111,7 +111,7 @@ def admissible(
     executor_argument(executor)
     if resume is not None and instance("resume", resume, AdmissibleSet).of.digest != question.digest:
         raise ValueError("resume: got the designs of another question, expected those of this one")
-    earlier, progress = None if resume is None else for_core(vars(resume)), progress_argument(chosen["progress"])
+    earlier, progress = None if resume is None else vars(resume), progress_argument(chosen["progress"])
     how: dict[str, Any] = {"seconds": min(seconds, LONGEST), "resolution": resolution, "progress": progress}
     if executor is None:
         answer = _core.admissible_designs(
@@ -137,7 +137,7 @@ COUNTS = ("looked_at", "boxes", "interrupted")
 
 def decided(root: Arrays, of: DesignRange, **how: Any) -> Arrays:
     """Return the pieces of a root, decided as far as its time goes, and counts."""
-    answer = _core.admissible_designs(of.for_core(), earlier=for_core(root), **how)
+    answer = _core.admissible_designs(of.for_core(), earlier=root, **how)
     return {name: np.asarray(answer[name]) for name in PIECES + COUNTS}
 
 
@@ -178,7 +178,7 @@ def by_roots(
             progress(done, len(roots), None)
         interrupted = False
     parts = [{name: begin[name][~undecided] for name in PIECES}, *pieces.values()]
-    out = without_time(earlier=for_core({name: np.concatenate([one[name] for one in parts]) for name in PIECES}))
+    out = without_time(earlier={name: np.concatenate([one[name] for one in parts]) for name in PIECES})
     counts = {name: sum(int(one[name]) for one in pieces.values() if name in one) for name in COUNTS}
     return out | counts | {"interrupted": interrupted or counts["interrupted"] > 0}
 

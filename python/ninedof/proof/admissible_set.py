@@ -229,7 +229,7 @@ class AdmissibleSet(Worded, Saved):
     def save_certificate(self, path: str | os.PathLike[str]) -> Path:
         """Write a file that `check_certificate` and the program ninedof_check replay: the question, boxes, reasons."""
         shares = [self.shares[name] for name in STATES]
-        data = _core.design_certificate(self.of.for_core(), for_core(vars(self)), self.demands, shares)
+        data = _core.design_certificate(self.of.for_core(), vars(self), self.demands, shares)
         return write_whole(path_argument("path", path), data)
 
     def _boxes(self, state: int) -> Floats:
@@ -252,8 +252,3 @@ def _pose(row: list[float]) -> ProofPose:
     if listed >= 0:
         return ProofPose(listed=int(listed))
     return ProofPose((x, y, z), (tilt_x, tilt_y, 0.0), yaw)
-
-
-def for_core(pieces: Mapping[str, Any]) -> dict[str, Any]:
-    """Return pieces as the core takes them, for a run that goes on."""
-    return {name: pieces[name].tolist() if name in ("state", "demand") else pieces[name] for name in PIECES}

@@ -113,9 +113,9 @@ def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, 
     return tuple(rows)
 
 
-def _row(side: str, bound: float, kind: str, point: Mapping[str, Any]) -> LimitRow:
-    ((label, margin, _),) = point["margins"]
-    return LimitRow(label, side, bound, point["limited"][label], margin, point["parts"][label], kind)
+def _row(side: str, bound: float, kind: str, point: _core.Evaluation) -> LimitRow:
+    (one,) = point.margins
+    return LimitRow(one.name, side, bound, one.limited, one.value, one.part, kind)
 
 
 OF_EVERY_LEG = ("shortest", "longest", "neutral", "stroke", "stroke_ratio", "idle", "speed", "acceleration")

@@ -206,7 +206,7 @@ class Variants:
             for place, value in zip(places, point, strict=True):
                 x[place] = value
             for index in by_core:
-                out[index.name][k] = infinite_if_singular(by_core[index].evaluate(x)["objective"])
+                out[index.name][k] = infinite_if_singular(by_core[index].evaluate(x).objective)
             geometry, neutral = problem.geometry(x), Configuration._of(*problem.configurations(x))[:1]
             for index in own:
                 out[index.name][k] = np.asarray(index.values(geometry, neutral, self.length, 1))[0]

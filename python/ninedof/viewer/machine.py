@@ -150,8 +150,8 @@ class Machine:
             if study is not None:
                 at_poses = poses[1:] if len(poses) > 1 else poses  # home only where none is listed
                 lengths = self._over_region(g, home, np.asarray(leg_lengths(g, at_poses)))
-                evaluated = self.problem.evaluate(x)["margins"] if study.constraints else ()
-                margins = {name: float(margin) for name, margin, _ in evaluated}
+                evaluated = self.problem.evaluate(x).margins if study.constraints else ()
+                margins = {one.name: one.value for one in evaluated}
         if length is None:
             length = self._length(g, home, variables)
         return Variant(g, home, length, *self._leg_limits(home), study, lengths, margins)

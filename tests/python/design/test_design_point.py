@@ -148,7 +148,7 @@ def set_up(data, design):
 
 
 def margins_of(core):
-    return {name: value for name, value, _ in core["margins"]}
+    return {one.name: one.value for one in core.margins}
 
 
 @BY_FAMILY
@@ -158,7 +158,7 @@ def test_values(family):
         core, expected = problem.evaluate(x), oracle.evaluate(problem.names, x)
         exact = 1e-10 * max(1.0, expected["conditions"].max(), expected["condition_number"])
         for key in ("objective", "condition_number", "conditions"):
-            assert_allclose(core[key], expected[key], rtol=exact, err_msg=f"{key} of {data}")
+            assert_allclose(getattr(core, key), expected[key], rtol=exact, err_msg=f"{key} of {data}")
         assert problem.characteristic_length(x) == pytest.approx(expected["characteristic_length"], rel=exact)
         margins = margins_of(core)
         assert set(margins) == set(data["constraints"])

@@ -168,10 +168,10 @@ def test_gradients_are_difference_quotients(length):
     here = problem.evaluate(x)
     for k in range(len(x)):
         up, down = (problem.evaluate([v + sign * step * (j == k) for j, v in enumerate(x)]) for sign in (1, -1))
-        quotient = (up["objective"] - down["objective"]) / (2 * step) / here["objective"]
-        assert here["gradient"][k] == pytest.approx(quotient, abs=5e-9)
-        for (name, _, slope), (_, a, _), (_, b, _) in zip(*(e["margins"] for e in (here, up, down)), strict=True):
-            assert slope[k] == pytest.approx((a - b) / (2 * step), abs=5e-7), name
+        quotient = (up.objective - down.objective) / (2 * step) / here.objective
+        assert here.gradient[k] == pytest.approx(quotient, abs=5e-9)
+        for one, a, b in zip(*(e.margins for e in (here, up, down)), strict=True):
+            assert one.gradient[k] == pytest.approx((a.value - b.value) / (2 * step), abs=5e-7), one.name
 
 
 def test_proofs_of_limits_of_the_design_hold_those_of_the_plates():

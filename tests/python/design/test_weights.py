@@ -35,10 +35,10 @@ def test_gradients_with_weights(aggregate):
     chosen = study((0.5, 0, 2, 1), aggregate)
     problem = chosen.problem()
     x = np.array([VALUES[name] for name in problem.names])
-    gradient = np.asarray(problem.evaluate(x)["gradient"])
+    gradient = problem.evaluate(x).gradient
     for k in range(len(x)):
         step = 1e-5 * np.eye(len(x))[k]
-        ahead, behind = (problem.evaluate(x + s * step)["log_objective"] for s in (1.0, -1.0))
+        ahead, behind = (problem.evaluate(x + s * step).log_objective for s in (1.0, -1.0))
         assert gradient[k] == pytest.approx((ahead - behind) / 2e-5, rel=1e-6, abs=1e-8)
 
 

@@ -15,6 +15,7 @@ import pytest
 from argument_names import argument_names
 
 import ninedof as nd
+from ninedof import _core
 
 PACKAGE = Path(nd.__file__).parent
 FUNCTIONS = [name for name in nd.__all__ if inspect.isfunction(getattr(nd, name))]
@@ -211,6 +212,14 @@ ninedof.records.record ninedof.report.page ninedof.viewer.app""".split()
 def test_import_leaves_out_what_a_call_may_need_later(told):
     """The figure for the time of `import ninedof` over numpy, 0.08 s, is kept by this list."""
     assert sorted(set(LATE) & set(told["imported"]) - set(told["numpy"])) == []
+
+
+def test_bound_classes_and_their_attributes_have_docstrings():
+    classes = {name: kind for name, kind in vars(_core).items() if inspect.isclass(kind)}
+    parts = {f"{name}.{of}": one for name, kind in classes.items() for of, one in vars(kind).items()}
+    attributes = {name: one for name, one in parts.items() if isinstance(one, property)}
+    assert len(attributes) > 250
+    assert [name for name, thing in (classes | attributes).items() if not inspect.getdoc(thing)] == []
 
 
 def test_figures_need_no_pyplot(told):
