@@ -5,7 +5,24 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from figure_table import EDGES, FIGURES, HOME, QUICK, G, curves, followed, found, front, made, row
+from figure_table import (
+    EDGES,
+    FIGURES,
+    HOME,
+    QUICK,
+    G,
+    certified,
+    curves,
+    followed,
+    found,
+    front,
+    made,
+    region,
+    row,
+    sections,
+    velocities,
+)
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.text import Text
 from sizes import size
@@ -70,11 +87,16 @@ def test_every_figure_takes_axes_or_a_figure_and_at_most_seven_arguments(functio
     assert len(names) <= 7
 
 
+def designs():
+    at = {"a1": 0.0, "b2": 0.0, "zp": 4.9752, "zs": 3.1681}
+    return nd.admissible(nd.Study.paper(), ("a2", "b1"), at=at, time_limit=0.1)
+
+
 ON_AXES = {
     "poses": lambda ax: plot.poses({"a": [4.0, 4.2]}, ax=ax),
     "figure_7": lambda ax: paper.figure_7(nd.sweep_figure("7", points=3), ax),
     "mechanism": lambda ax: plot.mechanism(plot.Robot("a", G, HOME), ax=ax),
-    "body": lambda ax: plot.workspace_body(found().surface(20_000), lines=[EDGES], ax=ax),
+    "workspace_body": lambda ax: plot.workspace_body(found().surface(20_000), lines=[EDGES], ax=ax),
     "figure_1": lambda ax: paper.figure_1(G, HOME, ax),
 }
 IN_FIGURES = {
@@ -86,7 +108,22 @@ IN_FIGURES = {
     "convergence": lambda figure: plot.convergence([[3.0]], [[3.0]], 3.0, figure=figure),
     "ellipsoids": lambda figure: plot.ellipsoids({"a": (np.eye(3), np.ones(3))}, figure=figure),
     "figure_5": lambda figure: paper.figure_5(G, figure=figure),
+    "figure_2": lambda figure: paper.figure_2(G, HOME, figure=figure),
+    "figure_3": lambda figure: paper.figure_3(G, HOME, figure=figure),
+    "figure_4": lambda figure: paper.figure_4(*velocities(HOME).values(), figure=figure),
+    "figure_6": lambda figure: paper.figure_6(nd.sweep_figure("6", points=5), figure=figure),
+    "compare": lambda figure: plot.compare(nd.compare(nd.Design(G, HOME), nd.Design(G, HOME)), figure=figure),
+    "drawing": lambda figure: plot.drawing(G, HOME, figure=figure),
+    "region_map": lambda figure: plot.region_map(region(), figure=figure),
+    "atlas": lambda figure: plot.atlas(nd.atlas(1_000), (2.0, 3.762659), figure=figure),
+    "workspace": lambda figure: plot.workspace(found(), sections(), figure=figure),
+    "certified_workspace": lambda figure: plot.certified_workspace(certified(), figure=figure),
+    "admissible": lambda figure: plot.admissible(designs(), figure=figure),
 }
+
+
+def test_every_figure_is_drawn_on_axes_or_in_a_figure_given():
+    assert {function.__name__ for function in FUNCTIONS} == {*ON_AXES, *IN_FIGURES}
 
 
 @pytest.mark.parametrize("name", ON_AXES)
@@ -110,8 +147,8 @@ def test_a_part_of_a_figure_is_drawn_in(name):
     assert isinstance(left, SubFigure)
     assert IN_FIGURES[name](right) is right
     whole.draw_without_rendering()
-    assert right.axes
-    assert not left.axes
+    assert right.findobj(Axes)  # in parts of it too
+    assert not left.findobj(Axes)
     seen = right.get_tightbbox()  # inches
     assert seen.x0 * whole.dpi >= right.bbox.x0 - 1.0
 
