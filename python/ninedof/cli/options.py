@@ -114,6 +114,12 @@ def rule_option(text: str) -> str | float:
     return word_or_number("--internal-point", text, RULES, f"{', '.join(RULES)} or a fraction")
 
 
+def rule_for_o(otherwise: str) -> Any:
+    """Return an option that takes a rule for O."""
+    words = "Position of O: carried, shifted, held, best, or a fraction between the plates; by default as in the region"
+    return option(f"{words} of the run's study, else {otherwise}.", values=RULES)
+
+
 def loads_option(texts: Iterable[str] | None) -> list[list[float]]:
     """Return the loads given by --load."""
     return [several("--load", text, "mx my mz fx fy fz") for text in texts or ()]

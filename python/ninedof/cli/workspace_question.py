@@ -18,6 +18,7 @@ from ninedof.cli.options import (
     argument,
     ends,
     option,
+    rule_for_o,
     rule_option,
     struct,
     triple,
@@ -27,7 +28,6 @@ from ninedof.cli.posed import Chosen, length_at_home
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.design.indices import computed
 from ninedof.design.limits import OF_LENGTHS
-from ninedof.redundancy.rules import RULES
 from ninedof.support.arguments import choice, finite
 from ninedof.support.units import DEG, plain_name, unit_entry
 from ninedof.workspace.certified import GAPS, require_certifiable
@@ -74,11 +74,7 @@ class WorkspaceOptions(JobOptions):
     torsion_deg: float | None = option("Region: torsions of at most this angle.")
     orientations: int | None = option("Number of rotations of a set.")
     position: Three | None = triple("Position of the platform, for orientation; the home position by default.")
-    internal_point: str | None = option(
-        "Position of O: carried, shifted, held, best, or a fraction between the plates; "
-        "by default as in the region of the run's study, else the design's.",
-        values=RULES,
-    )
+    internal_point: str | None = rule_for_o("the design's")
     lc: str | None = option(LC, values=KINDS)
     method: str = option("octree, grid or sample.", "octree", values=METHODS)
     tolerance: float = option("Wanted error, as a share of the volume.", 1e-3)

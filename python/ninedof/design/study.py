@@ -363,12 +363,17 @@ class Study:
         return "N" if self.unit and self.masses else ""
 
     @property
+    def free_variables(self) -> tuple[str, ...]:
+        """The variables that have a range."""
+        return tuple(name for name, ends in self.variables.items() if isinstance(ends, tuple))
+
+    @property
     def has_free_variables(self) -> bool:
         """Whether a variable has a range, a length is sought, or O is placed at some pose."""
         region, poses = self.objective.region, self.objective.poses
         placed = [pose.internal_point for pose in poses] + ([region.internal_point] if region else [])
         length = isinstance(self.characteristic_length, tuple)
-        return length or "best" in placed or any(isinstance(ends, tuple) for ends in self.variables.values())
+        return length or "best" in placed or bool(self.free_variables)
 
     @property
     def gravity_note(self) -> str:
@@ -488,8 +493,8 @@ class Study:
         values = {
             name: finite(name, x) for name, x in in_radians_by_kind("variables", variables, kinds, finite).items()
         }
-        for name, ends in self.variables.items():
-            if name not in values and isinstance(ends, tuple):
+        for name in self.free_variables:
+            if name not in values:
                 raise ValueError(f"{name}: got no value, expected a number (the variable is free in this study)")
         # The robot does not depend on the length, until it is known.
         every: dict[str, Any] = {**dict.fromkeys(names, 0.0), **self.variables, LENGTH: 1.0, **values}

@@ -21,8 +21,9 @@ from ninedof.optimize.pieces import Pieces, Warm, warm_starts, warm_variables
 from ninedof.optimize.reserve import with_reserve
 from ninedof.optimize.result import Result, Status
 from ninedof.optimize.tables import axis_hint
-from ninedof.proof.optimum import gap_of, left_out_of, prove, relaxed
+from ninedof.proof.optimum import prove, relaxed
 from ninedof.proof.optimum_proof import OptimumProof
+from ninedof.proof.optimum_steps import ways_of
 from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, part_of, phase, progress_argument
@@ -119,7 +120,7 @@ def optimize(
     study = study.with_solver(starts, seed)
     count = thread_argument(threads)
     if flag("certify", certify):
-        left_out_of(study)  # raises where no proof is known, before the work
+        ways_of(study)  # raises where no proof is known, before the work
     additional = warm_variables(values["warm"])
     seconds = number("time_limit", values["time_limit"])
     if not seconds > 0.0:
@@ -233,7 +234,7 @@ def _proved(result: Result, run: _Run) -> Result:
 
         return run.pieces.proof(compute, left)
 
-    gap = gap_of(study)
+    gap = ways_of(study).gap
     proof = proved(best, None)
     while proof.better is not None and not proof.interrupted:  # one that keeps what the proof sees of the bounds
         best, gap = proof.better, min(max(10.0 * gap, 1e-3), 0.5)

@@ -321,7 +321,7 @@ def with_fixed_design(result: Result) -> Result:
     singular at every pose is no robot and has none: the reason of the result says so.
     """
     study = result.study
-    if result.candidates or any(isinstance(ends, tuple) for ends in study.variables.values()):
+    if result.candidates or study.free_variables:
         return result
     try:
         point = study.evaluate({})

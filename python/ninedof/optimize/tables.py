@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -38,11 +38,6 @@ def _price_sentence(study: Study, variables: Mapping[str, float], name: str, pri
     gain = f"{step * price:.3g} %" if price >= LEAST_PRICE else f"less than {LEAST_PRICE:g} %"
     part = _part(study, variables, name, 0.01 * step)
     return f"{step:g} % {_direction(study, variables, name)} {name}{part} gains {gain}"
-
-
-def reached_words(study: Study, variables: Mapping[str, float], active: Iterable[str]) -> str:
-    """Return the active limits and bounds of a candidate; where the study names its length unit, with their values."""
-    return ", ".join(name + _part(study, variables, name) for name in active) or "nothing"
 
 
 def _part(study: Study, variables: Mapping[str, float], name: str, share: float = 1.0) -> str:
@@ -236,7 +231,8 @@ def summary_lines(result: Any) -> list[str]:
     if len(best.conditions) > 1:
         value += f", {min(best.conditions):.6f} to {max(best.conditions):.6f} over the poses"
     lines.append(value)
-    lines.append(f"limits reached: {reached_words(result.study, best.variables, best.active)}")
+    reached = [name + _part(result.study, best.variables, name) for name in best.active]
+    lines.append(f"limits reached: {', '.join(reached) or 'nothing'}")
     lines.extend(design_words(result))
     lines.extend(price_words(result.study, best.variables, best.prices))
     if len(result.candidates) > 1:

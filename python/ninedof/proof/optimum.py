@@ -111,16 +111,6 @@ def prove(
     return replace(proved, lower_bound=earlier.lower_bound, certificate=earlier.certificate)
 
 
-def left_out_of(study: Study) -> tuple[str, ...]:
-    """Return the limits of a study that a proof leaves out; raise ValueError if the theory does not reach the study."""
-    return ways_of(instance("study", study, Study)).left_out
-
-
-def gap_of(study: Study) -> float:
-    """Return the gap that is proved by default."""
-    return ways_of(study).gap
-
-
 def relaxed(study: Study) -> Study:
     """Return the study without the limits that a proof leaves out: the bound comes up to its optimum, and not further.
 

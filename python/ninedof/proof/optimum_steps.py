@@ -52,7 +52,7 @@ class Ways:
 
 def ways_of(study: Study) -> Ways:
     """Return how the bound of a study can be proved; raise ValueError if the theory does not reach it."""
-    home, neutral, few = at_home(study), is_neutral(study), len(_free(study)) <= FEW
+    home, neutral, few = at_home(study), is_neutral(study), len(study.free_variables) <= FEW
     if home is not None and neutral and not (few and left_out_of_class(home)):
         return Ways(home, by_boxes=False, neutral=True)
     if home is None and neutral and (_missing(study) or not few):
@@ -70,7 +70,7 @@ def range_to_prove(study: Study, condition_number: float | None = None) -> Desig
     """Return all designs of a study that keep its limits, and a condition number; raise where no proof is known."""
     if missing := _missing(study):
         raise ValueError(missing)
-    return design_range(study, _free(study), None, condition_number, MOST_FREE)
+    return design_range(study, study.free_variables, None, condition_number, MOST_FREE)
 
 
 class StepByStep:
@@ -95,7 +95,7 @@ class StepByStep:
 
     def prove(self, best: float, gap: float | None, earlier: OptimumProof | None = None) -> OptimumProof:
         """Return what is proved of a gap below `best`, beside what an earlier proof of the same study has."""
-        ways, many = self._ways, len(_free(self._study)) > FEW
+        ways, many = self._ways, len(self._study.free_variables) > FEW
         aim, finest = (best * (1.0 - (one if gap is None else gap)) for one in (ways.gap, ways.class_gap))
         coarser = (best * (1.0 - step) for step in ((*COARSE, *STEPS) if many else STEPS))
         most_boxes = MOST_BOXES if not ways.by_boxes else MANY_BOXES if many else FEW_BOXES
@@ -160,13 +160,9 @@ class StepByStep:
         self._boxes, self._left, self._interrupted = self._boxes + boxes, left, interrupted
 
 
-def _free(study: Study) -> list[str]:
-    return [name for name, ends in study.variables.items() if isinstance(ends, tuple)]
-
-
 def _missing(study: Study) -> str:
     """Return what a study would need for this proof; nothing if there is one."""
-    objective, free = study.objective, _free(study)
+    objective, free = study.objective, study.free_variables
     if objective.index != "condition_number" or objective.aggregate != "worst":
         return "objective: got another one, expected the worst condition number for a proof"
     if not isinstance(study.characteristic_length, float | int):

@@ -196,12 +196,8 @@ def _numbers(designs: Sequence[Any], sheets: Sequence[Sheet]) -> dict[str, tuple
         values = {name: get(one) for name, get in QUANTITIES.items()} | _variables(design)
         columns.append({name: value * (scale if _long(name) else 1.0) for name, value in values.items()})
     rows = _beside(columns, math.nan)
-    return {name: row for name, row in rows.items() if name in QUANTITIES or not _are_equal(row)}
-
-
-def _are_equal(row: Sequence[float]) -> bool:
-    """Whether all values are the same, to rounding of the unit."""
-    return all(math.isclose(value, row[0], rel_tol=1e-12) for value in row)
+    differs = {name for name, row in rows.items() if not all(math.isclose(x, row[0], rel_tol=1e-12) for x in row)}
+    return {name: row for name, row in rows.items() if name in QUANTITIES or name in differs}  # not by rounding alone
 
 
 def _variables(design: Any, more: Sequence[str] = ()) -> dict[str, float]:

@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from time import perf_counter
-from typing import Any
+from typing import Unpack
 
 from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.design.indices import What, indices_of
 from ninedof.redundancy.redundancy_map import MapAudit
-from ninedof.robot.configuration import Configuration
 from ninedof.robot.designs import HasRobot
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown, whole
 from ninedof.support.arrays import as_number, thread_argument
 from ninedof.support.running import Progress, progress_argument
-from ninedof.support.structs import from_core
+from ninedof.support.structs import from_core, options_of
 from ninedof.support.units import unit_argument
 from ninedof.workspace.cells import WorkspaceCells, statistics_of
 from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
-from ninedof.workspace.question import question_of
+from ninedof.workspace.question import WorkspaceArguments, question_of
 from ninedof.workspace.study_question import robot_and_arguments
 
 METHODS = ("octree", "grid", "sample")
@@ -39,15 +37,7 @@ def workspace(
     geometry: Geometry | HasRobot,
     box: tuple[ArrayLike, ArrayLike] | None = None,
     *,
-    archetype: str = "constant_orientation",
-    criteria: Mapping[str, Any] | None = None,
-    internal_point: ArrayLike | str | Mapping[str, ArrayLike] | None = None,
-    rotation: Any = None,
     position: ArrayLike | None = None,
-    region: Mapping[str, Any] | None = None,
-    orientations: Any = None,
-    home: Configuration | None = None,
-    characteristic_length: float | None = None,
     method: str = "octree",
     tolerance: float = 1e-3,
     resolution: int | None = None,
@@ -58,7 +48,7 @@ def workspace(
     threads: int | None = None,
     progress: Progress | None = None,
     index: What | None = None,
-    unit: str | None = None,
+    **question: Unpack[WorkspaceArguments],
 ) -> WorkspaceMap:
     """Find the workspace of the platform: its volume, its boundary, and what limits it.
 
@@ -170,26 +160,14 @@ def workspace(
     (<WorkspaceStatus.CONVERGED: 'converged'>, 8.7, True)
 
     """
-    arguments = {
-        "box": box,
-        "archetype": archetype,
-        "criteria": criteria,
-        "internal_point": internal_point,
-        "rotation": rotation,
-        "position": position,
-        "region": region,
-        "orientations": orientations,
-        "home": home,
-        "characteristic_length": characteristic_length,
-        "unit": unit,
-    }
-    geometry, arguments = robot_and_arguments(geometry, arguments)
-    unit = unit_argument(arguments.pop("unit"))
-    question = question_of(geometry, arguments.pop("box"), arguments)
+    options = options_of("workspace", WorkspaceArguments, question, archetype="constant_orientation")
+    geometry, arguments = robot_and_arguments(geometry, {"box": box, "position": position, **options})
+    unit, archetype = unit_argument(arguments["unit"]), arguments["archetype"]
+    problem = question_of(geometry, arguments["box"], arguments)
     progress_argument(progress)
     choice("method", method, METHODS)
     indices = () if index is None else indices_of(index)
-    searched = question.rule.kind == "best"
+    searched = problem.rule.kind == "best"
     if indices and archetype not in ("constant_orientation", "orientation"):
         raise ValueError(f"index: got {shown(index)}, expected none for the {archetype} workspace: its poses are sets")
     if indices and searched:
@@ -206,13 +184,13 @@ def workspace(
         threads=thread_argument(threads),
     )
     begin = perf_counter()
-    search = _core.workspace(question, settings, progress)
+    search = _core.workspace(problem, settings, progress)
     result = from_core(
         WorkspaceMap,
         search,
         status=WorkspaceStatus(search.status),
         cells=from_core(WorkspaceCells, search.cells, size=search.sides),
-        coordinates=COORDINATES[question.domain.region.chart if archetype == "orientation" else ""],
+        coordinates=COORDINATES[problem.domain.region.chart if archetype == "orientation" else ""],
         archetype=archetype,
         method=method,
         seconds=perf_counter() - begin,
@@ -224,7 +202,7 @@ def workspace(
     if not indices or result.interrupted:
         return result
     try:
-        over = statistics_of(question, result, indices, threads)
+        over = statistics_of(problem, result, indices, threads)
     except KeyboardInterrupt:
         return replace(result, status=WorkspaceStatus.STOPPED)
     return replace(result, indices=over, seconds=perf_counter() - begin)

@@ -22,6 +22,7 @@ def test_the_study_of_the_paper():
     s = nd.Study.paper()
     assert s.family == "hexagonal"
     assert s.variables == {**dict.fromkeys(SIDES, (0.0, 60.0)), **dict.fromkeys(HEIGHTS, (0.05, 80.0)), "theta_z": 0.0}
+    assert s.free_variables == (*SIDES, *HEIGHTS)
     assert s.constraints == {"radius_ratio": (None, 2.0)}
     assert (s.characteristic_length, s.starts, s.seed) == (1.0, 64, 0)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import ninedof
 
 MOST = 7
-# The workspace keeps its keywords; an acceleration is robot, pose and the six vectors of its equation.
+# Fixed as public names: the keywords of the workspace; robot, pose and the six vectors of an equation.
 LONGER = {"workspace", "inverse_acceleration"}
 
 

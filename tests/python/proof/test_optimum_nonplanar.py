@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.proof.optimum import left_out_of
+from ninedof.proof.optimum_steps import ways_of
 
 STUDY = nd.Study.load(Path(__file__).parents[3] / "examples" / "09_near_isotropic.toml")
 BEST = 1.4020429319  # what it prints
@@ -127,11 +127,11 @@ def test_time_and_ctrl_c_leave_what_is_proved():
 )
 def test_what_the_theory_does_not_reach_is_refused(change, words):
     with pytest.raises(ValueError, match=words):
-        left_out_of(replace(STUDY, **change))
+        ways_of(replace(STUDY, **change))
 
 
 def test_what_is_left_out_is_named():
     study = replace(STUDY, variables=dict(STUDY.variables) | {"platform_external_angle": (0.0, 1.0)})
-    assert left_out_of(study) == ("platform_external_angle", "joint_spacing", "leg_clearance")
+    assert ways_of(study).left_out == ("platform_external_angle", "joint_spacing", "leg_clearance")
     study = replace(STUDY, constraints={"leg_ratio": (1.5, 2.5), "footprint": (1.0, 4.0), "height": (1.0, 3.0)})
-    assert left_out_of(study) == ("leg_ratio.min", "footprint")
+    assert ways_of(study).left_out == ("leg_ratio.min", "footprint")

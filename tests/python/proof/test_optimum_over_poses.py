@@ -18,8 +18,9 @@ import ninedof as nd
 from ninedof.design.region_poses import posed
 from ninedof.optimize.pieces import Pieces
 from ninedof.proof.class_proof import at_home
-from ninedof.proof.optimum import left_out_of, prove
+from ninedof.proof.optimum import prove
 from ninedof.proof.optimum_proof import OptimumProof
+from ninedof.proof.optimum_steps import ways_of
 from ninedof.support.store import Store
 
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0}
@@ -171,7 +172,7 @@ def test_of_more_than_six_free_variables_the_neutral_pose_proves_what_it_can(pos
     proof = nd.prove_optimum(study, 4.0, gap=0.5)
     assert proof.complete
     assert proof.lower_bound == 2.0
-    assert proof.left_out == left_out_of(study) == tuple(LIMITS)
+    assert proof.left_out == ways_of(study).left_out == tuple(LIMITS)
     assert proof.where in ("over the region", "at its poses")
     assert nd.check_certificate(proof.save(tmp_path / "optimum.certificate")).proved
 
@@ -316,7 +317,7 @@ def test_threads_do_not_change_it():
     ],
 )
 def test_what_has_no_proof_is_refused_before_the_work(study, words):
-    for call in (left_out_of, lambda one: nd.optimize(one, certify=True)):
+    for call in (ways_of, lambda one: nd.optimize(one, certify=True)):
         with pytest.raises(ValueError, match=words):
             call(study)
 

@@ -153,7 +153,7 @@ def _vary(text: str) -> tuple[str, tuple[float, float] | None]:
 def _around_alone(screen: Screen, of: nd.Study | nd.Result, options: _Options, at: Mapping[str, Any]) -> Answer:
     """Say how far all free variables may go at once; designs are not divided, and nothing is kept."""
     study = of if isinstance(of, nd.Study) else of.study
-    free = [name for name, ends in study.variables.items() if isinstance(ends, tuple)]
+    free = study.free_variables
     if not options.around:
         raise ValueError(f"--vary: got none, expected one to four of {', '.join(study.variables)}, or --around")
     if not 1 <= len(free) <= MOST_VARIED:

@@ -17,7 +17,7 @@ from ninedof.cli.screen import Screen, bold, exit_status
 from ninedof.optimize.result import with_fixed_design
 from ninedof.optimize.tables import agreement_words, best_prices, candidates_table, proof_words
 from ninedof.paper.comparison import PaperComparison, compare, comparison_table, comparison_words
-from ninedof.proof.optimum import left_out_of
+from ninedof.proof.optimum_steps import ways_of
 from ninedof.records.record import run_folder, write_run
 from ninedof.sheet.tables import limits_table
 from ninedof.singularity.architecture import architecture_sentences
@@ -58,7 +58,7 @@ def optimize(options: _Options) -> Answer:
     if options.time is not None and not finite("--time", options.time) > 0.0:
         raise ValueError(f"--time: got {options.time:g}, expected seconds, more than 0")
     if options.certify:
-        left_out_of(study)  # raises where no proof is known, before the work
+        ways_of(study)  # raises where no proof is known, before the work
     with run_folder(options.out) as directory:
         limit = math.inf if options.time is None else options.time
         how: dict[str, Any] = {"threads": options.threads, "certify": options.certify, "time_limit": limit}

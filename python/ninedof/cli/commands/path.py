@@ -23,6 +23,7 @@ from ninedof.cli.options import (
     argument,
     ends,
     option,
+    rule_for_o,
     rule_option,
     struct,
     triple,
@@ -34,7 +35,6 @@ from ninedof.motion.follow import wrenches_along
 from ninedof.motion.tables import motion_tables, motion_words
 from ninedof.records.motion import motion_values
 from ninedof.records.record import run_folder, write_run
-from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.pose_words import turn_deg, vector_words
@@ -67,11 +67,7 @@ class _Options(JobOptions):
     spiral: Two | None = option("Three turns outwards and up, from rest to rest.", metavar="RADIUS HEIGHT")
     duration: float | None = option("Of a circle, line or spiral; 1 by default.")
     points: int | None = option("Poses of a circle, line or spiral; 1001 by default.")
-    internal_point: str | None = option(
-        "Position of O: carried, shifted, held, best, or a fraction between the plates; by default as in the "
-        "region of the run's study, else carried.",
-        values=RULES,
-    )
+    internal_point: str | None = rule_for_o("carried")
     legs: Two | None = ends(LEG_LIMITS)
     force: Three | None = triple("Force on the platform at its origin.")
     moment: Three | None = triple("Moment on the platform.")
@@ -111,17 +107,8 @@ def path(options: _Options) -> None:
     else:
         question |= options.given(*SHAPES) | {"duration": trajectory.time[-1], "points": len(trajectory)}
     with run_folder(options.out) as directory, Store(directory, {"kind": "motion", **question}):
-        length = chosen.characteristic_length
-        result = nd.follow(
-            g,
-            trajectory,
-            home,
-            **how,
-            characteristic_length=length,
-            load=(force, moment),
-            masses=masses,
-            gravity=gravity,
-        )
+        duty: Any = {"load": (force, moment), "masses": masses, "gravity": gravity}
+        result = nd.follow(g, trajectory, home, **how, characteristic_length=chosen.characteristic_length, **duty)
     of_study = nd.path_limits(study, result, home) if study else None
     result = result if of_study is None else replace(result, study_breaks=of_study.breaks)
     motion = motion_values(result, of_study)

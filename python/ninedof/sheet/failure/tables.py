@@ -77,7 +77,8 @@ def pairs_table(failure: Any) -> Table:
         rows.append((leg, *[""] * k, *cells))
     columns = [Column("and"), *columns_of(*names[1:], form=SHORT)]
     worst = max(numbers.values(), key=lambda one: one.condition_number)
-    notes = [f"worst: {' and '.join(worst.legs)}, {_words(worst.condition_number)}, {_place(failure, worst.pose)}"]
+    place = f"at pose {worst.pose}: {pose_of(failure, worst.pose)}" if worst.pose else "at the neutral pose"
+    notes = [f"worst: {' and '.join(worst.legs)}, {_words(worst.condition_number)}, {place}"]
     if worst.share is not None:
         least = min(numbers.values(), key=lambda one: one.share)
         notes.append(f"least share of the region: {' and '.join(least.legs)}, {_percent(least.share)}")
@@ -153,7 +154,3 @@ def _words(value: float) -> str:
 
 def _percent(share: float | None) -> str:
     return "-" if share is None or math.isnan(share) else f"{100.0 * share:.2f} %"
-
-
-def _place(failure: Any, k: int) -> str:
-    return "at the neutral pose" if k == 0 else f"at pose {k}: {pose_of(failure, k)}"
