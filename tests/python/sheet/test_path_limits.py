@@ -91,10 +91,12 @@ def test_shifted_keeps_the_arm_of_o():
 
 
 def test_rows_as_text_have_the_unit_of_their_limit():
-    cone = {"name": "base_cone", "part": "l2", "side": "max", "limit_deg": 45.0, "value_deg": 2.5, "margin": 17 / 18}
-    length = {"name": "leg_clearance", "part": "", "side": "min", "limit": 20.0, "value": 30.0, "margin": 0.5}
-    ratio = length | {"name": "stroke_ratio"}
-    sign = length | {"name": "singularity_free", "limit": 0.1, "value": 0.35, "margin": 0.25}
+    cone = {"name": "base_cone", "kind": "angle", "part": "l2", "side": "max", "margin": 17 / 18}
+    cone |= {"limit_deg": 45.0, "value_deg": 2.5}
+    length = {"name": "leg_clearance", "kind": "length", "part": "", "side": "min", "margin": 0.5}
+    length |= {"limit": 20.0, "value": 30.0}
+    ratio = length | {"name": "stroke_ratio", "kind": "ratio"}
+    sign = length | {"name": "singularity_free", "kind": "sign", "limit": 0.1, "value": 0.35, "margin": 0.25}
     rows = limits_table({"unit": "mm", "limits": [row | {"at": 0.5} for row in (cone, length, ratio, sign)]}).rows
     assert rows[0] == ("base_cone l2", "max", "45.00°", "2.50°", "94.44 %", "0.5")
     assert rows[1] == ("leg_clearance", "min", "20 mm", "30 mm", "50.00 %", "0.5")
