@@ -21,8 +21,8 @@ NO_WORSE = {
 }
 """Found by searches: they may become better, that is smaller or larger by the sign, and worse by so much at most."""
 TOLERANCE = {"certificate": 1e-5, "gradients": 2e-12}
-"""Of what follows from an optimum: one to 1e-10 leaves its design to the root of that. Of gradients: since the record they
-are summed in another order, and near a singularity that is 1.4e-12 of the largest. Else 1e-12."""
+"""Of what follows from an optimum: one to 1e-10 leaves its design to the root of that. Of gradients: since the record
+they are summed in another order, and near a singularity that is 1.4e-12 of the largest. Else 1e-12."""
 
 
 def parts(name):
