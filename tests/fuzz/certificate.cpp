@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ninedof/batch/batch.hpp"
+#include "ninedof/conditioning/characteristic_length.hpp"
 #include "ninedof/conditioning/symmetric.hpp"
 #include "ninedof/proof/checker.hpp"
 #include "proof/checker/certificate_file.hpp"
@@ -46,9 +47,13 @@ bool allowed(const Certificate& c, const char* name, double value) {
 }
 
 /// A design of the certificate's study is not better than the target, but for rounding.
-void judge(const Certificate& c, const Geometry& g, double zp, double zs, double turn) {
+void judge(const Certificate& c, const Geometry& g, double zp, double zs, double turn, double free_length) {
   if (!(zs > 0.0 && zs < zp)) return;
-  const AxisSpectrum<double> s = axis_spectrum(axis_design(g, neutral(zp, zs, turn)), c.length);
+  const Configuration home = neutral(zp, zs, turn);
+  const double length =
+      c.length_kind.empty() ? free_length : characteristic_length(g, home, length_kind(c.length_kind));
+  if (!(length > 0.0)) return;
+  const AxisSpectrum<double> s = axis_spectrum(axis_design(g, home), length);
   const double longest = std::max({s.l, s.q, s.r}), shortest = std::min({s.l, s.q, s.r});
   const auto radius = [](const Vec3& joint) { return joint.head<2>().norm(); };
   const double ratio = std::max(radius(g.base_external()[0]), radius(g.base_internal()[0])) /
@@ -66,11 +71,12 @@ void look_for_better(const Certificate& c) {
     std::array<double, 9> x{};
     for (std::size_t k = 0; k < std::min(c.variables.size(), x.size()); ++k)
       x[k] = within(c.variables[k].range, share(sample, k));
+    const double length = within(c.length, share(sample, x.size()));
     try {
-      if (c.family == "hexagonal") judge(c, Geometry::hexagonal(x[0], x[1], x[2], x[3]), x[4], x[5], x[6]);
+      if (c.family == "hexagonal") judge(c, Geometry::hexagonal(x[0], x[1], x[2], x[3]), x[4], x[5], x[6], length);
       else
         judge(c, Geometry::symmetric({x[0], 0.0, 0.0}, {x[1], x[2], 0.0}, {x[3], x[4], 0.0}, {x[5], x[6], 0.0}), x[7],
-              x[8], 0.0);
+              x[8], 0.0, length);
     } catch (const InvalidArgument&) {
     }
   }

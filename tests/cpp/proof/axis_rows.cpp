@@ -9,6 +9,7 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/symmetric.hpp"
+#include "ninedof/problem/problem.hpp"
 #include "proof/optimum/box_bound.hpp"
 
 using namespace ninedof;
@@ -44,6 +45,42 @@ std::array<double, rows> logarithms(const Point& p) {
           std::log(s.l / U),     std::log(s.q / U),     std::log(s.r / U)};
 }
 
+/// The number that U / l_c is, by the library's characteristic length of the design.
+double size_by_library(const Point& p, LengthKind kind) {
+  const double t = p[at_share] / (1.0 + p[at_share]);
+  Problem study;
+  study.family = "symmetric";
+  study.variables.assign(9, {0.0, 1e3});
+  study.characteristic_length = {StudyLength::Choice::kind, 1.0, kind, {}};
+  Eigen::VectorXd x(9);
+  x << p[at_ratio], p[at_lower], 0.7, 1.0, 2.0 * std::atan(p[at_angle]), p[at_upper], 2.9, p[at_height],
+      p[at_height] * t;
+  return 1.0 / characteristic_length(study, x);
+}
+
+/// The point of a chart in the coordinates of the plain one.
+Point plain(Point p, const Chart& chart) {
+  if (chart.slopes) {
+    const double t = std::clamp(p[at_share] - 1.0, 1e-9, 1.0 - 1e-9);
+    p[at_share] = t / (1.0 - t);
+    p[at_lower] *= t;
+    p[at_upper] *= 1.0 - t;
+  }
+  if (chart.hexagonal()) p[at_lower] = p[at_ratio], p[at_upper] = 1.0;
+  if (chart.length) p[at_size] = size_by_library(p, *chart.length);
+  return p;
+}
+
+const std::vector<Chart> charts = [] {
+  std::vector<Chart> out;
+  for (const auto& length : {std::optional<LengthKind>{}, std::optional(LengthKind::mean_leg),
+                             std::optional(LengthKind::platform_radius), std::optional(LengthKind::natural)})
+    for (const Chart& one : {Chart{hexagonal_coordinates, false, length}, Chart{coordinates, false, length},
+                             Chart{coordinates, true, length}})
+      out.push_back(one);
+  return out;
+}();
+
 class Random {
  public:
   double log_uniform(double low, double high) { return low * std::pow(high / low, part_(engine_)); }
@@ -70,6 +107,17 @@ Box box_about(const Point& p, double factor, Random& random) {
 Box hexagonal(Box box) {
   box[at_lower] = box[at_ratio];
   box[at_upper] = 1.0;
+  return box;
+}
+
+/// A box about a point of a chart; of 1 + t it may reach to the ends, where internal joints meet the axis.
+Box box_in(const Chart& chart, Point p, double factor, Random& random) {
+  if (chart.slopes) p[at_share] = 1.0 + random.part();
+  Box box = box_about(p, factor, random);
+  if (chart.slopes) box[at_share] = {std::max(box[at_share].lo, 1.0), std::min(box[at_share].hi, 2.0)};
+  if (chart.hexagonal()) box = hexagonal(box);
+  if (chart.length) box[at_size] = {0.0, infinity};
+  settle(box, chart);
   return box;
 }
 
@@ -113,7 +161,7 @@ TEST_SUITE("axis_rows") {
         const Box box = box_about(random.point(), factor, random);
         const AxisPieces<Interval> pieces = axis_pieces(box);
         const Values values = axis_values(pieces);
-        const auto slopes = axis_slopes(box, pieces, coordinates);
+        const auto slopes = axis_slopes(box, pieces, {});
         for (int j = 0; j < 8; ++j) {
           const Point p = inside(box, random);
           const auto at = logarithms(p);
@@ -135,6 +183,44 @@ TEST_SUITE("axis_rows") {
       }
   }
 
+  TEST_CASE("where the characteristic length is of a kind, U / l_c is that of the library") {
+    Random random;
+    for (const Chart& chart : charts) {
+      if (!chart.length) continue;
+      for (int i = 0; i < 200; ++i) {
+        const Box box = box_in(chart, random.point(), i % 2 == 0 ? 0.0 : 0.3, random);
+        for (int j = 0; j < 5; ++j) {
+          const double size = plain(inside(box, random), chart)[at_size];
+          CHECK((box[at_size].lo * (1.0 - 1e-7) <= size && size <= box[at_size].hi * (1.0 + 1e-7)));
+        }
+        if (i % 2 == 0) CHECK(width(box[at_size]) < 1e-9 * box[at_size].hi);
+      }
+    }
+  }
+
+  TEST_CASE("no design of a box of any chart is below its bound, and small boxes lose little") {
+    Random random;
+    for (const Chart& chart : charts)
+      for (const double leg_ratio : {infinity, 2.0})
+        for (const double factor : {1e-5, 0.001, 0.05, 0.5, 3.0})
+          for (int i = 0; i < 40; ++i) {
+            const Box box = box_in(chart, random.point(), factor, random);
+            const BoxBound bound = bound_box(box, chart, 1e300, std::log(leg_ratio));
+            double least = infinity;
+            for (int j = 0; j < 30; ++j) {
+              const auto at = logarithms(plain(inside(box, random), chart));
+              const auto [shortest, longest] = std::minmax({at[external_leg], at[upper_leg], at[lower_leg]});
+              if (longest - shortest > std::log(leg_ratio)) continue;
+              least = std::min(least, condition_number(at));
+            }
+            INFO("slopes " << chart.slopes << ", dimension " << chart.dimension << ", length "
+                           << chart.length.has_value() << ", factor " << factor);
+            CHECK(least >= bound.condition_number * (1.0 - 1e-7));
+            if (factor < 1e-4 && leg_ratio == infinity && box[at_share].lo > 1.001 && box[at_share].hi < 1.999)
+              CHECK(std::log(least / bound.condition_number) < 1e-3);
+          }
+  }
+
   TEST_CASE("no design of a box is below its bound, of any kind") {
     Random random;
     for (const bool hexagons : {true, false})
@@ -144,7 +230,7 @@ TEST_SUITE("axis_rows") {
             Box box = box_about(random.point(), factor, random);
             if (hexagons) box = hexagonal(box);
             const std::size_t dimension = hexagons ? hexagonal_coordinates : coordinates;
-            const BoxBound bound = bound_box(box, dimension, 1e300, std::log(leg_ratio));
+            const BoxBound bound = bound_box(box, {dimension}, 1e300, std::log(leg_ratio));
             for (int j = 0; j < 30; ++j) {
               Point p = inside(box, random);
               if (hexagons) p[at_lower] = p[at_ratio], p[at_upper] = 1.0;
@@ -161,7 +247,7 @@ TEST_SUITE("axis_rows") {
     const auto loss = [](const Point& p, double size) {
       Box box;
       for (std::size_t k = 0; k < coordinates; ++k) box[k] = {p[k] * (1.0 - size), p[k] * (1.0 + size)};
-      return std::log(condition_number(logarithms(p)) / bound_box(box, coordinates, 1e300, infinity).condition_number);
+      return std::log(condition_number(logarithms(p)) / bound_box(box, {}, 1e300, infinity).condition_number);
     };
     for (int i = 0; i < 50; ++i) {
       const Point p = random.point();

@@ -98,7 +98,11 @@ TEST_SUITE("optimum") {
     CHECK_THROWS_AS(prove(general, 2.0), InvalidArgument);
     Problem flat = paper();
     flat.variables[4].low = 0.0;
-    CHECK_THROWS_WITH_AS(prove(flat, 2.0), "zp: got [0, 80], expected positive and finite bounds for a proof",
+    CHECK(prove(flat, 1.5).complete);
+    flat.characteristic_length = {StudyLength::Choice::kind, 1.0, LengthKind::mean_leg, {}};
+    CHECK_THROWS_WITH_AS(prove(flat, 2.0),
+                         "zp: got [0, 80], expected a positive lower bound for a proof, or a number as the "
+                         "characteristic length",
                          InvalidArgument);
     Problem posed = paper();
     posed.objective.poses.push_back({});

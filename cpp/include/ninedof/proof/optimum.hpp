@@ -38,9 +38,11 @@ struct OptimumProof {
 ///
 /// Of the family "symmetric_nonplanar" one target after another is proved, depth first and without a certificate.
 ///
-/// Throws InvalidArgument for a study that the theory does not reach: the family "general", an objective other than the condition number at the neutral pose, a characteristic length that is not a number,
-/// bounds that are infinite or, of zp and of the radii of internal joints of symmetric designs, not positive. Throws
-/// std::runtime_error as require_sound_arithmetic does.
+/// Throws InvalidArgument for a study that the theory does not reach: the family "general"; an objective other than the
+/// condition number at the neutral pose; of non-planar designs a characteristic length that is no number; sizes without
+/// a finite upper bound; a zp that begins at 0 where an internal radius does too or the length is of a kind; a platform
+/// that may shrink to a point where nothing bounds the length. Throws std::runtime_error as require_sound_arithmetic
+/// does.
 OptimumProof prove_optimum(const Problem& study, const OptimumSettings& settings, const Control& control = {});
 
 }  // namespace ninedof

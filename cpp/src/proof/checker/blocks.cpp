@@ -13,6 +13,7 @@ template <std::size_t n>
 struct Pieces {
   Block<n> axial, transverse;
   Positive<n> external2, upper2, lower2;
+  Range size;  ///< U / l_c
 };
 
 template <std::size_t n>
@@ -83,40 +84,98 @@ Positive<n> third_side(const Positive<n>& a, const Positive<n>& b, const Signed<
   return out;
 }
 
+template <std::size_t n>
+Positive<n> positive(const Signed<n>& x) {
+  Positive<n> out{x.value, {}};
+  for (std::size_t k = 0; k < n; ++k) out.log_slope[k] = x.slope[k] / x.value;
+  return out;
+}
+
+/// U / l_c where the other coordinates decide it; z is U_internal / U.
+template <std::size_t n>
+Positive<n> size_by(const Domain& d, const Pieces<n>& p, const Positive<n>& z, const Signed<n>& internal_legs,
+                    const Positive<n>& shift, const Positive<n>& turn) {
+  if (d.length == Length::mean_leg) return 3.0 * inverse(internal_legs + root(p.external2));
+  if (d.length == Length::natural) return root(shift * inverse(turn));
+  Positive<n> out{1.0 / Range(std::max(1.0, z.value.a), std::max(1.0, z.value.b)), {}};
+  if (z.value.b >= 1.0)
+    for (std::size_t k = 0; k < n; ++k) out.log_slope[k] = -(Range(z.value.a > 1.0 ? 1.0 : 0.0, 1.0) * z.log_slope[k]);
+  return out;
+}
+
 /// The two blocks of M and the squares of the leg lengths over a box, with their slopes along the first n coordinates.
 template <std::size_t n>
-Pieces<n> pieces(const Box& b, bool hexagonal) {
+Pieces<n> pieces(const Box& b, const Domain& d) {
   using Number = Positive<n>;
-  const Number U = coordinate<n>(b, 0), x = coordinate<n>(b, 1), eta = coordinate<n>(b, 2), o = coordinate<n>(b, 3);
+  const bool hexagonal = d.dimension == 5;
+  const Number x = coordinate<n>(b, 1), eta = coordinate<n>(b, 2), o = coordinate<n>(b, 3);
   const Number tau = coordinate<n>(b, 4), y = hexagonal ? x : coordinate<n>(b, 5);
-  const Number z2 = hexagonal ? Number{1.0, {}} : squared(coordinate<n>(b, 6));
-  const Number U2 = squared(U), eta2 = squared(eta);
+  const Number z = hexagonal ? Number{1.0, {}} : coordinate<n>(b, 6), eta2 = squared(eta);
+  const Number z2 = hexagonal ? z : squared(z);
   const Number versed = 2.0 * inverse(plus(1.0, inverse(squared(tau))));  // 1 - cos theta
   const Signed<n> cosine = plus(1.0, -plain(versed));
   Number sine2{sine_squared(tau.value), {}};
   if constexpr (n > 4) sine2.log_slope[4] = 2.0 * cosine.value;
-  const Number q = inverse(plus(1.0, o)), t = inverse(plus(1.0, inverse(o)));
   const Signed<n> plan2 = squared(plus(-1.0, plain(x))) + plain(2.0 * (x * versed));
   const Number N = plan2 + eta2;
-  const Number up2 = squared(q * eta), low2 = squared(t * eta);
-  const Number Z = z2 * inverse(up2), Y = squared(y) * inverse(low2);
-  const Number stretch2 = plus(1.0, up2 * U2);
-  const Number qx = q * x, lift = plus(1.0, q * (eta2 * U2));
-  const Number arm2 = third_side(t, qx, cosine, sine2), slant2 = third_side(lift, x, -cosine, sine2);
   Pieces<n> p;
+  p.external2 = N;
+
+  Signed<n> part, rest;  // t and q, where they may vanish
+  Number q, t, up2, Z, Y;
+  if (d.slopes) {
+    part = plus(-1.0, plain(o)), rest = plus(2.0, -plain(o));
+    part.value = meet(part.value, {0.0, 1.0}), rest.value = meet(rest.value, {0.0, 1.0});
+    Z = z2 * inverse(eta2), Y = squared(y) * inverse(eta2);
+    p.upper2 = positive(squared(rest) * (z2 + eta2));
+    p.lower2 = positive(squared(part) * (squared(y) + eta2));
+  } else {
+    q = inverse(plus(1.0, o)), t = inverse(plus(1.0, inverse(o)));
+    up2 = squared(q * eta);
+    const Number low2 = squared(t * eta);
+    Z = z2 * inverse(up2), Y = squared(y) * inverse(low2);
+    p.upper2 = z2 + up2;
+    p.lower2 = squared(y) + low2;
+  }
+  const Number axial = inverse(plus(2.0, Z + Y)), radial = inverse(plus(2.0, inverse(Z) + inverse(Y)));
+
+  Number U = coordinate<n>(b, 0);
+  if (d.length != Length::free) {
+    const Number moment = (squared(x) * sine2 + eta2) * inverse(N), lever = up2 * radial;
+    const Number turn = d.slopes ? squared(rest) * (eta2 * radial) + moment : lever + moment;
+    const Signed<n> legs = d.slopes ? rest * root(z2 + eta2) + part * root(squared(y) + eta2)
+                                    : plain(root(p.upper2)) + plain(root(p.lower2));
+    U = size_by(d, p, d.slopes ? positive(rest * z) : z, legs, plus(1.0, axial + radial), turn);
+    U.value = meet(b[0], U.value);
+  }
+  p.size = U.value;
+  const Number U2 = squared(U);
+  Number stretch2, arm2, lift;
+  if (d.slopes) {
+    const Number one{1.0, {}};
+    stretch2 = squared(rest) * (eta2 * U2) + one;
+    lift = rest * (eta2 * U2) + one;
+    const Range qx = rest.value * x.value;
+    arm2 = {square(part.value + qx * cosine.value) + square(qx) * sine2.value, {}};
+    const Signed<n> sum = squared(part) + squared(rest) * squared(x) + part * rest * cosine * (2.0 * x);
+    for (std::size_t k = 0; k < n; ++k) arm2.log_slope[k] = sum.slope[k] / arm2.value;
+    up2.value = square(rest.value) * eta2.value;
+  } else {
+    stretch2 = plus(1.0, up2 * U2);
+    lift = plus(1.0, q * (eta2 * U2));
+    arm2 = third_side(t, q * x, cosine, sine2);
+  }
+  const Number slant2 = third_side(lift, x, -cosine, sine2);
   p.axial.g2 = 3.0 * (U2 * squared(x) * sine2 * inverse(N));
   p.axial.f2 = 3.0 * (eta2 * inverse(N));
-  p.axial.w2 = 3.0 * inverse(plus(2.0, Z + Y));
+  p.axial.w2 = 3.0 * axial;
   p.transverse.g2 = 1.5 * (arm2 * eta2 * U2 * inverse(N) * inverse(stretch2));
   p.transverse.f2 = 1.5 * (slant2 * inverse(N) * inverse(stretch2));
-  p.transverse.w2 = 1.5 * (stretch2 * inverse(plus(2.0, inverse(Z) + inverse(Y))));
+  p.transverse.w2 = 1.5 * (stretch2 * radial);
   p.axial.f2.value = 3.0 / (1.0 + plan2.value / eta2.value);  // each of eta, U and their like once: a narrower range
   p.axial.g2.value = 3.0 * U2.value * sine2.value /
                      (square(1.0 - cosine.value / x.value) + (sine2.value + eta2.value) / square(x.value));
   p.transverse.g2.value = 1.5 * (arm2.value / ((1.0 + plan2.value / eta2.value) * (1.0 / U2.value + up2.value)));
-  p.external2 = N;
-  p.upper2 = z2 + up2;
-  p.lower2 = squared(y) + low2;
   return p;
 }
 
@@ -131,9 +190,13 @@ bool combined(const Box& box, const Domain& d, const Weights& by) {
     reach[k] = std::max(logarithm(Range(box[k].b) / m).b, logarithm(m / Range(box[k].a)).b);
   }
   if (n == 5) middle[5] = middle[1];
+  if (d.length != Length::free) {  // U moves with the others
+    middle[0] = {0.0, inf};
+    reach[0] = 0.0;
+  }
   const Range a = double(by.max), b = double(by.min), e = double(by.external), u = double(by.upper), l = -(e + u);
-  const Pieces<0> at = pieces<0>(middle, n == 5);
-  const Pieces<n> p = pieces<n>(box, n == 5);
+  const Pieces<0> at = pieces<0>(middle, d);
+  const Pieces<n> p = pieces<n>(box, d);
   const Values axial = values(at.axial), transverse = values(at.transverse);
   Range sum = (1.0 - a) * logarithm(axial.max) + a * logarithm(transverse.max) - (1.0 - b) * logarithm(axial.min) -
               b * logarithm(transverse.min);
@@ -158,8 +221,14 @@ bool combined(const Box& box, const Domain& d, const Weights& by) {
 
 }  // namespace
 
+void settle(Box& box, const Domain& d) {
+  if (d.dimension == 5) box[5] = box[1];
+  if (d.length == Length::free) return;
+  box[0] = meet(box[0], pieces<0>(box, d).size);
+}
+
 bool by_ranges(const Box& box, const Domain& d) {
-  const Pieces<0> p = pieces<0>(box, d.dimension == 5);
+  const Pieces<0> p = pieces<0>(box, d);
   if (d.leg_ratio < inf) {
     const double most = std::max({p.external2.value.a, p.upper2.value.a, p.lower2.value.a});
     const double least = std::min({p.external2.value.b, p.upper2.value.b, p.lower2.value.b});

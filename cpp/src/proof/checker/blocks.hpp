@@ -5,6 +5,10 @@
 
 namespace ninedof::checker {
 
+/// The box with what follows from the coordinates that are cut: of hexagons y, and U / l_c where it is none of them.
+/// That is inverted where the box holds no design.
+void settle(Box& box, const Domain& d);
+
 /// By ranges alone.
 bool by_ranges(const Box& box, const Domain& d);
 

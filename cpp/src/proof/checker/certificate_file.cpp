@@ -8,10 +8,15 @@ std::string written(const Bound& b) {
   return b.name + " " + hexadecimal(b.range.a) + " " + hexadecimal(b.range.b) + "\n";
 }
 
+std::string length(const Certificate& c) {
+  if (!c.length_kind.empty()) return c.length_kind;
+  return hexadecimal(c.length.a) + (c.length.a == c.length.b ? "" : " " + hexadecimal(c.length.b));
+}
+
 /// The lines that follow the checksum, as docs/certificate.md has them.
 std::string written(const Certificate& c) {
-  std::string out = "family " + c.family + "\ntarget " + hexadecimal(c.target) + "\ncharacteristic_length " +
-                    hexadecimal(c.length) + "\n";
+  std::string out =
+      "family " + c.family + "\ntarget " + hexadecimal(c.target) + "\ncharacteristic_length " + length(c) + "\n";
   for (const Bound& b : c.variables) out += "variable " + written(b);
   for (const Bound& b : c.limits) out += "limit " + written(b);
   for (const std::string& limit : c.left_out) out += "left_out " + limit + "\n";
@@ -26,6 +31,16 @@ Bound bound(const std::string& text) {
                   {number(text.substr(first + 1, second - first - 1)), number(text.substr(second + 1))}};
   if (!out.range.sound()) refuse("the bounds of " + out.name + " are inverted");
   return out;
+}
+
+/// L, LOW HIGH or a word.
+void read_length(const std::string& text, Certificate& c) {
+  for (const char* kind : {"optimal", "natural", "mean_leg", "platform_radius"})
+    if (text == kind) c.length_kind = text;
+  if (!c.length_kind.empty()) return;
+  const std::size_t space = text.find(' ');
+  c.length = number(text.substr(0, space));
+  if (space != std::string::npos) c.length.b = number(text.substr(space + 1));
 }
 
 /// The name of a limit, perhaps where it holds and which side of it: no other text is printed.
@@ -53,7 +68,7 @@ Certificate read(Stream& file) {
     const std::string value = text.substr(space + 1);
     if (key == "family") out.family = value;
     else if (key == "target") out.target = number(value);
-    else if (key == "characteristic_length") out.length = number(value);
+    else if (key == "characteristic_length") read_length(value, out);
     else if (key == "variable") out.variables.push_back(bound(value));
     else if (key == "limit") out.limits.push_back(bound(value));
     else if (key == "left_out") out.left_out.push_back(limit(value));
@@ -66,7 +81,9 @@ Certificate read(Stream& file) {
 }
 
 std::vector<std::string> study_of(const Certificate& c) {
-  std::vector<std::string> out{c.family + " designs with 0 < zs < zp", "characteristic length " + digits(c.length)};
+  const std::string length = c.length_kind.empty() ? said("characteristic length", c.length)
+                                                   : "characteristic length \"" + c.length_kind + "\"";
+  std::vector<std::string> out{c.family + " designs with 0 < zs < zp", length};
   for (const std::vector<Bound>& bounds : {c.variables, c.limits})
     for (const auto& [name, range] : bounds) out.push_back(said(name, range));
   for (const std::string& limit : c.left_out) out.push_back("without the limit " + limit);

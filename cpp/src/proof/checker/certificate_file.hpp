@@ -16,7 +16,9 @@ struct Bound {
 
 struct Certificate {
   std::string family;
-  double target = 0.0, length = 0.0;
+  double target = 0.0;
+  std::string length_kind;  ///< empty where the characteristic length is a number or free
+  Range length;
   std::vector<Bound> variables, limits;
   std::vector<std::string> left_out;  ///< limits of the study that the proof does without
   std::size_t tree = 0;             ///< bytes that follow the lines

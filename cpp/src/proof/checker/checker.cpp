@@ -13,11 +13,12 @@
 namespace ninedof::checker {
 namespace {
 
-std::pair<Box, Box> halves(const Box& box, std::size_t k, int dimension) {
+std::pair<Box, Box> halves(const Box& box, std::size_t k, const Domain& d) {
   std::pair out(box, box);
   const double m = std::clamp(std::sqrt(box[k].a) * std::sqrt(box[k].b), box[k].a, box[k].b);
   out.first[k].b = out.second[k].a = m;
-  if (dimension == 5) out.first[5] = out.first[1], out.second[5] = out.second[1];
+  settle(out.first, d);
+  settle(out.second, d);
   return out;
 }
 
@@ -33,7 +34,7 @@ class Walk {
       ahead.pop_back();
       const int code = byte();
       if (code < d_.dimension) {
-        auto [low, high] = halves(box, static_cast<std::size_t>(code), d_.dimension);
+        auto [low, high] = halves(box, static_cast<std::size_t>(code), d_);
         ahead.push_back(high);
         ahead.push_back(low);
         continue;
@@ -75,6 +76,7 @@ class Walk {
   /// Whatever the tree says, all that excludes a box counts; where rounding or a wider formula leaves a doubt, its
   /// parts are looked at.
   bool closed(const Box& box, const std::optional<Weights>& by, int depth) {
+    if (box[0].a > box[0].b) return true;
     for (const Range& r : box)
       if (!r.sound()) return false;
     if (outside(d_, box)) return true;
@@ -94,7 +96,7 @@ class Walk {
       const double w = box[k].b / box[k].a;
       if (w > width) width = w, widest = k;
     }
-    const auto [low, high] = halves(box, widest, d_.dimension);
+    const auto [low, high] = halves(box, widest, d_);
     return closed(low, by, depth + 1) && closed(high, by, depth + 1);
   }
 
@@ -122,7 +124,8 @@ Verdict check(std::istream& certificate, const Reading& reading) {
     }
     if (kind != kind_of_optimum) refuse(quoted(kind) + " is no kind of certificate");
     const Certificate c = read(*file);
-    const Domain d = domain_of(c);
+    Domain d = domain_of(c);
+    if (!empty(d.box)) settle(d.box, d);
     if (empty(d.box)) {
       if (c.tree != 1 || file->byte() != 16) refuse("the domain holds no design, and the tree is more than one box");
       out.leaves = 1;

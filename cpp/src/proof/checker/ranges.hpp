@@ -111,6 +111,12 @@ Signed<n> operator*(const Signed<n>& x, const Positive<n>& y) {
   return out;
 }
 template <std::size_t n>
+Signed<n> operator*(const Signed<n>& x, const Signed<n>& y) {
+  Signed<n> out{x.value * y.value, {}};
+  for (std::size_t k = 0; k < n; ++k) out.slope[k] = x.slope[k] * y.value + x.value * y.slope[k];
+  return out;
+}
+template <std::size_t n>
 Signed<n> operator-(const Signed<n>& x) {
   Signed<n> out{-x.value, {}};
   for (std::size_t k = 0; k < n; ++k) out.slope[k] = -x.slope[k];
@@ -144,6 +150,12 @@ template <std::size_t n>
 Positive<n> squared(const Positive<n>& x) {
   Positive<n> out{square(x.value), {}};
   for (std::size_t k = 0; k < n; ++k) out.log_slope[k] = 2.0 * x.log_slope[k];
+  return out;
+}
+template <std::size_t n>
+Positive<n> root(const Positive<n>& x) {
+  Positive<n> out{root(x.value), {}};
+  for (std::size_t k = 0; k < n; ++k) out.log_slope[k] = x.log_slope[k] / 2.0;
   return out;
 }
 /// The share of each summand weighs its slopes.

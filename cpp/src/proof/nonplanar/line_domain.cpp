@@ -65,19 +65,18 @@ LineLimits line_limits(const Problem& study, std::vector<std::string>& left_out)
   require_line_theory(study);
   const double length = study.characteristic_length.value;
   const std::vector<VariableInfo>& names = design_family(study.family).variables();
-  // In characteristic lengths; of what is a size, no more than needed is asked.
-  const auto range = [&](std::size_t k, bool positive) {
+  // In characteristic lengths. Sizes may begin at 0: slopes of legs are coordinates of their own.
+  const auto range = [&](std::size_t k) {
     const Interval x = Interval::between(study.variables[k].low, study.variables[k].high);
-    if (!std::isfinite(x.lo) || !std::isfinite(x.hi) || (positive && !(x.lo > 0.0)))
-      throw InvalidArgument(names[k].name, format_interval(x.lo, x.hi),
-                            positive ? "positive and finite bounds for a proof" : "finite bounds for a proof");
+    if (!std::isfinite(x.lo) || !std::isfinite(x.hi))
+      throw InvalidArgument(names[k].name, format_interval(x.lo, x.hi), "finite bounds for a proof");
     return x / length;
   };
   LineLimits out;
-  out.radius = {range(0, false), range(1, true), range(3, false), range(5, true)};
-  out.zp = range(7, true);
-  out.zs = range(8, false);
-  out.height = {range(9, false), range(10, false), range(11, false), range(12, false)};
+  out.radius = {range(0), range(1), range(3), range(5)};
+  out.zp = range(7);
+  out.zs = range(8);
+  out.height = {range(9), range(10), range(11), range(12)};
   out.length.fill(unlimited);
   out.length_in_zp.fill(unlimited);
   constexpr std::size_t angle = 4;  // between the first external joints; those of internal joints act on no limit here

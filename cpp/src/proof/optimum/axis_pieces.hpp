@@ -9,7 +9,9 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
+#include "ninedof/conditioning/characteristic_length.hpp"
 #include "ninedof/math/interval.hpp"
 
 namespace ninedof::proof {
@@ -25,6 +27,16 @@ enum Coordinate : std::size_t {
   at_upper,   ///< z = the same of the internal platform joints / U
 };
 inline constexpr std::size_t coordinates = 7, hexagonal_coordinates = 5;
+
+/// What the coordinates of a box are.
+struct Chart {
+  std::size_t dimension = coordinates;  ///< the first ones, which are cut
+  /// 1 + t, y/t and z/q in the places of o, y and z: finite where radii of internal joints begin at 0.
+  bool slopes = false;
+  std::optional<LengthKind> length;  ///< U / l_c follows from the other coordinates, by the definition of l_c
+
+  bool hexagonal() const { return dimension == hexagonal_coordinates; }
+};
 
 /// [[g, f], [0, w]] by the squares of its entries, none negative.
 template <class T>
@@ -53,6 +65,12 @@ struct AxisPieces {
 inline double squared(double x) {
   return x * x;
 }
+inline double not_negative(double x) {
+  return std::max(x, 0.0);
+}
+inline Interval not_negative(const Interval& x) {
+  return {std::max(x.lo, 0.0), std::max(x.hi, 0.0)};
+}
 inline Interval squared(const Interval& x) {
   return square(x);
 }
@@ -68,7 +86,7 @@ inline Interval sine_squared(const Interval& tau) {
 }
 
 template <class T>
-AxisPieces<T> axis_pieces(const std::array<T, coordinates>& at) {
+AxisPieces<T> axis_pieces(const std::array<T, coordinates>& at, const Chart& chart = {}) {
   const T &U = at[at_size], &x = at[at_ratio], &eta = at[at_height], &o = at[at_share], &tau = at[at_angle];
   const T &y = at[at_lower], &z = at[at_upper];
   AxisPieces<T> p;
@@ -76,16 +94,16 @@ AxisPieces<T> axis_pieces(const std::array<T, coordinates>& at) {
   const T& c = p.cosine = 1.0 - versed;
   p.sine2 = sine_squared(tau);
   const T x2 = squared(x), U2 = squared(U), eta2 = squared(eta);
-  p.q = 1.0 / (1.0 + o);
-  p.t = 1.0 / (1.0 + 1.0 / o);
+  p.q = chart.slopes ? not_negative(2.0 - o) : 1.0 / (1.0 + o);
+  p.t = chart.slopes ? not_negative(o - 1.0) : 1.0 / (1.0 + 1.0 / o);
   p.plan2 = squared(x - 1.0) + 2.0 * x * versed;
   const T upper_up2 = squared(p.q * eta), lower_up2 = squared(p.t * eta);
   p.external2 = p.plan2 + eta2;
-  p.upper2 = squared(z) + upper_up2;
-  p.lower2 = squared(y) + lower_up2;
+  p.upper2 = chart.slopes ? squared(p.q) * (squared(z) + eta2) : squared(z) + upper_up2;
+  p.lower2 = chart.slopes ? squared(p.t) * (squared(y) + eta2) : squared(y) + lower_up2;
 
-  p.upper_flat2 = squared(z) / upper_up2;
-  p.lower_flat2 = squared(y) / lower_up2;
+  p.upper_flat2 = squared(z) / (chart.slopes ? eta2 : upper_up2);
+  p.lower_flat2 = squared(y) / (chart.slopes ? eta2 : lower_up2);
   p.axial_share = 1.0 / (2.0 + p.upper_flat2 + p.lower_flat2);
   p.axial = {3.0 * U2 * p.sine2 / (squared(1.0 - c / x) + (p.sine2 + eta2) / x2), 3.0 / (1.0 + p.plan2 / eta2),
              3.0 * p.axial_share};

@@ -73,8 +73,50 @@ std::array<Interval, rows> axis_values(const AxisPieces<Interval>& p) {
           0.5 * log(p.upper2), 0.5 * log(p.lower2)};
 }
 
+namespace {
+
+/// Of log (U / l_c) along the others, where l_c is of a kind.
+Slopes size_slopes(const Box& box, const AxisPieces<Interval>& p, const Chart& chart, const std::array<Slopes, 3>& legs,
+                   const Slopes& axial, const Slopes& radial) {
+  Slopes out{};
+  const Interval drop = chart.slopes ? box[at_share] / p.q : p.t;  // of -log q along the coordinate of the share
+  if (chart.length == LengthKind::platform_radius) {
+    const Interval z2 = square(box[at_upper]) * (chart.slopes ? square(p.q) : Interval(1.0));
+    const Interval counts{z2.lo > 1.0 ? 1.0 : 0.0, z2.hi >= 1.0 ? 1.0 : 0.0};
+    out[at_upper] = -counts;
+    if (chart.slopes) out[at_share] = counts * drop;
+    return out;
+  }
+  if (chart.length == LengthKind::mean_leg) {
+    const std::array<Interval, 3> length{sqrt(p.external2), sqrt(p.upper2), sqrt(p.lower2)};
+    const Interval sum = length[0] + length[1] + length[2];
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < coordinates; ++k) out[k] -= fraction(length[i] / sum) * legs[i][k];
+    if (chart.slopes) {  // of q and t themselves, whose logarithms have no slope where they vanish
+      const Interval eta2 = square(box[at_height]), upper = sqrt(square(box[at_upper]) + eta2);
+      out[at_share] = box[at_share] * (upper - sqrt(square(box[at_lower]) + eta2)) / sum;
+    }
+    return out;
+  }
+  const Interval shift = 1.0 + p.axial_share + p.radial_share, flat2 = square(box[at_ratio]) * p.sine2;
+  const Interval eta2 = square(box[at_height]), moment = (flat2 + eta2) / p.external2;
+  const Interval lever = square(p.q) * eta2 * p.radial_share, turn = moment + lever;
+  const Interval by_moment = fraction(moment / turn), by_lever = fraction(lever / turn);
+  for (std::size_t k = 0; k < coordinates; ++k)
+    out[k] =
+        p.axial_share / shift * axial[k] + (p.radial_share / shift - by_lever) * radial[k] + by_moment * legs[0][k];
+  const Interval flat = fraction(flat2 / (flat2 + eta2));
+  out[at_ratio] -= by_moment * flat;
+  out[at_angle] -= by_moment * flat * p.cosine;
+  out[at_height] -= by_moment * fraction(1.0 - flat) + by_lever;
+  out[at_share] += eta2 * p.radial_share / turn * p.q * (chart.slopes ? box[at_share] : p.q * p.t);
+  return out;
+}
+
+}  // namespace
+
 std::array<std::array<Interval, coordinates>, rows> axis_slopes(const Box& box, const AxisPieces<Interval>& p,
-                                                                std::size_t dimension) {
+                                                                const Chart& chart) {
   const Interval &x = box[at_ratio], &c = p.cosine;
   // Halves of the slopes of log N, log S^2, log(upper vertical part)^2 and the like; all are fractions.
   const Interval n_x = x * (x - c) / p.external2, n_angle = x * p.sine2 / p.external2;
@@ -129,14 +171,28 @@ std::array<std::array<Interval, coordinates>, rows> axis_slopes(const Box& box, 
   lower[at_share] = lower_up * p.q;
   lower[at_lower] = fraction(1.0 - lower_up);
 
-  if (dimension == hexagonal_coordinates)
-    for (Slopes* s : {&axial_w, &transverse_w, &lower}) (*s)[at_ratio] += (*s)[at_lower];  // y = x
+  Slopes radial = transverse_w;  // of W1 alone, without S
+  radial[at_size] = 0.0;
+  radial[at_height] = -fraction(1.0 - 2.0 * p.radial_share);
+  radial[at_share] = upper_s * p.t - lower_s * p.q;
+  if (chart.slopes) {
+    const Interval &v = box[at_share], spin2 = square(box[at_height] * box[at_size]), level = 1.0 - x * c;
+    const Interval stretch_t = -(p.q * spin2 / (1.0 + p.lever2));  // of log S along t
+    transverse_g[at_share] = v * (((p.t + qx * c) * level - qx * x * p.sine2) / p.arm2 - stretch_t);
+    transverse_f[at_share] = v * (-(p.offset * spin2 / p.slant2) - stretch_t);
+    transverse_w[at_share] = v * stretch_t;
+    axial_w[at_share] = radial[at_share] = 0.0;
+    upper[at_share] = -(v / p.q);
+    lower[at_share] = v / p.t;
+  }
+  if (chart.hexagonal())
+    for (Slopes* s : {&axial_w, &transverse_w, &lower, &radial}) (*s)[at_ratio] += (*s)[at_lower];  // y = x
 
   std::array<Slopes, rows> out;
   const auto combine = [&](const Block<Interval>& b, const Slopes& g, const Slopes& f, const Slopes& w, Slopes& max,
                            Slopes& min) {
     const Weights by = weights(b);
-    for (std::size_t k = 0; k < dimension; ++k) {
+    for (std::size_t k = 0; k < chart.dimension; ++k) {
       max[k] = by.max_g * g[k] + by.max_w * w[k] + by.f * f[k];
       min[k] = by.min_g * g[k] + by.min_w * w[k] - by.f * f[k];
     }
@@ -146,7 +202,31 @@ std::array<std::array<Interval, coordinates>, rows> axis_slopes(const Box& box, 
   out[external_leg] = external;
   out[upper_leg] = upper;
   out[lower_leg] = lower;
+  if (chart.length) {
+    const Slopes size = size_slopes(box, p, chart, {external, upper, lower}, axial_w, radial);
+    for (std::size_t i = 0; i < external_leg; ++i) {
+      for (std::size_t k = at_ratio; k < chart.dimension; ++k) out[i][k] += out[i][at_size] * size[k];
+      out[i][at_size] = 0.0;
+    }
+  }
   return out;
+}
+
+Interval size_of(const Box& box, const Chart& chart) {
+  const AxisPieces<Interval> p = axis_pieces(box, chart);
+  if (chart.length == LengthKind::platform_radius)
+    return 1.0 / max(Interval(1.0), chart.slopes ? box[at_upper] * p.q : box[at_upper]);
+  if (chart.length == LengthKind::mean_leg) return 3.0 / (sqrt(p.external2) + sqrt(p.upper2) + sqrt(p.lower2));
+  const Interval eta2 = square(box[at_height]);
+  const Interval turn = (square(box[at_ratio]) * p.sine2 + eta2) / p.external2 + square(p.q) * eta2 * p.radial_share;
+  return sqrt((1.0 + p.axial_share + p.radial_share) / turn);
+}
+
+void settle(Box& box, const Chart& chart) {
+  if (chart.hexagonal()) box[at_lower] = box[at_ratio];
+  if (!chart.length) return;
+  const Interval size = size_of(box, chart);
+  box[at_size] = {std::max(box[at_size].lo, size.lo), std::min(box[at_size].hi, size.hi)};
 }
 
 }  // namespace ninedof::proof

@@ -25,8 +25,15 @@ Pair singular_values(const Block<Interval>& b);
 
 Values axis_values(const AxisPieces<Interval>& p);
 
-/// Along the logarithm of each coordinate: sums of fractions between 0 and 1, or little more. Along y and z only where `dimension` is that of all coordinates; with that of hexagons, y moves with x.
-std::array<Slopes, rows> axis_slopes(const Box& box, const AxisPieces<Interval>& p, std::size_t dimension);
+/// Along the logarithm of each coordinate: sums of fractions between 0 and 1, or little more. Of hexagons y moves with
+/// x; where l_c is of a kind, U / l_c with all others.
+std::array<Slopes, rows> axis_slopes(const Box& box, const AxisPieces<Interval>& p, const Chart& chart);
+
+/// Where l_c is of a kind, U / l_c from the other coordinates.
+Interval size_of(const Box& box, const Chart& chart);
+
+/// The box with what follows from the coordinates that are cut. U / l_c is inverted where the box holds no design.
+void settle(Box& box, const Chart& chart);
 
 /// A number that no condition number in the box is below, from ranges alone; at least 1.
 double natural_bound(const AxisPieces<Interval>& p);

@@ -17,29 +17,32 @@ bool legs_too_different(const AxisPieces<Interval>& p, double log_leg_ratio) {
 
 }  // namespace
 
-Box middle_of(const Box& box) {
+Box middle_of(const Box& box, const Chart& chart) {
   Box point = box;
   for (std::size_t k = 0; k < coordinates; ++k) point[k] = middle_of(box, k);
+  if (chart.length) point[at_size] = size_of(point, chart);
   return point;
 }
 
-BoxBound bound_box(const Box& box, std::size_t dimension, double target, double log_leg_ratio) {
+BoxBound bound_box(const Box& box, const Chart& chart, double target, double log_leg_ratio) {
   BoxBound out;
-  const AxisPieces<Interval> pieces = axis_pieces(box);
+  const std::size_t dimension = chart.dimension;
+  const AxisPieces<Interval> pieces = axis_pieces(box, chart);
   out.condition_number = legs_too_different(pieces, log_leg_ratio) ? infinity : natural_bound(pieces);
   if (out.condition_number >= target) return out;
 
-  const Box point = middle_of(box);
+  const Box point = middle_of(box, chart);
   Radii radius{};
   for (std::size_t k = 0; k < coordinates; ++k) {
     const double m = point[k].lo;
     radius[k] = std::max(log(Interval(box[k].hi) / m).hi, log(m / Interval(box[k].lo)).hi);
   }
-  const Values at_middle = axis_values(axis_pieces(point));
+  if (chart.length) radius[at_size] = 0.0;  // it moves with the others, and so do the slopes
+  const Values at_middle = axis_values(axis_pieces(point, chart));
   const double greatest = std::max(at_middle[axial_max].hi, at_middle[transverse_max].hi);
   const double least = std::min(at_middle[axial_min].lo, at_middle[transverse_min].lo);
   out.at_middle = exp(Interval(greatest) - least).hi;
-  const std::array<Slopes, rows> slopes = axis_slopes(box, pieces, dimension);
+  const std::array<Slopes, rows> slopes = axis_slopes(box, pieces, chart);
 
   // The coordinate whose change matters most to the singular values. Slopes are fractions: a larger one comes from a
   // denominator that is not known yet, and says nothing.
@@ -49,8 +52,9 @@ BoxBound bound_box(const Box& box, std::size_t dimension, double target, double 
   for (std::size_t k = 0; k < dimension; ++k) {
     double slope = 0.0;
     for (std::size_t i = 0; i < rows; ++i) {
+      if (i >= external_leg && log_leg_ratio == infinity) continue;
       finite = finite && std::isfinite(slopes[i][k].lo) && std::isfinite(slopes[i][k].hi);
-      if (i < external_leg || log_leg_ratio < infinity) slope = std::max(slope, magnitude(slopes[i][k]));
+      slope = std::max(slope, magnitude(slopes[i][k]));
     }
     const double change = std::min(slope, sensible) * radius[k];
     if (change > most) most = change, out.cut = k;

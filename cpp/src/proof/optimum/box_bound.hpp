@@ -17,10 +17,10 @@ struct BoxBound {
 };
 
 /// Stops at the first reason that reaches `target`.
-BoxBound bound_box(const Box& box, std::size_t dimension, double target, double log_leg_ratio);
+BoxBound bound_box(const Box& box, const Chart& chart, double target, double log_leg_ratio);
 
 /// The design in the middle of a box.
-Box middle_of(const Box& box);
+Box middle_of(const Box& box, const Chart& chart);
 
 /// Where a box is cut: the geometric mean of the ends.
 double middle_of(const Box& box, std::size_t k);

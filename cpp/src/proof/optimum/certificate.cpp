@@ -35,10 +35,32 @@ std::string sealed(const std::string& kind, const std::string& body) {
   return kind + "\nchecksum " + std::string(sum.data()) + "\n" + body;
 }
 
+namespace {
+
+const char* word_of(LengthKind kind) {
+  switch (kind) {
+    case LengthKind::mean_leg: return "mean_leg";
+    case LengthKind::platform_radius: return "platform_radius";
+    case LengthKind::natural: return "natural";
+    case LengthKind::optimal: break;
+  }
+  return "optimal";
+}
+
+std::string length_line(const StudyLength& length) {
+  using Choice = StudyLength::Choice;
+  if (length.choice == Choice::number) return hexadecimal(length.value);
+  if (length.choice == Choice::kind) return word_of(length.kind);
+  const auto [low, high] = length.bounds;
+  return hexadecimal(low) + (low == high ? "" : " " + hexadecimal(high));
+}
+
+}  // namespace
+
 std::string certificate(const Problem& study, double target, const std::vector<std::string>& left_out,
                         const std::vector<std::uint8_t>& tree) {
   std::string body = "family " + study.family + "\ntarget " + hexadecimal(target) + "\ncharacteristic_length " +
-                     hexadecimal(study.characteristic_length.value) + "\n";
+                     length_line(study.characteristic_length) + "\n";
   const auto range = [&](const std::string& kind, const std::string& name, double low, double high) {
     body += kind + " " + name + " " + hexadecimal(low) + " " + hexadecimal(high) + "\n";
   };

@@ -97,7 +97,7 @@ class Search : public BoxSearch {
   bool enough() const { return better < infinity || looked >= settings_.box_limit; }
   std::optional<BoxBound> look(const Open& one, const std::stop_token&) const {
     if (domain_.excludes(one.box)) return excluded_by_domain();
-    return bound_box(one.box, domain_.dimension, settings_.target, domain_.log_leg_ratio);
+    return bound_box(one.box, domain_.chart, settings_.target, domain_.log_leg_ratio);
   }
   /// Cuts a box that remains.
   void merge(const Open& one, const BoxBound& seen) {
@@ -106,7 +106,7 @@ class Search : public BoxSearch {
       if (tree_) tree_->close(one.node, seen);
       return;
     }
-    if (seen.at_middle < std::min(better, settings_.target) && domain_.contains(middle_of(one.box)))
+    if (seen.at_middle < std::min(better, settings_.target) && domain_.contains(middle_of(one.box, domain_.chart)))
       better = seen.at_middle;
     const double bound = std::max(one.bound, seen.condition_number);
     const double m = middle_of(one.box, seen.cut);
@@ -114,7 +114,7 @@ class Search : public BoxSearch {
     for (std::uint32_t side : {0U, 1U}) {
       Open half{one.box, bound, first + side};
       (side == 0 ? half.box[seen.cut].hi : half.box[seen.cut].lo) = m;
-      if (domain_.dimension == hexagonal_coordinates) half.box[at_lower] = half.box[at_ratio];
+      settle(half.box, domain_.chart);
       open.push(half);
     }
   }
