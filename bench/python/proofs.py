@@ -38,11 +38,22 @@ def paper(**ends):
     return replace(study, variables=dict(study.variables) | ends)
 
 
+FROM_ZERO = nd.Study(
+    "symmetric",
+    variables=dict.fromkeys(("base_internal_radius", "platform_internal_radius"), (0.0, 12.0)),
+    constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0)},
+)
 STUDIES = {  # study, gap
     "01_paper": (example("01_paper"), 1e-12),
     "the paper's with b1 ≤ 2, radius ratio ≤ 2.5": (CAP, 1e-8),
     "the paper's with theta_z from -1 to 1 rad": (paper(theta_z=(-1.0, 1.0)), 1e-12),
     "the paper's with zp ≤ 2.5": (paper(zp=(0.05, 2.5)), 3e-3),
+    "the paper's with zp and zs from 0": (paper(zp=(0.0, 80.0), zs=(0.0, 80.0)), 1e-12),
+    **{
+        f"the paper's with the length {word}": (replace(nd.Study.paper(), characteristic_length=word), 1e-10)
+        for word in ("optimal", "natural", "mean_leg", "platform_radius")
+    },
+    "symmetric, internal radii from 0, radius ratio ≤ 2, leg ratio ≤ 3": (FROM_ZERO, 0.4),
     "09_near_isotropic": (example("09_near_isotropic"), 2e-3),
     "values/nonplanar_any_height": (example("values/nonplanar_any_height"), 2e-3),
     "18_requirement, over its region": (REQUIREMENT, 1e-3),

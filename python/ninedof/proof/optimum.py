@@ -40,8 +40,9 @@ def prove_optimum(
     Parameters
     ----------
     study : Study
-        With a characteristic length that is a number, and the worst condition number as its objective. Of a symmetric
-        family at the neutral pose any number of variables may be free; of the limits radius_ratio, leg_ratio (max),
+        With the worst condition number as its objective. Of a symmetric family at the neutral pose any number of
+        variables may be free, sizes may begin at 0, and the characteristic length of planar plates may be of any kind;
+        elsewhere it is a number. Of the limits radius_ratio, leg_ratio (max),
         zs_fraction and, of non-planar designs, lengths of legs, joint_height, height and footprint (max) are part of
         that proof, others are left out (`OptimumProof.left_out`), but where up to four variables are free and they
         matter. Over poses that hold the neutral one more than six may be free: the bound is then that of the neutral

@@ -374,13 +374,21 @@ APART = [  # a row, entries that are refused because of what they are together o
     ("pareto", {"values": 2.0}, "values: got 2.0, expected a sequence of limits"),
     ("pareto", {"values": None, "points": 1}, "points: got 1, expected a whole number from 2"),
     ("prove_optimum", {"study": MANY_FREE}, "variables: got 7 that are free, expected one to 6"),
-    ("prove_optimum", {"study": nd.Study(characteristic_length="mean_leg")}, "characteristic_length: got no number"),
+    (
+        "prove_optimum",
+        {"study": nd.Study("symmetric_nonplanar", characteristic_length="mean_leg")},
+        "characteristic_length: got no number",
+    ),
     (
         "prove_optimum",
         {"study": nd.Study(objective={"poses": [{"position": [0.1, 0, 0], "internal_point": "best"}]})},
         "poses: got O chosen at a pose",
     ),
-    ("prove_optimum", {"study": nd.Study(variables={"zp": (0.0, 5.0)})}, r"zp: got \[0, 5\]"),
+    (
+        "prove_optimum",
+        {"study": nd.Study("symmetric", variables={"zp": (0.0, 5.0), "base_internal_radius": (0.0, 5.0)})},
+        r"zp: got \[0, 5\]",
+    ),
     ("prove_optimum", {"study": nd.Study(objective={"index": "speed"})}, "objective: got another index"),
     ("optimize", {"study": MANY_FREE, "certify": True, "warm": None}, "variables: got 7 that are free"),
     ("prove_optimum", {"condition_number": 3.0, "gap": 1.0}, ".*more than 1 to be proved"),

@@ -19,6 +19,7 @@ FIRST = "ninedof certificate 1\nchecksum "
 PLATES = ("base_external_radius", "base_internal_radius", "platform_external_radius", "platform_internal_radius")
 HEIGHTS = {"zp": (1.0, 9.0), "zs": (0.3, 8.0)}
 COUPLED = {"a1": 0.0, "a2": 4.0, "b1": 0.0, "b2": (2.0, 2.2)}
+TURNED = COUPLED | {"theta_z": (0.9, 1.2)}
 SYMMETRIC = dict(zip(PLATES, (4.0, 2.5, (2.0, 2.2), 1.8), strict=True)) | HEIGHTS
 STUDIES = {
     "hexagonal, up to a half turn": nd.Study(
@@ -39,11 +40,44 @@ STUDIES = {
         variables=SYMMETRIC | {"platform_external_angle": (2.0 * math.pi - 0.4, 2.0 * math.pi + 0.2)},
         constraints={"zs_fraction": (0.1, 0.9)},
     ),
+    "hexagonal, zp from 0": nd.Study(
+        variables=TURNED | {"zp": (0.0, 9.0), "zs": (0.0, 8.0)}, constraints={"radius_ratio": (None, 2.0)}
+    ),
+    "symmetric, internal radii from 0": nd.Study(
+        "symmetric",
+        variables=SYMMETRIC
+        | {"base_internal_radius": (0.0, 2.5), "platform_internal_radius": (0.0, 1.8), "platform_external_angle": 2.9}
+        | {"zp": (3.0, 5.0), "zs": (0.0, 8.0)},
+    ),
+    "symmetric, one internal radius from 0, legs": nd.Study(
+        "symmetric",
+        variables=SYMMETRIC | {"base_internal_radius": (0.0, 2.5), "platform_external_angle": (0.5, 0.8)},
+        constraints={"leg_ratio": (None, 3.0), "radius_ratio": (None, 2.0)},
+    ),
+    "free length": nd.Study(variables=TURNED | HEIGHTS, characteristic_length=(0.5, 3.0)),
+    "optimal length": nd.Study(variables=TURNED | HEIGHTS, characteristic_length="optimal"),
+    "natural length": nd.Study(variables=TURNED | HEIGHTS, characteristic_length="natural"),
+    "mean leg": nd.Study(
+        "symmetric", variables=SYMMETRIC | {"platform_external_angle": 0.7}, characteristic_length="mean_leg"
+    ),
+    "natural length, internal radius from 0": nd.Study(
+        "symmetric",
+        variables=SYMMETRIC | {"platform_internal_radius": (0.0, 1.8), "platform_external_angle": 0.7},
+        characteristic_length="natural",
+    ),
+    "platform radius, internal radius from 0": nd.Study(
+        "symmetric",
+        variables=SYMMETRIC | {"platform_internal_radius": (0.0, 4.0), "platform_external_angle": 0.7},
+        characteristic_length="platform_radius",
+    ),
 }
 
 
-def condition(R, R_in, U, U_in, theta, zp, zs):
-    """Condition numbers with l_c = 1: theory of the symmetry axis, one 2x2 block for each kind of motion."""
+def condition(R, R_in, U, U_in, theta, zp, zs, natural=False):
+    """Condition numbers with l_c = 1: theory of the symmetry axis, one 2x2 block for each kind of motion.
+
+    Or the natural characteristic length: the angular columns by the translational ones.
+    """
     e = np.array([U * np.cos(theta) - R, U * np.sin(theta), zp])
     up, low = np.array([-U_in, 0.0 * zs, zs - zp]), np.array([-R_in, 0.0 * zs, zs])
     e, up, low = (v / np.sqrt((v * v).sum(axis=0)) for v in (e, up, low))
@@ -60,8 +94,21 @@ def condition(R, R_in, U, U_in, theta, zp, zs):
     def across(v):
         return v[0] + 1j * v[1]
 
-    axial = ends(m[2], e[2], n[2], up[2], (up[2] / low[2]) ** 2)
-    transverse = ends(*map(across, (m, e, n, up)), abs(across(up)) ** 2 / abs(across(low)) ** 2)
+    c_axial, c_across = (up[2] / low[2]) ** 2, abs(across(up)) ** 2 / abs(across(low)) ** 2
+    if natural:
+        angular, shifts = (
+            (
+                (a * a.conj() + b * b.conj() / (1.0 + c)).real
+                for a, b, c in ((m[2], n[2], c_axial), (across(m), across(n), c_across))
+            ),
+            (
+                (a * a.conj() + b * b.conj() / (1.0 + c)).real
+                for a, b, c in ((e[2], up[2], c_axial), (across(e), across(up), c_across))
+            ),
+        )
+        return np.sqrt(sum(angular) / sum(shifts))
+    axial = ends(m[2], e[2], n[2], up[2], c_axial)
+    transverse = ends(*map(across, (m, e, n, up)), c_across)
     largest = np.maximum(3.0 * axial[0], 1.5 * transverse[0])
     return np.sqrt(largest / np.minimum(3.0 * axial[1], 1.5 * transverse[1]))
 
@@ -86,6 +133,12 @@ class Head:
         new.lines[at[0]][at[1]] = spelled(value)
         return new
 
+    @property
+    def length_kind(self):
+        """The word that the characteristic length is; "" of numbers."""
+        word = next(line[1] for line in self.lines if line[0] == "characteristic_length")
+        return "" if is_number(word) else word
+
     def value(self, *key):
         """The numbers of the line that begins with these words."""
         for line in self.lines:
@@ -105,23 +158,26 @@ def is_number(word):
 def best(head, rng, count=3000, rounds=6):
     """The least condition number found among the designs of a head; infinite if no sample keeps the limits."""
     hexagonal = head.lines[0][1] == "hexagonal"
-    lc = head.value("characteristic_length")[0]
+    kind = head.length_kind
     names = ("a1", "a2", "b1", "b2", "theta_z") if hexagonal else (*PLATES, "platform_external_angle")
     names = (*names, "zp", "zs")
-    low, high = (np.array([head.value("variable", name)[k] for name in names]) for k in (0, 1))
+    ends = [(0.03, 30.0) if kind else np.array(head.value("characteristic_length"))[[0, -1]]]
+    ends += [head.value("variable", name) for name in names]
+    low, high = np.array(ends, dtype=float).T
     low, high = np.maximum(low, -20.0), np.minimum(high, np.maximum(low, 0.0) + 1e3)
     fraction = head.value("limit", "zs_fraction") or (0.0, 1.0)
     ratio = head.value("limit", "radius_ratio") or (0.0, np.inf)
     legs = head.value("limit", "leg_ratio") or (0.0, np.inf)
     found, middle, width = np.inf, None, 1.0
     for _ in range(rounds):
-        t = rng.beta(0.6, 0.6, (len(names), count)) if middle is None else rng.uniform(-1, 1, (len(names), count))
+        size = len(names) + 1, count
+        t = rng.beta(0.6, 0.6, size) if middle is None else rng.uniform(-1, 1, size)
         x = (
             low[:, None] + t * (high - low)[:, None]
             if middle is None
             else middle[:, None] + width * t * (high - low)[:, None]
         )
-        x = np.clip(x, low[:, None], high[:, None])
+        lc, *x = np.clip(x, low[:, None], high[:, None])
         if hexagonal:
             a1, a2, b1, b2, theta, zp, zs = x
             R = R_in = np.sqrt((a1**2 + a1 * a2 + a2**2) / 3.0)
@@ -134,12 +190,18 @@ def best(head, rng, count=3000, rounds=6):
         longest, shortest = np.maximum.reduce([external, upper, lower]), np.minimum.reduce([external, upper, lower])
         ratios = np.maximum(R, R_in) / np.maximum(U, U_in)
         kept = (zs > 0.0) & (zs < zp) & (zs >= fraction[0] * zp) & (zs <= fraction[1] * zp)
-        kept &= (ratios >= ratio[0]) & (ratios <= ratio[1]) & (longest <= legs[1] * shortest)
+        kept &= (ratios >= ratio[0]) & (ratios <= ratio[1]) & (longest <= np.minimum(legs[1], 1e200) * shortest)
         with np.errstate(all="ignore"):
+            if kind == "mean_leg":
+                lc = (external + upper + lower) / 3.0
+            elif kind == "platform_radius":
+                lc = np.maximum(U, U_in)
+            elif kind == "natural":
+                lc = condition(R, R_in, U, U_in, theta, zp, zs, natural=True)
             kappa = np.where(kept, condition(*(v / lc for v in (R, R_in, U, U_in)), theta, zp / lc, zs / lc), np.inf)
         at = int(np.argmin(np.where(np.isnan(kappa), np.inf, kappa)))
         if kappa[at] < found:
-            found, middle = float(kappa[at]), x[:, at]
+            found, middle = float(kappa[at]), np.array([np.broadcast_to(v, count)[at] for v in (lc, *x)])
         if middle is not None:
             width *= 0.5 if width < 1.0 else 0.25
     return found

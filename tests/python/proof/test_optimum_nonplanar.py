@@ -108,6 +108,18 @@ def test_flat_triples_are_planar():
     assert b"family symmetric\n" in proof.certificate
 
 
+def test_sizes_may_begin_at_0(proof):
+    """No design is lost, and the best one is the same: the bound neither falls nor comes above it."""
+    sizes = {name: (0.0, high) for name, (low, high) in STUDY.variables.items() if low > 0.0 and "radius" in name}
+    sizes |= {"zp": (0.0, STUDY.variables["zp"][1])}
+    assert len(sizes) == 5
+    wider = replace(STUDY, variables=dict(STUDY.variables) | sizes)
+    found = nd.prove_optimum(wider, BEST, gap=GAP)
+    assert found.complete
+    assert found.lower_bound == proof.lower_bound
+    assert nd.prove_optimum(wider, 1.01 * BEST, gap=0.0, time_limit=2.0).lower_bound < BEST
+
+
 def test_time_and_ctrl_c_leave_what_is_proved():
     assert not nd.prove_optimum(STUDY, BEST, time_limit=1e-9).complete
     proof = nd.prove_optimum(STUDY, BEST, gap=0.05, progress=lambda *_: signal.raise_signal(signal.SIGINT))
@@ -121,7 +133,7 @@ def test_time_and_ctrl_c_leave_what_is_proved():
     [
         ({"characteristic_length": "optimal"}, "characteristic_length"),
         ({"characteristic_length": (0.5, 2.0)}, "characteristic_length"),
-        ({"variables": dict(STUDY.variables) | {"base_internal_radius": (0.0, 5.0)}}, "base_internal_radius"),
+        ({"variables": dict(STUDY.variables) | {"base_internal_radius": (0.0, np.inf)}}, "base_internal_radius"),
         ({"objective": {"index": "speed"}}, "objective"),
     ],
 )

@@ -311,7 +311,7 @@ def test_threads_do_not_change_it():
         (replace(REGION, objective={"region": {"ball": 0.4, "internal_point": "best"}}), "internal_point"),
         (replace(REGION, objective={"region": {"ball": 0.4}, "aggregate": "mean_inverse"}), "objective"),
         (replace(REGION, objective={"region": {"ball": 0.4}, "index": "speed"}), "objective"),
-        (replace(REGION, characteristic_length="optimal"), "characteristic_length"),
+        (replace(STUDIES["tool, held"], characteristic_length="optimal"), "characteristic_length"),
         (replace(SEVEN, tool={"position": (0.1, 0.0, -0.5)}), "variables: got 7"),
         (replace(STUDIES["poses"], constraints={"singularity_free": (0.01, None)}), "singularity_free"),
     ],
@@ -320,6 +320,15 @@ def test_what_has_no_proof_is_refused_before_the_work(study, words):
     for call in (ways_of, lambda one: nd.optimize(one, certify=True)):
         with pytest.raises(ValueError, match=words):
             call(study)
+
+
+def test_a_length_that_depends_on_the_design_has_the_bound_of_the_neutral_pose():
+    study = replace(REGION, characteristic_length="optimal")
+    best = nd.optimize(study).condition_number
+    proof = nd.prove_optimum(study, best, gap=0.5)
+    assert proof.complete
+    assert proof.where == "over the region"
+    assert set(proof.left_out) == set(LIMITS)
 
 
 @pytest.mark.slow
