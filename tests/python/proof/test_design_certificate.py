@@ -4,6 +4,7 @@ Oracle of what is still proved: margins of designs drawn from the boxes at poses
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -187,7 +188,6 @@ def test_a_limit_that_the_checker_does_not_know_leaves_it_incomplete(lines, verd
     zero = "0x0p+0 0x0p+0 0x0p+0"
     n = line_of(lines, "exempt")
     for line, name in (
-        (f"limit fault_tolerant 0x0p+0 0x1p+3 length poses {zero}", "fault_tolerant"),
         (f"limit hope 0x0p+0 0x1p+3 length poses {zero}", "hope"),
         (f"limit base_cone 0x0p+0 0x1p+1 zp poses {zero}", "base_cone"),
     ):
@@ -195,6 +195,25 @@ def test_a_limit_that_the_checker_does_not_know_leaves_it_incomplete(lines, verd
         assert check.incomplete
         assert not check.proved
         assert f"not checked: {name}" in check.words
+
+
+@pytest.mark.slow
+def test_a_set_and_a_machine_that_may_lose_a_leg_are_replayed(tmp_path):
+    """And not with a lower bound, which a design in the middle of a box breaks."""
+    study = replace(STUDY, constraints={"fault_tolerant": (None, 4.8)}, objective={})
+    found = nd.admissible(study, {"a2": (5.0, 7.0), "b1": (2.0, 4.0)}, resolution=0.05)
+    assert min(found.shares["inside"], found.shares["outside"]) > 0.2
+    lines = lines_of(found.save_certificate(tmp_path / "designs.certificate").read_bytes())
+    check = verdict_of(sealed(lines), tmp_path)
+    assert check.proved, check.words
+    assert "fault_tolerant at most 4.8 with the characteristic length 1" in check.study
+    n = line_of(lines, "limit fault_tolerant")
+    assert "breaks fault_tolerant" in verdict_of(sealed(with_word(lines, n, 3, spelled(4.0))), tmp_path).words
+    assert "keeps the limit" in verdict_of(sealed(with_word(lines, n, 3, spelled(6.0))), tmp_path).words
+    one = {"variables": dict(study.variables) | {"a2": 6.0, "b1": 3.0}, "objective": {"region": {"ball": 0.05}}}
+    machine = nd.optimize(replace(study, **one))
+    path = machine.save_certificate(machine.certify(gap=0.5), tmp_path / "machine.certificate")
+    assert nd.check_certificate(path).proved
 
 
 def test_damage_anywhere_is_refused(designs, tmp_path):

@@ -18,23 +18,55 @@ void add_outer(const Arrow& v, Square<Linear, 3>& out) {
     for (std::size_t j = 0; j < 3; ++j) out[i][j] = out[i][j] + x[i] * x[j];
 }
 
-/// H (H + F)^-1 F by cofactors.
-Square<Linear, 3> parallel_sum(const Square<Linear, 3>& h, const Square<Linear, 3>& f) {
-  Square<Linear, 3> sum, cofactor, first, out;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) sum[i][j] = h[i][j] + f[i][j];
+/// A symmetric matrix times its inverse's determinant.
+Square<Linear, 3> cofactors(const Square<Linear, 3>& of) {
+  Square<Linear, 3> out;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
       const std::size_t a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
-      cofactor[i][j] = sum[a][c] * sum[b][d] - sum[a][d] * sum[b][c];
+      out[i][j] = of[a][c] * of[b][d] - of[a][d] * of[b][c];
     }
-  const Linear over = inverse(sum[0][0] * cofactor[0][0] + sum[0][1] * cofactor[0][1] + sum[0][2] * cofactor[0][2]);
+  return out;
+}
+Linear inverse_determinant(const Square<Linear, 3>& of, const Square<Linear, 3>& cofactor) {
+  return inverse(of[0][0] * cofactor[0][0] + of[0][1] * cofactor[0][1] + of[0][2] * cofactor[0][2]);
+}
+
+/// H (H + F)^-1 F by cofactors.
+Square<Linear, 3> parallel_sum(const Square<Linear, 3>& h, const Square<Linear, 3>& f) {
+  Square<Linear, 3> sum, first, out;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) sum[i][j] = h[i][j] + f[i][j];
+  const Square<Linear, 3> cofactor = cofactors(sum);
+  const Linear over = inverse_determinant(sum, cofactor);
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       first[i][j] = h[i][0] * cofactor[0][j] + h[i][1] * cofactor[1][j] + h[i][2] * cofactor[2][j];
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       out[i][j] = over * (first[i][0] * f[0][j] + first[i][1] * f[1][j] + first[i][2] * f[2][j]);
+  return out;
+}
+
+/// The same with a leg that keeps its length. Three legs that move by r give O the motion of the sum of r_k n_k / det,
+/// where n_k is the product of the directions of the other two: H^-1 is the sum of n_k n_k^T / det^2, over legs that move.
+Square<Linear, 3> parallel_sum(const Mount& m, const Stand& at, int locked) {
+  Square<Linear, 3> sum;
+  for (int first = 3; first < 9; first += 3) {
+    std::array<Arrow, 3> e;
+    for (int k = 0; k < 3; ++k) e[static_cast<std::size_t>(k)] = unit(leg_line(m, at, first + k).along());
+    const Linear det = dot(e[0], cross(e[1], e[2])), over = inverse(det * det);
+    Square<Linear, 3> squares;
+    for (int k = 0; k < 3; ++k)
+      if (first + k != locked)
+        add_outer(cross(e[static_cast<std::size_t>((k + 1) % 3)], e[static_cast<std::size_t>((k + 2) % 3)]), squares);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) sum[i][j] = sum[i][j] + over * squares[i][j];
+  }
+  Square<Linear, 3> out = cofactors(sum);
+  const Linear over = inverse_determinant(sum, out);
+  for (auto& row : out)
+    for (Linear& x : row) x = over * x;
   return out;
 }
 
@@ -51,7 +83,8 @@ Row in_basis(const Row& row, const Square<double, six>& basis) {
 
 /// The squares of the rates of all nine legs for the twist t = (l_c w, v) of the platform, O free: t^T S t. The singular
 /// values of the map from rates to twists are the inverse roots of the eigenvalues of S. Here B^T S B of a basis B.
-Square<Linear, six> stiffness(const Mount& m, const Stand& at, double length, const Square<double, six>& basis) {
+Square<Linear, six> stiffness(const Mount& m, const Stand& at, double length, int locked,
+                              const Square<double, six>& basis) {
   const Linear over = inverse(length);
   Square<Linear, six> out;
   Square<Linear, 3> upper, lower;
@@ -69,7 +102,7 @@ Square<Linear, six> stiffness(const Mount& m, const Stand& at, double length, co
   const std::array<Row, 3> k{in_basis({0.0, y.z, -y.y, 1.0, 0.0, 0.0}, basis),
                              in_basis({-y.z, 0.0, y.x, 0.0, 1.0, 0.0}, basis),
                              in_basis({y.y, -y.x, 0.0, 0.0, 0.0, 1.0}, basis)};
-  const Square<Linear, 3> w = parallel_sum(upper, lower);
+  const Square<Linear, 3> w = locked < 0 ? parallel_sum(upper, lower) : parallel_sum(m, at, locked);
   for (std::size_t j = 0; j < six; ++j) {
     std::array<Linear, 3> column;
     for (std::size_t a = 0; a < 3; ++a) column[a] = w[a][0] * k[0][j] + w[a][1] * k[1][j] + w[a][2] * k[2][j];
@@ -150,10 +183,10 @@ bool positive_everywhere(const Square<Linear, six>& a) {
 
 /// kappa <= K where mu - S and K^2 S - mu are positive definite for some mu, which may change along the box. They are seen
 /// in the eigenvectors of the middle, each as long as makes S nearly one: there the errors of soft directions are small.
-int condition_within(const Mount& m, const Stand& at, double length, double most) {
+int condition_within(const Mount& m, const Stand& at, double length, double most, int locked) {
   Square<double, six> middle{}, basis{};
   for (std::size_t i = 0; i < six; ++i) basis[i][i] = 1.0;
-  const Square<Linear, six> as_it_is = stiffness(m, at, length, basis);
+  const Square<Linear, six> as_it_is = stiffness(m, at, length, locked, basis);
   for (std::size_t i = 0; i < six; ++i)
     for (std::size_t j = 0; j <= i; ++j) middle[i][j] = middle[j][i] = as_it_is[i][j].c;
   diagonalize(middle, basis);
@@ -164,7 +197,7 @@ int condition_within(const Mount& m, const Stand& at, double length, double most
     if (middle[i][i] > middle[last][last]) last = i;
     for (auto& row : basis) row[i] /= std::sqrt(middle[i][i]);
   }
-  const Square<Linear, six> s = stiffness(m, at, length, basis);
+  const Square<Linear, six> s = stiffness(m, at, length, locked, basis);
   Square<Linear, six> one;  // B^T B
   for (std::size_t i = 0; i < six; ++i)
     for (std::size_t j = 0; j <= i; ++j)

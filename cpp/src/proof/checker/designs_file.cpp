@@ -278,7 +278,8 @@ std::vector<std::string> question_of(const DesignsFile& file) {
     if (one.range.b < inf) line += " at most " + digits(one.range.b);
     if (one.name.find("cone") != std::string::npos && one.range.b < inf) line += in_degrees({one.range.b});
     if (one.of != "length") line += " " + one.of;
-    if (one.name == "condition_number") line += " with the characteristic length " + digits(file.length);
+    if (one.name == "condition_number" || one.name == "fault_tolerant")
+      line += " with the characteristic length " + digits(file.length);
     if (one.axis != Triple{}) line += " about " + plain(one.axis);
     out.push_back(line + (one.at_neutral ? " at the neutral pose" : ""));
   }

@@ -66,7 +66,9 @@ std::vector<Want> wants_of(const DesignsFile& file, std::vector<std::string>& un
       else if (one.name == "leg_ratio" && high) {
         for (int k = 0; k < 81; ++k) out.push_back({About::spread, n + 2, k / 9, k % 9});
       } else if (one.name == "condition_number" && high) add(About::condition, 1);
-      else if (duties_of(one.name).count > 0 && high) add(About::duty, 1);
+      else if (one.name == "fault_tolerant" && high) {
+        for (int leg = 3; leg < 9; ++leg) out.push_back({About::condition, n + 2, 0, leg});
+      } else if (duties_of(one.name).count > 0 && high) add(About::duty, 1);
       else if (one.name == "height" || one.name == "zs_fraction" || one.name == "footprint" ||
                one.name == "radius_ratio" || (one.name == "joint_height" && high) ||
                (one.name == "joint_spacing" && !high)) {
@@ -297,7 +299,8 @@ Weighed Weigher::weigh(const Want& want, const Spot& spot) const {
     else if (want.about == About::duty) duty(want, at, spot.at, out);
     else if (want.about == About::condition) {
       for (int leg = 0; leg < 9; ++leg) add_moves(at.leg(leg).along(), false, out);
-      const int found = condition_within(mount_, at.stand, file_.length, bound(want));
+      const int found =
+          condition_within(mount_, at.stand, file_.length, bound(want), want.second > 0 ? want.second : -1);
       out.low = found;
       out.high = found;
       if (found == 0) out.low = -1.0, out.high = 1.0;

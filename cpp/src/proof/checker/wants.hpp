@@ -11,7 +11,7 @@ struct Want {
   About about;
   int limit = 0;
   int item = 0;    ///< a leg, a pair, a determinant, the leg that is longest; of the design which piece
-  int second = 0;  ///< the leg that is shortest
+  int second = 0;  ///< the leg that is shortest; of condition numbers that is locked, 3 to 8
   bool high = true;  ///< whether the limit is a greatest value
   bool platform = false;
 };
@@ -61,8 +61,9 @@ class Weigher {
   std::array<bool, 3> side_of_all_{};  ///< whether it is that of all designs
 };
 
-/// Whether kappa <= K over the box (1), kappa > K for all designs at the single pose (-1), or neither is known (0).
-int condition_within(const Mount& m, const Stand& at, double length, double most);
+/// Whether kappa <= K over the box (1), kappa > K for all designs at the single pose (-1), or neither is known (0); with
+/// an internal leg locked where that is not -1.
+int condition_within(const Mount& m, const Stand& at, double length, double most, int locked = -1);
 
 /// Forces, greatest rates or powers of legs, for each load: of what moduli the limit is.
 std::vector<Linear> leg_duties(const DutyLines& duty, const Mount& m, const Stand& at, const LegDuties& of);
