@@ -34,6 +34,31 @@ T sum(const Vec9& factors, const Forms& forms_of) {
   return out;
 }
 
+/// The sum of nine products: those of the same two coordinates are added before their moduli are.
+template <class T>
+T product(const Nine<T>& x, const Nine<T>& y) {
+  T out;
+  std::array<std::array<double, T::size>, T::size> bends{};
+  double moduli = 0.0, rest = 0.0;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const double x_most = std::abs(x[i].c) + spread(x[i]), y_most = std::abs(y[i].c) + spread(y[i]);
+    out.c += x[i].c * y[i].c;
+    for (std::size_t k = 0; k < T::size; ++k) {
+      out.a[k] += x[i].c * y[i].a[k] + y[i].c * x[i].a[k];
+      for (std::size_t l = 0; l < T::size; ++l) bends[k][l] += x[i].a[k] * y[i].a[l];
+    }
+    rest += x_most * y[i].r + y_most * x[i].r + x[i].r * y[i].r;
+    moduli += x_most * y_most;
+  }
+  for (std::size_t k = 0; k < T::size; ++k) {
+    out.c += 0.5 * bends[k][k];  // of t_k^2, which is 1/2 within 1/2
+    rest += 0.5 * std::abs(bends[k][k]);
+    for (std::size_t l = 0; l < k; ++l) rest += std::abs(bends[k][l] + bends[l][k]);
+  }
+  out.r = upward * (rest + 2.0 * forms::grain * moduli) + forms::tiny;
+  return out;
+}
+
 /// A matrix of a number of each form.
 template <class T, class Number>
 Mat9 matrix_of(const Nine<Nine<T>>& f, const Number& number) {
@@ -81,15 +106,17 @@ T BoxSystem<T>::component(int k, const Nine<T>& b) const {
     left_of_b[i] = b[i] - sum<T>(x, [&](std::size_t j) -> auto& { return h_[j][i]; });
     left_of_unit[i] = T(index(i) == k ? 1.0 : 0.0) - sum<T>(y, [&](std::size_t j) -> auto& { return h_[i][j]; });
   }
-  T out = T(x[k]) + sum<T>(y, [&](std::size_t i) -> auto& { return left_of_b[i]; });
-  // z = h^-1 (e_k - A^T y) is first + E z, so that |z| <= |first| + |E| z, and in the norm of weight_ at most `most`.
-  Vec9 first, most_of_b;
+  // z = h^-1 (e_k - A^T y) is first + E z, so that |z| is in the norm of weight_ at most `most`.
+  Nine<T> first;
+  Vec9 most_of_first, most_of_b;
   for (std::size_t i = 0; i < 9; ++i) {
-    first[index(i)] = most_of(sum<T>(inverse_.row(index(i)), [&](std::size_t j) -> auto& { return left_of_unit[j]; }));
+    first[i] = sum<T>(inverse_.row(index(i)), [&](std::size_t j) -> auto& { return left_of_unit[j]; });
+    most_of_first[index(i)] = most_of(first[i]);
     most_of_b[index(i)] = most_of(left_of_b[i]);
   }
-  const double most = first.cwiseQuotient(weight_).maxCoeff() / (1.0 - shrinks_);
-  out.r += upward * upward * most_of_b.dot(first + most * moved_) + forms::tiny;
+  const double most = most_of_first.cwiseQuotient(weight_).maxCoeff() / (1.0 - shrinks_);
+  T out = T(x[k]) + sum<T>(y, [&](std::size_t i) -> auto& { return left_of_b[i]; }) + product(first, left_of_b);
+  out.r += upward * upward * most * most_of_b.dot(moved_) + forms::tiny;
   return out;
 }
 

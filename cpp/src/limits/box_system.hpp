@@ -18,8 +18,8 @@ class BoxSystem {
  public:
   explicit BoxSystem(const Nine<Nine<T>>& h);
   /// Component k of x. With approximate x and y of A x = b and A^T y = e_k, constant over the box,
-  ///     x_k = x~_k + y~.(b - A x~) + (e_k - A^T y~).A^-1 (b - A x~),
-  /// of which the last is of second order. Unknown where h may be singular.
+  ///     x_k = x~_k + y~.(b - A x~) + z.(b - A x~),  z = h^-1 (e_k - A^T y~) = C (e_k - A^T y~) + E z,
+  /// of which E z is bounded alone: that is of third order. Unknown where h may be singular.
   T component(int k, const Nine<T>& b) const;
   /// h^-1 by rows: with C = inverse_ it is C + E C + E E C + E E E h^-1. Unknown where h may be singular.
   Nine<Nine<T>> inverse() const;

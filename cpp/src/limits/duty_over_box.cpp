@@ -1,10 +1,8 @@
 #include "limits/duty_over_box.hpp"
 
 #include <cmath>
-#include <optional>
 
 #include "conditioning/forms/gram.hpp"
-#include "limits/box_system.hpp"
 
 namespace ninedof {
 namespace {
@@ -37,25 +35,34 @@ KnownForms<Look>::KnownForms(const Look& look) : look_(look) {
 }
 
 template <class Look>
-auto DutyOverBox<Look>::force(int leg) const -> T {
+auto DutyOverBox<Look>::balance() const -> Balance {
   double length = 0.0;
   for (int k = point_u; k < point_p; ++k) length = std::max(length, centre(look_.at(k) - look_.at(point_p)).norm());
   const double per_length = length > 0.0 ? 1.0 / length : 1.0;
   Nine<Nine<T>> h;
   for (int k = 0; k < 9; ++k) h[at_index(k)] = row_of(unit_force(look_, k), per_length);
-  const BoxSystem system(h);
+  Balance out{BoxSystem(h), {}};
   const Wrench<T> own = weights(look_, centre_of_mass(look_));
-  std::optional<T> most;
   for (const Load& load : duty_.loads) {
     const Wrench<T> given{constant<T>(load.moment), constant<T>(load.force), constant<T>(load.force_at_o)};
-    const T f = system.component(leg, row_of(-1.0 * (given + own), per_length)), size = greater(f, -f);
+    out.wanted.push_back(row_of(-1.0 * (given + own), per_length));
+  }
+  return out;
+}
+
+template <class Look>
+auto DutyOverBox<Look>::force(int leg) -> T {
+  if (!balance_) balance_ = balance();
+  std::optional<T> most;
+  for (const Nine<T>& wanted : balance_->wanted) {
+    const T f = balance_->system.component(leg, wanted), size = greater(f, -f);
     most = most ? greater(*most, size) : size;
   }
   return *most;
 }
 
 template <class Look>
-auto DutyOverBox<Look>::rate(int leg) const -> T {
+auto DutyOverBox<Look>::rate(int leg) -> T {
   const PlatformMotion& m = duty_.motion;
   const auto [a, b] = m.internal == InternalMotion::least && leg >= 3
                           ? settled(leg)
@@ -66,9 +73,9 @@ auto DutyOverBox<Look>::rate(int leg) const -> T {
   return out;
 }
 
-/// Rates r of internal legs and sdot that makes their squares least, for each unit twist: r - K sdot = y, K^T r = 0.
+/// Rates r of internal legs and sdot: r - K sdot = y, K^T r = 0.
 template <class Look>
-auto DutyOverBox<Look>::settled(int leg) const -> RateOf<T> {
+auto DutyOverBox<Look>::settling() const -> Settling {
   std::array<Wrench<T>, 6> unit;
   Nine<Nine<T>> h;
   for (std::size_t k = 0; k < 6; ++k) {
@@ -81,12 +88,17 @@ auto DutyOverBox<Look>::settled(int leg) const -> RateOf<T> {
       h[j + 6][k] = -*of_row[j];
     }
   }
-  const BoxSystem system(h);
+  return {BoxSystem(h), unit};
+}
+
+template <class Look>
+auto DutyOverBox<Look>::settled(int leg) -> RateOf<T> {
+  if (!settling_) settling_ = settling();
   const auto rates = [&](const Xyz<T> Wrench<T>::* part) {
     const auto along_one = [&](T Xyz<T>::* coordinate) {
       Nine<T> y;
-      for (std::size_t k = 0; k < 6; ++k) y[k] = unit[k].*part.*coordinate;
-      return system.component(leg - 3, y);
+      for (std::size_t k = 0; k < 6; ++k) y[k] = settling_->unit[k].*part.*coordinate;
+      return settling_->system.component(leg - 3, y);
     };
     return Xyz<T>{along_one(&Xyz<T>::x), along_one(&Xyz<T>::y), along_one(&Xyz<T>::z)};
   };

@@ -1,6 +1,9 @@
 #pragma once
 /// Forces and rates of the legs of a machine over a box of poses, and of designs.
 
+#include <optional>
+
+#include "limits/box_system.hpp"
 #include "limits/leg_duty.hpp"
 
 namespace ninedof {
@@ -28,14 +31,28 @@ class DutyOverBox {
  public:
   using T = typename Look::Number;
   explicit DutyOverBox(const Look& look) : look_(look), duty_(look.duty()) {}
-  T force(int leg) const;
-  T rate(int leg) const;
+  T force(int leg);
+  T rate(int leg);
 
  private:
-  RateOf<T> settled(int leg) const;
+  /// What balances a load, and the loads with the weights; as nine equations.
+  struct Balance {
+    BoxSystem<T> system;
+    std::vector<Nine<T>> wanted;
+  };
+  /// Rates of internal legs and of O that make the squares of the former least, of unit motions of the platform.
+  struct Settling {
+    BoxSystem<T> system;
+    std::array<Wrench<T>, 6> unit;
+  };
+  Balance balance() const;
+  Settling settling() const;
+  RateOf<T> settled(int leg);
 
   KnownForms<Look> look_;
   const Duty& duty_;
+  std::optional<Balance> balance_;    ///< the same for each leg
+  std::optional<Settling> settling_;
 };
 
 }  // namespace ninedof

@@ -50,12 +50,20 @@ struct LegDuty {
     return value;
   }
   template <class Look>
-  static auto u(const Look& look, int item) {
-    const DutyOverBox<Look> box(look);
+  static auto of(DutyOverBox<Look>& box, int item) {
     const int leg = first + item;
     if constexpr (!of_rate) return box.force(leg);
     else if constexpr (!of_force) return box.rate(leg);
     else return box.force(leg) * box.rate(leg);
+  }
+  template <class Look>
+  static auto u(const Look& look, int item) {
+    DutyOverBox<Look> box(look);
+    return of(box, item);
+  }
+  static void forms(const DesignLook& look, DesignForm* out) {
+    DutyOverBox<DesignLook> box(look);
+    for (int item = 0; item < count; ++item) out[item] = of(box, item);
   }
   static Interval read(const Interval& number) { return number; }
   static Interval smooth(const Interval& number) { return number; }

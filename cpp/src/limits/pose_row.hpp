@@ -49,6 +49,8 @@ struct PoseRow {
   DesignForm (*design_form)(const DesignLook&, int item) = nullptr;
   DesignForm (*design_numerator)(const DesignLook&, int item) = nullptr;
   void (*design_moves)(const DesignLook&, int item, Moves&) = nullptr;
+  /// `design_form` of all items, where one look gives them with less work; or null.
+  void (*design_forms)(const DesignLook&, DesignForm* out) = nullptr;
   /// The number, of u; and u, of the number.
   Interval (*read)(const Interval& u) = nullptr;
   Interval (*smooth)(const Interval& number) = nullptr;
@@ -113,6 +115,8 @@ constexpr PoseRow pose_row_of() {
     if constexpr (requires(const DesignLook& look, Moves& moves) { Row::u(look, 0), Row::moves(look, 0, moves); }) {
       out.design_form = [](const DesignLook& look, int item) { return Row::u(look, item); };
       out.design_moves = [](const DesignLook& look, int item, Moves& moves) { Row::moves(look, item, moves); };
+      if constexpr (requires(const DesignLook& look, DesignForm* all) { Row::forms(look, all); })
+        out.design_forms = [](const DesignLook& look, DesignForm* all) { Row::forms(look, all); };
     }
     out.read = Row::read;
     out.smooth = Row::smooth;

@@ -69,6 +69,42 @@ TEST_SUITE("box_system") {
     }
   }
 
+  TEST_CASE("a component lies within its form, which is hardly wider than what is met") {
+    const double size = 3e-3;
+    double open = 0.0, met = 0.0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      std::mt19937 engine(seed);
+      Rows h = random_rows(engine, size);
+      for (Nine<PoseForm>& row : h)
+        for (PoseForm& f : row) f.r = 0.0;
+      std::uniform_real_distribution<double> number(-1.0, 1.0);
+      Vec9 b;
+      for (double& x : b) x = number(engine);
+      Nine<PoseForm> wanted;
+      for (std::size_t i = 0; i < 9; ++i) wanted[i] = b[static_cast<Eigen::Index>(i)];
+      const PoseForm x = BoxSystem(h).component(4, wanted);
+      double away = 0.0;
+      for (int n = 0; n < 500; ++n) {
+        std::array<double, PoseForm::size> t;
+        for (double& one : t) one = std::copysign(1.0, number(engine));
+        const auto value = [&](const PoseForm& f) {
+          double out = f.c;
+          for (std::size_t k = 0; k < t.size(); ++k) out += f.a[k] * t[k];
+          return out;
+        };
+        Mat9 at;
+        for (std::size_t i = 0; i < 9; ++i)
+          for (std::size_t j = 0; j < 9; ++j)
+            at(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = value(h[i][j]);
+        away = std::max(away, std::abs(at.transpose().lu().solve(b)[4] - value(x)));
+      }
+      CHECK(away <= x.r + 1e-13);
+      open += x.r;
+      met += away;
+    }
+    CHECK(open < 2.5 * met);
+  }
+
   TEST_CASE("the coordinate that moves most is named; of a matrix that may be singular nothing is known") {
     std::mt19937 engine(1);
     Rows h = random_rows(engine, 1e-3);

@@ -225,6 +225,23 @@ def test_designs_drawn_in_numpy_contradict_nothing(case):
     assert max(least_margins_outside(case, outside, more // share, 12)) < ROUNDING
 
 
+def test_a_box_of_designs_with_forces_over_tilts_is_proved_whole():
+    """Of a machine in millimetres, in one look: no division of designs, which are near each other."""
+    study = nd.Study(
+        variables=SIZES | {"a2": (100.0, 850.0), "b1": (50.0, 350.0), "zp": 500.0, "zs": 330.0},
+        constraints={"force": (None, 220.0), "upper_rate": (None, 400.0)},
+        characteristic_length=150.0,
+        objective={"region": {"box": (60.0, 60.0, 40.0), "tilt_deg": 10.0}},
+        loads={"wrenches": [(0.0, 0.0, 0.0, 0.0, 0.0, 400.0)]},
+        masses={"platform": 12.0},
+        speeds={"linear": 200.0, "angular_deg": 30.0},
+    )
+    found = nd.admissible(study, {"a2": (597.0, 603.0), "b1": (198.0, 202.0)}, resolution=1.0)
+    assert found.shares["inside"] == 1.0
+    assert (found.designs, len(found.state)) == (1, 1)
+    assert found.boxes < 20_000
+
+
 def test_every_design_outside_breaks_the_limit_that_is_named_at_the_pose_that_is_named(case):
     rng = np.random.default_rng(3)
     region = case.study.objective.region

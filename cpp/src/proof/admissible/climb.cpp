@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "domains/bound.hpp"
@@ -12,6 +13,9 @@ namespace {
 
 constexpr double most_boxes_of_item = 4000.0, most_boxes_of_condition = 40'000.0, boxes_of_whole = 500.0;
 constexpr std::size_t most_cuts = 400;
+constexpr double part_around_middle = 1.0 / 16.0;
+/// Errors grow with the square of both: at this ratio the boxes of five coordinates of poses and two of designs are few.
+constexpr double times_designs = 2.0;
 /// A plane is taken where it is off by less than this part of what the number changes over the designs, or by this many
 /// times what the designs alone leave open.
 constexpr double part_of_change = 0.02, times_open = 4.0;
@@ -53,16 +57,34 @@ bool covered(const Plane& x, const std::vector<Plane>& by) {
   return std::ranges::any_of(by, [&](const Plane& plane) { return is_above(x, plane); });
 }
 
+double moves_of(const Seen& seen) {
+  return std::accumulate(seen.moves.along.begin(), seen.moves.along.end(), 0.0);
+}
+
+/// A small box in a box: its slopes are known where those of the whole are not.
+Box around_middle(const Box& box) {
+  Box out = over_region::middle_of(box);
+  for (std::size_t k = 0; k < PoseForm::size; ++k) {
+    const double half = part_around_middle * 0.5 * (box.high[k] - box.low[k]);
+    out.low[k] -= half;
+    out.high[k] += half;
+  }
+  return out;
+}
+
 /// Boxes of poses, the least plane next, until planes are near the least of the number at all poses.
 template <class Number>
 struct PlaneSearch : BoxSearch {
   PlaneSearch(const DesignsAt& of_designs, const Number& of, const std::vector<Box>& roots, double at_most)
-      : designs(of_designs), number(of), most(static_cast<long>(at_most) + std::ssize(roots)) {
+      : designs(of_designs), number(of), begun(std::ssize(roots)), most(static_cast<long>(at_most) + begun) {
     for (const Box& root : roots) add(root);
   }
   const DesignsAt& designs;
   const Number& number;
-  long most;
+  long begun, most;
+  /// Whether boxes may be looked at beyond `quick`, as long as all designs keep the number at the poses that are met.
+  bool patient = false;
+  double quick = infinity;
   std::size_t most_planes = std::numeric_limits<std::size_t>::max();
   double until = infinity;  ///< a least above which boxes do not matter
   double allowed = 0.0;
@@ -83,7 +105,14 @@ struct PlaneSearch : BoxSearch {
       end = Found::Status::outside;
       return;
     }
-    if (here.known && !near_enough(one.seen, here) && divide(one)) return;
+    const bool near = here.known && near_enough(one.seen, here);
+    if (!patient || !(least_of(here.most) > 2.0 * here.open)) {
+      most = std::min(most, static_cast<long>(std::min(quick, 1e9)) + begun);
+    } else if (here.known && !near && moves_of(one.seen) < times_designs * designs.moves()) {
+      end = Found::Status::unknown;  // all designs may keep it, and smaller ones need fewer poses
+      return;
+    }
+    if (here.known && !near && divide(one)) return;
     closed.push_back(one.box);
     if (!(here.known && one.seen.known && std::isfinite(one.seen.kept.c))) {
       end = Found::Status::unknown;
@@ -104,7 +133,8 @@ struct PlaneSearch : BoxSearch {
   /// The pose of a box where the number is least in the middle of the designs, as far as its form says.
   Box worst_pose(const Open& one) const {
     const Domain& domain = designs.poses().domain();
-    return one.seen.known ? domain.towards(one.seen.slope, one.box) : domain.nearest(over_region::middle_of(one.box));
+    const Seen seen = one.seen.known || !patient ? one.seen : designs.look(number, around_middle(one.box));
+    return seen.known ? domain.towards(seen.slope, one.box) : domain.nearest(over_region::middle_of(one.box));
   }
   bool lost(const Met& here, const Box& pose) {
     if constexpr (std::is_same_v<Number, Item>) {
@@ -137,7 +167,10 @@ Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& 
             const std::stop_token& stop) {
   const bool keeps_open = item.kind == Item::Kind::condition;
   const double most = keeps_open ? most_boxes_of_condition : most_boxes_of_item;
-  PlaneSearch search(designs, item, roots, std::min(most, boxes_of_whole / width));
+  const bool patient = item.row != nullptr && item.row->design_forms != nullptr;
+  PlaneSearch search(designs, item, roots, patient ? most : std::min(most, boxes_of_whole / width));
+  search.patient = patient;
+  search.quick = boxes_of_whole / width;
   search.most_planes = most_cuts;
   search.until = 0.0;
   bound(search, {stop, {}});

@@ -11,6 +11,11 @@ namespace ninedof::admissible {
 namespace {
 
 constexpr double plane_grain = 0x1p-46;
+constexpr std::size_t most_kept = 20'000;  // forms of all items of a row, a kilobyte each
+
+DesignForm form_of(const Item& item, const DesignLook& look) {
+  return (item.bound == 0.0 ? item.row->design_numerator : item.row->design_form)(look, item.item);
+}
 
 /// At most the form at all poses of the box: the part of the poses goes to the level.
 Plane below(const DesignForm& f, const Domain& domain, const Box& box) {
@@ -87,6 +92,16 @@ DesignsAt::DesignsAt(const DesignQuestion& question, const Poses& poses, const D
   for (const auto& body : homes_.front().axis)
     for (const DesignVector& axis : body) known_ = known_ && is_known(axis.x);
   const DesignLook at_home(forms_.joints, forms_.home, homes_.front());
+  std::array<double, most_varied> most{};
+  for (int leg = 0; leg < 9; ++leg) {
+    const auto [from, to] = at_home.ends(leg);
+    const DesignVector v = to - from;
+    const double length = std::max(centre(v).norm(), 1e-300);
+    for (const DesignForm* x : {&v.x, &v.y, &v.z})
+      for (std::size_t k = 0; k < most.size(); ++k)
+        most[k] = std::max(most[k], std::abs(x->a[PoseForm::size + k]) / length);
+  }
+  for (const double one : most) moves_ += one;
   for (int k = 0; k < singularity_free_row.items; ++k)
     side_known_[at_index(k)] = lower(singularity_free_row.design_numerator(at_home, k)) > 0.0;
 }
@@ -105,10 +120,22 @@ Met DesignsAt::met(const DesignForm& f) {
   return {true, above(f), f.r};
 }
 
-DesignForm DesignsAt::number(const Item& item, const DesignLook& look) const {
+DesignForm DesignsAt::form_over(const Item& item, const DesignLook& look, const Box& box) const {
   const PoseRow& row = *item.row;
-  if (item.bound == 0.0) return row.design_numerator(look, item.item);
-  const DesignForm u = row.design_form(look, item.item);
+  if (row.design_forms == nullptr) return form_of(item, look);
+  auto at = of_rows_.find({&row, box});
+  if (at == of_rows_.end()) {
+    std::array<DesignForm, 9> all;
+    row.design_forms(look, all.data());
+    if (of_rows_.size() >= most_kept) return all[at_index(item.item)];
+    at = of_rows_.emplace(std::pair(&row, box), all).first;
+  }
+  return at->second[at_index(item.item)];
+}
+
+DesignForm DesignsAt::number(const Item& item, const DesignForm& u) const {
+  if (item.bound == 0.0) return u;
+  const PoseRow& row = *item.row;
   DesignForm bound;
   if (item.of_zp) {
     const DesignForm length = item.bound * forms_.zp;
@@ -174,7 +201,7 @@ Seen DesignsAt::look(const Item& item, const Box& box) const {
   }
   const DesignLook look(forms_.joints, pose, homes_[at_index(item.limit)]);
   if (item.kind == Item::Kind::pair) return pair_apart(item, look, box);
-  Seen out = seen(number(item, look), box);
+  Seen out = seen(number(item, form_over(item, look, box)), box);
   item.row->design_moves(look, item.item, out.moves);
   return out;
 }
@@ -190,7 +217,7 @@ Met DesignsAt::meet(const Item& item, const Box& point) const {
         item.bound));
   }
   const DesignLook look(forms_.joints, pose, homes_[at_index(item.limit)]);
-  if (item.kind == Item::Kind::number) return met(number(item, look));
+  if (item.kind == Item::Kind::number) return met(number(item, form_of(item, look)));
   const DesignForm distance = item.of_zp ? item.bound * forms_.zp : DesignForm(item.bound);
   // The difference of two distances, and not of their squares: its slopes are those of pair_apart.
   return met(sqrt(squared_distance_above(leg_pair_forms(look, item.item))) - distance);

@@ -1,6 +1,7 @@
 #pragma once
 /// What a box of designs has to keep, item after item: a number over boxes of poses, as planes over the designs.
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -91,13 +92,17 @@ class DesignsAt {
   bool known() const { return known_; }
   const DesignForms& forms() const { return forms_; }
   const Poses& poses() const { return poses_; }
+  /// How much the designs move the legs at the neutral pose, as parts of their lengths.
+  double moves() const { return moves_; }
   Seen look(const Item& item, const Box& box) const;
   Met meet(const Item& item, const Box& point) const;
   Seen look(const Length& length, const Box& box) const;
   Met meet(const Length& length, const Box& point) const;
 
  private:
-  DesignForm number(const Item& item, const DesignLook& look) const;
+  DesignForm number(const Item& item, const DesignForm& u) const;
+  /// What the number is of, over a box of poses: all items of a row at once, where that is less work.
+  DesignForm form_over(const Item& item, const DesignLook& look, const Box& box) const;
   Seen pair_apart(const Item& item, const DesignLook& look, const Box& box) const;
   Seen apart_along(const Item& item, const LegPairOf<DesignForm>& legs, const DesignVector& direction,
                    const Box& box) const;
@@ -109,7 +114,9 @@ class DesignsAt {
   DesignForms forms_;
   std::vector<HomeOf<DesignForm>> homes_;
   bool known_ = true;
+  double moves_ = 0.0;
   std::array<bool, 3> side_known_{};  ///< of each determinant: of one sign at home, in all designs
+  mutable std::map<std::pair<const PoseRow*, Box>, std::array<DesignForm, 9>> of_rows_;  ///< for the other items
 };
 
 }  // namespace ninedof::admissible

@@ -17,6 +17,7 @@ namespace ninedof::over_region {
 struct Box {
   int piece = 0;
   std::array<double, PoseForm::size> low{}, high{};
+  auto operator<=>(const Box&) const = default;
 };
 
 /// Coordinates whose vector has at most a given length.
