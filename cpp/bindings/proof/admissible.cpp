@@ -154,17 +154,17 @@ void bind_admissible(py::module_& m) {
   m.def(
       "room_around",
       [](const DesignQuestion& question, const std::vector<double>& design, const std::vector<double>& proportions,
-         double seconds) {
+         long boxes) {
         require_sound_arithmetic();
         const DesignRoom room = interruptible(py::none(), [&](const WorkControl& control) {
-          return room_around(question, design, proportions, seconds, control);
+          return room_around(question, design, proportions, boxes, control);
         });
         const auto ends = [&](const std::array<double, most_varied>& all) {
           return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(design.size()));
         };
         return py::make_tuple(room.found, ends(room.low), ends(room.high), room.demand);
       },
-      py::arg("question"), py::arg("design"), py::arg("proportions"), py::kw_only(), py::arg("seconds"));
+      py::arg("question"), py::arg("design"), py::arg("proportions"), py::kw_only(), py::arg("boxes"));
 }
 
 }  // namespace ninedof::python

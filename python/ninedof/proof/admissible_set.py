@@ -27,8 +27,8 @@ from ninedof.tables.html import Worded
 INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
 STATES = (INSIDE, OUTSIDE, UNDECIDED)
 PIECES = ("low", "high", "state", "demand", "poses")
-AROUND_SECONDS = 20.0
-ON_LIMIT, EASED_SECONDS = 1e-6, 5.0  # of a limit: what the optimizer's designs on it may pass it by
+AROUND_BOXES = 1_000_000  # of poses: no time, so that the answer is the same on every machine
+ON_LIMIT, EASED_BOXES = 1e-6, AROUND_BOXES // 4  # of a limit: what the optimizer's designs on it may pass it by
 WIDER = 1e-3  # of each limit, where a design on one is asked how far it may go
 
 
@@ -183,22 +183,22 @@ class AdmissibleSet(Worded, Saved):
                 raise ValueError(f"proportions: got {shown(list(proportions))}, expected {', '.join(self.vary)}")
             half = [widths[name] for name in self.vary]
 
-        def room(of: DesignRange, seconds: float) -> tuple[dict[str, tuple[float, float]], int]:
-            inside, low, high, broken = _core.room_around(of.for_core(), x, half, seconds=seconds)
+        def room(of: DesignRange, boxes: int) -> tuple[dict[str, tuple[float, float]], int]:
+            inside, low, high, broken = _core.room_around(of.for_core(), x, half, boxes=boxes)
             return dict(zip(self.vary, zip(low, high, strict=True), strict=True)) if inside else {}, broken
 
-        box, broken = room(self.of, AROUND_SECONDS)
+        box, broken = room(self.of, AROUND_BOXES)
         if box:
             return box
         words = ", ".join(f"{name} = {value:g}" for name, value in zip(self.vary, x, strict=True))
         share = ON_LIMIT if broken >= 0 else -ON_LIMIT  # a design that breaks none may be within a limit by rounding
-        on, breaks = room(self.of.eased(share), EASED_SECONDS)
+        on, breaks = room(self.of.eased(share), EASED_BOXES)
         if max(broken, breaks) < 0:
             raise NoRoom(words, "")
         limit = " ".join(self.demands[broken if broken >= 0 else breaks]).strip().replace("_", " ")
         if broken >= 0 and not on:
             raise NoRoom(words, f"it breaks {limit}" if breaks >= 0 else f"it is on the limit {limit}, or breaks it")
-        wide, _ = room(self.of.eased(WIDER), AROUND_SECONDS)
+        wide, _ = room(self.of.eased(WIDER), AROUND_BOXES)
         more = f"; with every limit {WIDER:.1%} wider {room_words(self.of, wide)}" if wide else ""
         raise NoRoom(words, f"it is on the limit {limit} (within {ON_LIMIT:g} of it): no room on that side{more}")
 

@@ -114,7 +114,7 @@ TEST_SUITE("admissible") {
   TEST_CASE("the room around a design is inside, and is in the proportions that are asked for") {
     const std::vector<double> design{5.0, 3.0};
     for (const std::vector<double>& proportions : {std::vector<double>{}, std::vector<double>{2.0, 1.0}}) {
-      const DesignRoom room = room_around(question(), design, proportions, 20.0);
+      const DesignRoom room = room_around(question(), design, proportions, 1'000'000);
       REQUIRE(room.found);
       CHECK(room.low[0] < 5.0);
       CHECK(room.high[0] > 5.0);
@@ -129,7 +129,12 @@ TEST_SUITE("admissible") {
       CHECK(least > 0.0);
       CHECK(least < 0.5);  // it ends near a limit
     }
-    const DesignRoom none = room_around(question(), {9.5, 1.5}, {}, 20.0);
+    const DesignRoom first = room_around(question(), design, {}, 2000),
+                     again = room_around(question(), design, {}, 2000);
+    CHECK(first.boxes < room_around(question(), design, {}, 1'000'000).boxes);  // not by time, but by its boxes
+    CHECK(first.low == again.low);
+    CHECK(first.high == again.high);
+    const DesignRoom none = room_around(question(), {9.5, 1.5}, {}, 1'000'000);
     CHECK_FALSE(none.found);
     CHECK(none.demand >= 0);
   }

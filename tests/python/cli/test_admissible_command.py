@@ -121,6 +121,8 @@ def test_a_run_gives_the_other_variables(run, study, tmp_path):
         ("--vary a2 --set b9=1", "--set: got 'b9', expected one of a1, a2"),
         ("", "--vary: got none, expected one to four of a1, a2, b1, b2, zp, zs, theta_z, or --around"),
         ("--around --out x", "--out: got x, expected none with --around and no --vary"),
+        ("--around --time 5", "--time: got 5, expected none with --around and no --vary"),
+        ("--around --resolution 0.1", "--resolution: got 0.1, expected none with --around and no --vary"),
         ("--vary a2 --proportions a2=1", "--proportions: got it without --around"),
         ("--around --proportions a2=2;b1=1", "--proportions: got 'a2=2;b1=1', expected NAME=NUMBER,NAME=NUMBER"),
         ("--around --proportions a2=2,a2=1", "--proportions: got 'a2=2,a2=1', expected NAME=NUMBER,NAME=NUMBER"),

@@ -100,8 +100,8 @@ struct DesignRoom {
 
 /// The largest box around a design, within the ends of the question: its half widths are in the given proportions, or
 /// without them the product of the room to all sides is greatest, so that there is room to each. A local search of boxes
-/// each of which is proved; `seconds` of wall time.
+/// each of which is proved; it ends after `most_boxes` of poses.
 DesignRoom room_around(const DesignQuestion& question, const std::vector<double>& design,
-                       const std::vector<double>& proportions, double seconds, const Control& control = {});
+                       const std::vector<double>& proportions, long most_boxes, const Control& control = {});
 
 }  // namespace ninedof

@@ -6,7 +6,6 @@
 
 #include "math/linear/least_squares.hpp"
 #include "math/numbers.hpp"
-#include "math/time_limit.hpp"
 #include "ninedof/math/error.hpp"
 #include "proof/admissible/examine.hpp"
 
@@ -87,13 +86,18 @@ Vector widest(const std::vector<Bound>& bounds, const Vector& start) {
 class RoomSearch {
  public:
   RoomSearch(const DesignQuestion& question, const std::vector<double>& design, const std::vector<double>& proportions,
-             std::stop_token stop)
-      : question_(question), examiner_(question), design_(design), proportions_(proportions), stop_(std::move(stop)) {}
+             long most_boxes, std::stop_token stop)
+      : question_(question),
+        examiner_(question),
+        design_(design),
+        proportions_(proportions),
+        most_boxes_(most_boxes),
+        stop_(std::move(stop)) {}
 
   DesignRoom run() {
     double part = 0.25, growth = 0.15;
     DesignBox outer = around(part);
-    while (growth > 0.005 && wide(outer) && !stop_.stop_requested()) {
+    while (growth > 0.005 && wide(outer) && !spent()) {
       const Examined found = examiner_.examine({outer, {}, {}, {}}, stop_);
       out_.boxes += found.boxes;
       if (!found.finished) break;
@@ -115,6 +119,7 @@ class RoomSearch {
 
  private:
   std::size_t count() const { return design_.size(); }
+  bool spent() const { return out_.boxes >= most_boxes_ || stop_.stop_requested(); }
   /// A design on a limit has no box around it: the search ends where boxes have no width.
   bool wide(const DesignBox& box) const {
     for (std::size_t k = 0; k < count(); ++k)
@@ -195,6 +200,7 @@ class RoomSearch {
       if (!(box.low[k] < box.high[k])) return true;  // nothing was added
       if ((box.high[k] - box.low[k]) / range(k) > (box.high[widest] - box.low[widest]) / range(widest)) widest = k;
     }
+    if (spent()) return false;
     const Examined found = examiner_.examine({box, {}, {}, {}}, stop_);
     out_.boxes += found.boxes;
     if (!found.finished) return false;
@@ -223,7 +229,7 @@ class RoomSearch {
   /// Planes of a whole box lose where limits are curved: sides go on by slabs, each proved alone; in given proportions all
   /// sides at once. All keep step: a side on a limit leaves the slabs of others nothing that could be proved.
   void push_sides() {
-    for (double step = 0.25; step > 2e-3 && !stop_.stop_requested();) {
+    for (double step = 0.25; step > 2e-3 && !spent();) {
       bool grew = false;
       for (std::size_t n = 0; n < (proportions_.empty() ? 2 * count() : 1); ++n) {
         const DesignBox from{out_.low, out_.high};
@@ -271,6 +277,7 @@ class RoomSearch {
   Examiner examiner_;
   const std::vector<double>& design_;
   const std::vector<double>& proportions_;
+  long most_boxes_;
   std::stop_token stop_;
   double size_ = 0.0;
   DesignRoom out_;
@@ -280,7 +287,7 @@ class RoomSearch {
 }  // namespace admissible
 
 DesignRoom room_around(const DesignQuestion& question, const std::vector<double>& design,
-                       const std::vector<double>& proportions, double seconds, const Control& control) {
+                       const std::vector<double>& proportions, long most_boxes, const Control& control) {
   question.validate();
   for (const auto& [name, values] : {std::pair{"design", &design}, std::pair{"proportions", &proportions}})
     if (values->size() != question.varied.size() && (values == &design || !values->empty()))
@@ -290,8 +297,7 @@ DesignRoom room_around(const DesignQuestion& question, const std::vector<double>
       throw InvalidArgument("design", format_number(design[k]), format_interval(question.low[k], question.high[k]));
   for (const double one : proportions)
     if (!(one > 0.0 && std::isfinite(one))) throw InvalidArgument("proportions", format_number(one), "numbers above 0");
-  const TimeLimit limit(seconds, control.stop);
-  return admissible::RoomSearch(question, design, proportions, limit.stop()).run();
+  return admissible::RoomSearch(question, design, proportions, most_boxes, control.stop).run();
 }
 
 }  // namespace ninedof

@@ -21,6 +21,7 @@ from ninedof.support.units import amount
 from ninedof.tables import Table, columns
 
 PLACE = 4
+TIME, RESOLUTION = 300.0, 0.01
 WORDS = {"exists": "yes", "none": "no"}
 Ranges = Mapping[str, tuple[float, float] | None]
 EXAMPLES = """
@@ -42,8 +43,10 @@ class _Options(Options):
     )
     set: list[str] | None = option("Another variable: zs=320, or zs=+10%. Repeatable.", values=VARIABLES)
     condition: float | None = option("A bound of the condition number besides the limits.")
-    time: float = option("Seconds, with --scheduler of each root; what is proved by then is kept.", 300.0)
-    resolution: float = option("The least size of a box, as a part of each range.", 0.01)
+    time: float | None = option(
+        f"Seconds, {TIME:g} by default, with --scheduler of each root; what is proved by then is kept."
+    )
+    resolution: float | None = option(f"The least size of a box, as a part of each range; {RESOLUTION:g} by default.")
     around: bool = option(
         "How far each variable may go at once, from the design; without --vary this alone, of all free variables.",
         False,
@@ -86,7 +89,7 @@ def admissible(options: _Options) -> Answer:
     screen.print(*designs.sentences())
     own = isinstance(of, nd.Result) and not at
     if own and designs.state_of([[designs.of.at[name] for name in designs.vary]]) == [UNDECIDED]:
-        ended = designs.seconds >= options.time
+        ended = designs.seconds >= how["time_limit"]
         why = " yet" if ended else ": an optimum reaches limits exactly, without room"
         screen.print(f"The design of the run is not decided itself{why}.")
     if file is not None:
@@ -118,7 +121,11 @@ def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: 
 
 
 def _how(options: _Options) -> dict[str, Any]:
-    return {"time_limit": options.time, "resolution": options.resolution, "threads": options.threads or 0}
+    return {
+        "time_limit": TIME if options.time is None else options.time,
+        "resolution": RESOLUTION if options.resolution is None else options.resolution,
+        "threads": options.threads or 0,
+    }
 
 
 def _example(one: nd.AdmissibleRow, study: nd.Study) -> str:
@@ -160,7 +167,7 @@ def _around_alone(screen: Screen, of: nd.Study | nd.Result, options: _Options, a
         names = f": {', '.join(free)}" if free else ""
         raise ValueError(f"--vary: got none with {len(free)} free variables{names}, expected one to four")
     alone = "with --around and no --vary: designs are not divided"
-    options.refuse(alone, "certificate", "out", "scheduler")
+    options.refuse(alone, "certificate", "out", "scheduler", "time", "resolution", "threads")
     designs = nd.admissible(of, free, at=at, condition_number=options.condition, time_limit=0.0)
     return Answer([], _around(screen, designs, options))
 
