@@ -43,8 +43,8 @@ class OptimumProof:
     where: str = ""
     """The poses of the worst condition number: "over the region", "at its poses"; "" for the neutral pose."""
     certificate: bytes = field(default=b"", repr=False, compare=False)
-    """A file that `ninedof check` and ninedof_check read; empty if nothing is proved, or if the search did not
-    come to its end, of a class of plates at the neutral pose."""
+    """A file that `ninedof check` and ninedof_check read; empty if nothing is proved, if the search did not come to
+    its end, of a class of plane plates at the neutral pose, and of non-planar ones above a gigabyte."""
 
     @property
     def words(self) -> str:

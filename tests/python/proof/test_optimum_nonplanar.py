@@ -1,11 +1,13 @@
 """prove_optimum of the family "symmetric_nonplanar" at the neutral pose."""
 
 import signal
+import zlib
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from forged import spelled, verdict_of
 
 import ninedof as nd
 from ninedof.proof.optimum_steps import ways_of
@@ -25,7 +27,6 @@ def test_the_optimum_of_the_example_has_a_bound(proof):
     assert proof.complete
     assert proof.lower_bound == BEST * (1.0 - GAP)
     assert proof.left_out == ("joint_spacing", "leg_clearance")
-    assert proof.certificate == b""
     assert nd.OptimumProof.from_dict(proof.to_dict()) == proof
     assert replace(nd.prove_optimum(STUDY, BEST, gap=GAP, threads=1), seconds=0.0) == replace(proof, seconds=0.0)
 
@@ -99,6 +100,114 @@ def test_designs_drawn_at_random_are_not_below_the_bound(proof):
     assert kept > 5
 
 
+def parts_of(certificate):
+    """The lines below the checksum and the bytes of the tree."""
+    head, _, tree = certificate.partition(b"\ntree ")
+    return head.decode().splitlines()[2:], tree.partition(b"\n")[2]
+
+
+def sealed(lines, tree):
+    body = "".join(f"{line}\n" for line in lines).encode() + f"tree {len(tree)}\n".encode() + tree
+    return f"ninedof certificate 1\nchecksum {zlib.crc32(body):x}\n".encode() + body
+
+
+@pytest.mark.slow(sanitized=True)
+def test_the_certificate_is_replayed(proof, tmp_path):
+    found = verdict_of(proof.certificate, tmp_path)
+    assert found.proved, found.words
+    assert found.words.startswith("no design of this study has a condition number below 1.1216343455")
+    assert "joint_height from 0 to 0.3 of radius" in found.study
+    assert "without the limit leg_clearance" in found.study
+    assert found.recut < 0.1 * found.boxes
+    assert len(proof.certificate) < 12 * proof.boxes
+    lines, tree = parts_of(proof.certificate)
+    assert sealed(lines, tree) == proof.certificate
+
+
+def study_of(lines):
+    """The study of a head, at its best in the searched ranges."""
+    words = [line.split(" ") for line in lines]
+    value = float.fromhex
+    ends = {w[1]: (value(w[2]), value(w[3])) for w in words if w[0] == "variable"}
+    limits = {}
+    for w in words:
+        if w[0] != "limit":
+            continue
+        limit = {"min": value(w[2])} if value(w[2]) > 0.0 else {}
+        limit |= {"max": value(w[3])} if np.isfinite(value(w[3])) else {}
+        limits[w[1]] = limit | ({"of": w[4]} if len(w) > 4 else {})
+    length = value(next(w[1] for w in words if w[0] == "characteristic_length"))
+    target = value(next(w[1] for w in words if w[0] == "target"))
+    variables = {name: (low, high) if low < high else low for name, (low, high) in ends.items()}
+    return nd.Study("symmetric_nonplanar", variables, limits, characteristic_length=length, starts=8), target
+
+
+@pytest.mark.slow
+def test_what_is_proved_of_a_changed_head_is_true(proof, tmp_path):
+    """A number of the head, sealed anew: what counts as proved is held against an optimization of the new study."""
+    lines, tree = parts_of(proof.certificate)
+    rng, counts = np.random.default_rng(8), {True: 0, False: 0}
+    numbers = [(n, k) for n, line in enumerate(lines) for k, w in enumerate(line.split(" ")) if "0x" in w]
+    for n, k in (numbers[i] for i in rng.integers(len(numbers), size=30)):
+        words = lines[n].split(" ")
+        words[k] = spelled(float.fromhex(words[k]) * float(np.exp(rng.normal(0.0, 0.4))))
+        changed = [*lines[:n], " ".join(words), *lines[n + 1 :]]
+        found = verdict_of(sealed(changed, tree), tmp_path)
+        counts[found.proved] += 1
+        if found.proved:
+            study, target = study_of(changed)
+            best = nd.optimize(study)
+            assert not best.candidates or best.condition_number >= target, changed[n]
+    assert min(counts.values()) > 2
+
+
+@pytest.mark.slow(sanitized=True)
+def test_edited_bytes_of_the_tree_are_refused_or_harmless(proof, tmp_path):
+    """A larger target and the same edits: nothing is proved of it, whatever the tree says."""
+    lines, tree = parts_of(proof.certificate)
+    n = next(n for n, line in enumerate(lines) if line.startswith("target"))
+    above = [*lines[:n], f"target {spelled(1.001 * BEST)}", *lines[n + 1 :]]
+    rng, refused = np.random.default_rng(3), 0
+    for place in rng.integers(len(tree), size=20):
+        edited = tree[:place] + bytes([int(rng.integers(256))]) + tree[place + 1 :]
+        refused += not verdict_of(sealed(lines, edited), tmp_path).proved
+        assert not verdict_of(sealed(above, edited), tmp_path).proved
+    assert refused > 2  # others are the last digits of a weight, or where a box is cut
+    for cut_short in (tree[:-1], tree[: len(tree) // 2], tree + b"\x10", b""):
+        assert not verdict_of(sealed(lines, cut_short), tmp_path).proved
+    assert not verdict_of(sealed(lines, b"\x00\x00\x00\x80\x3f" * 100_000), tmp_path).proved
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("zp 0x", "zz 0x", "variable zp is missing"),
+        ("limit joint_height 0x0p+0 0x1.3333333333333p-2 radius", "limit joint_height 0x0p+0 0x1p-2 zp", "no unit"),
+        ("limit joint_height 0x0p+0 0x1.3333333333333p-2 radius", "limit joint_height 0x0p+0 0x1p-2 m", "has no unit"),
+        ("limit leg_ratio", "limit hope", "knows no limit hope"),
+        ("target 0x1.0cccccccccccdp+0", "target 0x1.f4p+10", "target is not from 1 to 1000"),
+    ],
+)
+def test_a_head_that_the_theory_does_not_reach_is_refused(old, new, words, tmp_path):
+    proof = nd.prove_optimum(STUDY, 1.05, gap=0.0)  # 1.05 is far below: a moment
+    lines, tree = parts_of(proof.certificate)
+    assert verdict_of(sealed(lines, tree), tmp_path).proved
+    changed = "\n".join(lines).replace(old, new).split("\n")
+    assert changed != lines
+    found = verdict_of(sealed(changed, tree), tmp_path)
+    assert not found.proved
+    assert words in found.words
+
+
+def test_the_last_bound_in_time_has_a_file(tmp_path):
+    proof = nd.prove_optimum(STUDY, BEST, gap=1e-7, time_limit=8.0)
+    assert not proof.complete
+    if proof.certificate:
+        assert verdict_of(proof.certificate, tmp_path).proved
+        assert (b"target " + spelled(proof.lower_bound).encode() + b"\n") in proof.certificate
+    assert bool(proof.certificate) == (proof.lower_bound > 1.0)
+
+
 def test_flat_triples_are_planar():
     flat = dict.fromkeys((name for name in STUDY.variables if name.endswith("_height")), 0.0)
     study = replace(STUDY, variables=dict(STUDY.variables) | flat, constraints={"radius_ratio": (None, 2.0)})
@@ -146,4 +255,4 @@ def test_what_is_left_out_is_named():
     study = replace(STUDY, variables=dict(STUDY.variables) | {"platform_external_angle": (0.0, 1.0)})
     assert ways_of(study).left_out == ("platform_external_angle", "joint_spacing", "leg_clearance")
     study = replace(STUDY, constraints={"leg_ratio": (1.5, 2.5), "footprint": (1.0, 4.0), "height": (1.0, 3.0)})
-    assert ways_of(study).left_out == ("leg_ratio.min", "footprint")
+    assert ways_of(study).left_out == ("leg_ratio.min", "footprint.min")

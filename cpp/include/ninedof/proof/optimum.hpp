@@ -30,13 +30,13 @@ struct OptimumProof {
   double seconds = 0.0;
   /// Limits of the study that the proof leaves out. The bound holds all the same: for more designs than are allowed.
   std::vector<std::string> left_out;
-  std::string certificate;  ///< bytes of a file that ninedof_check reads; empty unless asked for and complete
+  std::string certificate;  ///< bytes of a file that ninedof_check reads; empty unless asked for and proved
 };
 
 /// Best first: the box of which least is known is cut next, so that the bound rises until the search ends. The result
 /// does not depend on the number of threads, unless time ends it.
 ///
-/// Of the family "symmetric_nonplanar" one target after another is proved, depth first and without a certificate.
+/// Of the family "symmetric_nonplanar" one target after another is proved, depth first; the certificate is of the last.
 ///
 /// Throws InvalidArgument for a study that the theory does not reach: the family "general"; an objective other than the
 /// condition number at the neutral pose; of non-planar designs a characteristic length that is no number; sizes without

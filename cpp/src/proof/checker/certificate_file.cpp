@@ -5,7 +5,7 @@ namespace ninedof::checker {
 namespace {
 
 std::string written(const Bound& b) {
-  return b.name + " " + hexadecimal(b.range.a) + " " + hexadecimal(b.range.b) + "\n";
+  return b.name + " " + hexadecimal(b.range.a) + " " + hexadecimal(b.range.b) + (b.of.empty() ? "" : " " + b.of) + "\n";
 }
 
 std::string length(const Certificate& c) {
@@ -23,12 +23,16 @@ std::string written(const Certificate& c) {
   return out + "tree " + digits(c.tree) + "\n";
 }
 
-/// NAME LOW HIGH.
+/// NAME LOW HIGH, perhaps with a unit.
 Bound bound(const std::string& text) {
   const std::size_t first = text.find(' '), second = text.find(' ', first + 1);
   if (first == std::string::npos || second == std::string::npos) refuse(quoted(text) + " lacks a bound");
-  const Bound out{text.substr(0, first),
-                  {number(text.substr(first + 1, second - first - 1)), number(text.substr(second + 1))}};
+  const std::size_t third = std::min(text.find(' ', second + 1), text.size());
+  const Bound out{
+      text.substr(0, first),
+      {number(text.substr(first + 1, second - first - 1)), number(text.substr(second + 1, third - second - 1))},
+      text.substr(std::min(third + 1, text.size()))};
+  if (third < text.size() && out.of != "zp" && out.of != "radius") refuse(quoted(text) + " has no unit");
   if (!out.range.sound()) refuse("the bounds of " + out.name + " are inverted");
   return out;
 }
@@ -85,7 +89,7 @@ std::vector<std::string> study_of(const Certificate& c) {
                                                    : "characteristic length \"" + c.length_kind + "\"";
   std::vector<std::string> out{c.family + " designs with 0 < zs < zp", length};
   for (const std::vector<Bound>& bounds : {c.variables, c.limits})
-    for (const auto& [name, range] : bounds) out.push_back(said(name, range));
+    for (const auto& [name, range, of] : bounds) out.push_back(said(name, range) + (of.empty() ? "" : " of " + of));
   for (const std::string& limit : c.left_out) out.push_back("without the limit " + limit);
   return out;
 }

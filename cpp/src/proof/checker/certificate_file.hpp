@@ -1,6 +1,7 @@
 #pragma once
 /// What a certificate says, before anything of it is believed.
 
+#include <bit>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace ninedof::checker {
 struct Bound {
   std::string name;
   Range range;
+  std::string of = {};  ///< what a limit of non-planar designs is a fraction of: zp, radius, or nothing
 };
 
 struct Certificate {
@@ -31,5 +33,38 @@ constexpr const char* kind_of_optimum = "ninedof certificate 1";
 
 /// The study for people, one line each: what was read is what is checked and what is printed.
 std::vector<std::string> study_of(const Certificate& c);
+
+/// The bytes of a tree, as they come.
+class TreeBytes {
+ public:
+  TreeBytes(Stream& file, std::size_t size) : file_(file), size_(size) {}
+
+  std::size_t read() const { return at_; }
+  std::size_t size() const { return size_; }
+
+  unsigned byte() {
+    if (at_++ == size_) refuse("the tree ends too early");
+    return file_.byte();
+  }
+  /// The lowest byte first.
+  unsigned pair() {
+    const unsigned low = byte();
+    return low | byte() << 8U;
+  }
+  float real() {
+    const std::uint32_t low = pair();
+    return std::bit_cast<float>(low | static_cast<std::uint32_t>(pair()) << 16U);
+  }
+  void finish() const {
+    if (at_ != size_) refuse("the tree goes on after its last box");
+  }
+
+ private:
+  Stream& file_;
+  std::size_t size_, at_ = 0;
+};
+
+/// Boxes that wait are halves of one another: more than these are no search's.
+constexpr std::size_t most_waiting = 5000;
 
 }  // namespace ninedof::checker

@@ -1,13 +1,12 @@
 #include "ninedof/proof/checker.hpp"
 
-#include <bit>
 #include <cfenv>
-#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <streambuf>
 
 #include "proof/checker/blocks.hpp"
+#include "proof/checker/lines.hpp"
 #include "proof/checker/replay.hpp"
 
 namespace ninedof::checker {
@@ -24,15 +23,16 @@ std::pair<Box, Box> halves(const Box& box, std::size_t k, const Domain& d) {
 
 class Walk {
  public:
-  Walk(const Domain& domain, std::size_t tree, Stream& file, Verdict& verdict, const Reading& reading)
-      : d_(domain), tree_(tree), file_(file), verdict_(verdict), reading_(reading) {}
+  Walk(const Domain& domain, TreeBytes& tree, Verdict& verdict, const Reading& reading)
+      : d_(domain), tree_(tree), verdict_(verdict), reading_(reading) {}
 
   void run() {
     std::vector<Box> ahead{d_.box};
     while (!ahead.empty()) {
       const Box box = ahead.back();
       ahead.pop_back();
-      const int code = byte();
+      if (ahead.size() > most_waiting) refuse("the tree is too deep");
+      const int code = static_cast<int>(tree_.byte());
       if (code < d_.dimension) {
         auto [low, high] = halves(box, static_cast<std::size_t>(code), d_);
         ahead.push_back(high);
@@ -41,25 +41,14 @@ class Walk {
       }
       leaf(box, code);
     }
-    if (at_ != tree_) refuse("the tree goes on after its last box");
   }
 
  private:
-  int byte() {
-    if (at_++ == tree_) refuse("the tree ends too early");
-    return file_.byte();
-  }
-  float weight() {
-    std::uint32_t bits = 0;
-    for (int shift : {0, 8, 16, 24}) bits |= static_cast<std::uint32_t>(byte()) << shift;
-    return std::bit_cast<float>(bits);
-  }
-
   void leaf(const Box& box, int code) {
     std::optional<Weights> by;
     if (code == 18 || code == 19) {
-      by = Weights{weight(), weight(), 0.0F, 0.0F};
-      if (code == 19) by->external = weight(), by->upper = weight();
+      by = Weights{tree_.real(), tree_.real(), 0.0F, 0.0F};
+      if (code == 19) by->external = tree_.real(), by->upper = tree_.real();
       if (!(by->max >= 0.0F && by->max <= 1.0F && by->min >= 0.0F && by->min <= 1.0F))
         refuse("a weight is not from 0 to 1");
       if (!std::isfinite(by->external) || !std::isfinite(by->upper)) refuse("a weight is not finite");
@@ -68,7 +57,7 @@ class Walk {
       refuse("byte " + std::to_string(code) + " of the tree means nothing");
     }
     constexpr long between_reports = 256;
-    if (reading_ && verdict_.leaves % between_reports == 0) reading_(at_, tree_);
+    if (reading_ && verdict_.leaves % between_reports == 0) reading_(tree_.read(), tree_.size());
     ++verdict_.leaves;
     if (!closed(box, by, 0)) refuse("a box is not proved to hold no design below the target");
   }
@@ -101,12 +90,31 @@ class Walk {
   }
 
   const Domain& d_;
-  std::size_t tree_;
-  Stream& file_;
+  TreeBytes& tree_;
   Verdict& verdict_;
   const Reading& reading_;
-  std::size_t at_ = 0;
 };
+
+bool is_one_box(TreeBytes& tree) {
+  return tree.size() == 1 && tree.byte() == 16;
+}
+
+void walk(const Certificate& c, TreeBytes& tree, const Reading& reading, Verdict& out) {
+  const bool of_lines = c.family == "symmetric_nonplanar";
+  const lines::Study study = of_lines ? lines::study_of_lines(c) : lines::Study();
+  Domain d = of_lines ? Domain() : domain_of(c);
+  if (!of_lines && !empty(d.box)) settle(d.box, d);
+  if (of_lines ? lines::empty(study.box) : empty(d.box)) {
+    if (!is_one_box(tree)) refuse("the domain holds no design, and the tree is more than one box");
+    out.leaves = 1;
+  } else if (of_lines) {
+    lines::replay(study, tree, reading, out);
+  } else {
+    for (const Range& r : d.box)
+      if (!r.sound() || !(r.a > 0.0) || !(r.b < inf)) refuse("the domain has no bounds");
+    Walk(d, tree, out, reading).run();
+  }
+}
 
 }  // namespace
 
@@ -124,16 +132,9 @@ Verdict check(std::istream& certificate, const Reading& reading) {
     }
     if (kind != kind_of_optimum) refuse(quoted(kind) + " is no kind of certificate");
     const Certificate c = read(*file);
-    Domain d = domain_of(c);
-    if (!empty(d.box)) settle(d.box, d);
-    if (empty(d.box)) {
-      if (c.tree != 1 || file->byte() != 16) refuse("the domain holds no design, and the tree is more than one box");
-      out.leaves = 1;
-    } else {
-      for (const Range& r : d.box)
-        if (!r.sound() || !(r.a > 0.0) || !(r.b < inf)) refuse("the domain has no bounds");
-      Walk(d, c.tree, *file, out, reading).run();
-    }
+    TreeBytes tree(*file, c.tree);
+    walk(c, tree, reading, out);
+    tree.finish();
     file->finish();
     out.study = study_of(c);
     out.words = "no design of this study has a condition number below " + rounded_down(c.target);

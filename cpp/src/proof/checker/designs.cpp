@@ -3,6 +3,7 @@
 #include <span>
 
 #include "proof/checker/curves.hpp"
+#include "proof/checker/designs_file.hpp"
 
 namespace ninedof::checker {
 namespace {
@@ -106,20 +107,9 @@ void take_slopes(Domain& d, Range U, Range room, Range t) {
 }  // namespace
 
 Domain domain_of(const Certificate& c) {
-  using Names = std::vector<std::string>;
-  const Names hexagon{"a1", "a2", "b1", "b2", "zp", "zs", "theta_z"};
-  const Names plates{"base_external_radius",
-                     "base_internal_radius",
-                     "base_internal_angle",
-                     "platform_external_radius",
-                     "platform_external_angle",
-                     "platform_internal_radius",
-                     "platform_internal_angle",
-                     "zp",
-                     "zs"};
   const bool hexagonal = c.family == "hexagonal";
   if (!hexagonal && c.family != "symmetric") refuse("the family is neither hexagonal nor symmetric");
-  const Names& names = hexagonal ? hexagon : plates;
+  const std::vector<std::string> names = sets::names_of(c.family);
   if (c.variables.size() != names.size()) refuse("the variables are not those of the family");
   for (std::size_t k = 0; k < names.size(); ++k)
     if (c.variables[k].name != names[k]) refuse("variable " + names[k] + " is missing");
@@ -130,8 +120,9 @@ Domain domain_of(const Certificate& c) {
     return x == 0.0 || std::isinf(x) || (std::abs(x) >= smallest_number && std::abs(x) <= largest_number);
   };
   for (const std::vector<Bound>& bounds : {c.variables, c.limits})
-    for (const auto& [name, range] : bounds)
-      if (!ordinary(range.a) || !ordinary(range.b)) refuse("a bound of " + name + " is not from 1e-100 to 1e100");
+    for (const auto& [name, range, of] : bounds)
+      if (!of.empty()) refuse(name + " has a unit");
+      else if (!ordinary(range.a) || !ordinary(range.b)) refuse("a bound of " + name + " is not from 1e-100 to 1e100");
   if (!ordinary(c.target) || !ordinary(c.length.a) || !ordinary(c.length.b))
     refuse("the target or the length is not from 1e-100 to 1e100");
   Domain d;
@@ -167,7 +158,7 @@ Domain domain_of(const Certificate& c) {
   }
   if (!(d.zs.a >= 0.0)) refuse("the bounds of zs are negative");
   d.zs = size_of(d.zs);
-  for (const auto& [name, range] : c.limits) {
+  for (const auto& [name, range, of] : c.limits) {
     if (name == "zs_fraction") d.fraction = meet(d.fraction, range);
     else if (name == "radius_ratio") d.radius_ratio = meet(d.radius_ratio, range);
     else if (name == "leg_ratio") d.leg_ratio = std::min(d.leg_ratio, range.b);

@@ -27,28 +27,6 @@ constexpr std::array<LineKind, 15> kinds{{{"family", false, false},
                                           {"box", true, false}}};
 constexpr std::array states{"inside", "outside", "undecided"};
 
-std::vector<std::string> names_of(const std::string& family) {
-  if (family == "hexagonal") return {"a1", "a2", "b1", "b2", "zp", "zs", "theta_z"};
-  std::vector<std::string> out;
-  const std::array triples{"base_external", "base_internal", "platform_external", "platform_internal"};
-  if (family == "general") {
-    for (const std::string triple : triples)
-      for (const char* joint : {"_1", "_2", "_3"})
-        for (const char* axis : {"_x", "_y", "_z"}) out.push_back(triple + joint + axis);
-    out.insert(out.end(), {"zp", "zs", "theta_z"});
-    return out;
-  }
-  if (family != "symmetric" && family != "symmetric_nonplanar") refuse(quoted(family) + " is no family of designs");
-  for (const std::string triple : triples) {
-    out.push_back(triple + "_radius");
-    if (triple != triples[0]) out.push_back(triple + "_angle");
-  }
-  out.insert(out.end(), {"zp", "zs"});
-  if (family == "symmetric_nonplanar")
-    for (const std::string triple : triples) out.push_back(triple + "_height");
-  return out;
-}
-
 /// The words of a line, one after another.
 class LineWords {
  public:
@@ -220,6 +198,28 @@ std::string turned_by(const Triple& x) {
 
 }  // namespace
 
+std::vector<std::string> names_of(const std::string& family) {
+  if (family == "hexagonal") return {"a1", "a2", "b1", "b2", "zp", "zs", "theta_z"};
+  std::vector<std::string> out;
+  const std::array triples{"base_external", "base_internal", "platform_external", "platform_internal"};
+  if (family == "general") {
+    for (const std::string triple : triples)
+      for (const char* joint : {"_1", "_2", "_3"})
+        for (const char* axis : {"_x", "_y", "_z"}) out.push_back(triple + joint + axis);
+    out.insert(out.end(), {"zp", "zs", "theta_z"});
+    return out;
+  }
+  if (family != "symmetric" && family != "symmetric_nonplanar") refuse(quoted(family) + " is no family of designs");
+  for (const std::string triple : triples) {
+    out.push_back(triple + "_radius");
+    if (triple != triples[0]) out.push_back(triple + "_angle");
+  }
+  out.insert(out.end(), {"zp", "zs"});
+  if (family == "symmetric_nonplanar")
+    for (const std::string triple : triples) out.push_back(triple + "_height");
+  return out;
+}
+
 DesignsFile read_designs(Stream& file) {
   DesignsFile out;
   std::size_t place = 0, last = kinds.size();  // the kind that comes next, and the one that was last
@@ -243,7 +243,7 @@ DesignsFile read_designs(Stream& file) {
 
 std::vector<std::string> question_of(const DesignsFile& file) {
   std::vector<std::string> out{file.family + " designs with 0 < zs < zp"};
-  for (const auto& [name, range] : file.variables) out.push_back(said(name, range));
+  for (const Bound& one : file.variables) out.push_back(said(one.name, one.range));
   if (file.tool != std::array<double, 6>{})
     out.push_back("tool at " + plain({file.tool[0], file.tool[1], file.tool[2]}) +
                   turned_by({file.tool[3], file.tool[4], file.tool[5]}));

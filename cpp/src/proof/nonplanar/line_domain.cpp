@@ -83,8 +83,11 @@ LineLimits line_limits(const Problem& study, std::vector<std::string>& left_out)
   if (study.variables[angle].high - study.variables[angle].low < 2.0 * std::numbers::pi)
     left_out.push_back(names[angle].name);
   for (const Limit& limit : study.limits)
-    if (!read_limit(limit, length, out))
-      left_out.push_back(limit_row(limit.name).spread == &leg_ratio_row ? limit.label() + ".min" : limit.label());
+    if (!read_limit(limit, length, out)) {
+      const LimitRow& row = limit_row(limit.name);
+      const bool low = row.spread == &leg_ratio_row || row.design == &footprint_row;  // their high side counts
+      left_out.push_back(limit.label() + (low ? ".min" : ""));
+    }
   if (study.objective.neutral_condition_limit < infinity || study.objective.condition_limit < infinity)
     left_out.emplace_back("condition_number");
   return out;

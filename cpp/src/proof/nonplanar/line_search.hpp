@@ -5,7 +5,8 @@
 
 namespace ninedof::proof {
 
-/// As `prove_optimum`, by one target after another up to that of the settings. Without a certificate.
+/// As `prove_optimum`, by one target after another up to that of the settings. The certificate is that of the last one
+/// that was proved, and empty where its tree would have more than a gigabyte.
 OptimumProof prove_nonplanar(const Problem& study, const OptimumSettings& settings, const Control& control);
 
 }  // namespace ninedof::proof

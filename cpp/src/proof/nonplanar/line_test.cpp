@@ -1,5 +1,6 @@
 #include "proof/nonplanar/line_test.hpp"
 
+#include "proof/nonplanar/line_reason.hpp"
 #include "proof/optimum/mixture_simplex.hpp"
 
 namespace ninedof::proof {
@@ -75,17 +76,20 @@ class KeptPart {
     return true;
   }
 
-  /// Applies it to the box; the share of its volume that is left.
-  double apply(LineBox& box) const {
-    double share = 1.0;
+  /// Of the volume of the box.
+  double share() const {
+    double out = 1.0;
+    for (const Interval& x : left_) out *= 0.5 * width(x);
+    return out;
+  }
+
+  void apply(LineBox& box) const {
     for (std::size_t k = 0; k < line::coordinates; ++k) {
       const double middle = 0.5 * (box[k].lo + box[k].hi), half = 0.5 * (box[k].hi - box[k].lo);
       const double slack = 0x1p-48 * magnitude(box[k]);
-      share *= 0.5 * width(left_[k]);
       if (left_[k].hi < 1.0) box[k].hi = std::min(box[k].hi, middle + half * left_[k].hi + slack);
       if (left_[k].lo > -1.0) box[k].lo = std::max(box[k].lo, middle + half * left_[k].lo - slack);
     }
-    return share;
   }
 
  private:
@@ -160,11 +164,28 @@ class LineLook {
     rules_ = design.rules(limits, sides);
   }
 
-  bool closes() {
-    for (const DesignForm& rule : rules_)
-      if (!part_.keep(rule)) return true;
-    std::erase_if(rules_, [](const DesignForm& x) { return !is_known(x) || !(upper(x) > 0.0); });
-    return by_mixture();
+  /// `reason`, unless null: gets what closes the box or makes it smaller.
+  bool closes(Bytes* reason) {
+    std::size_t open = 0;
+    for (std::size_t k = 0; k < rules_.size(); ++k) {
+      if (!part_.keep(rules_[k])) {
+        if (reason) reason->push_back(reasons::by_limits);
+        return true;
+      }
+      if (!is_known(rules_[k]) || !(upper(rules_[k]) > 0.0)) continue;
+      rules_[open] = rules_[k];
+      number_[open++] = k;
+    }
+    rules_.resize(open);
+    const double by_limits = part_.share();
+    const bool closed = by_mixture();
+    if (reason && (closed || part_.share() < by_limits)) {
+      reason->push_back(closed ? reasons::closed_by_mixture : reasons::cut_by_mixture);
+      append_weights(*reason);
+    } else if (reason && by_limits < 1.0) {
+      reason->push_back(reasons::cut_by_limits);
+    }
+    return closed;
   }
   const KeptPart& part() const { return part_; }
   std::size_t cut(const LineBox& box) const { return widest_change(box, blocks_, rules_, part_); }
@@ -174,14 +195,18 @@ class LineLook {
   bool by_mixture() {
     const std::array<DesignForm, vectors> q = quotients(blocks_);
     double greatest = 0.0, least = infinity;
+    std::size_t most = 0, fewest = 0;
     bool known = true;
-    for (const DesignForm& x : q) {
-      known = known && is_known(x);
-      if (!is_known(x)) continue;
-      greatest = std::max(greatest, lower(x));
-      least = std::min(least, upper(x));
+    for (std::size_t i = 0; i < vectors; ++i) {
+      known = known && is_known(q[i]);
+      if (!is_known(q[i])) continue;
+      if (lower(q[i]) > greatest) greatest = lower(q[i]), most = i;
+      if (upper(q[i]) < least) least = upper(q[i]), fewest = i;
     }
-    if (greatest > (Interval(square_) * least).hi) return true;
+    if (greatest > (Interval(square_) * least).hi) {
+      weights_[most] = weights_[vectors + fewest] = 1.0;
+      return true;
+    }
     if (!known) return false;
 
     LineColumns columns;
@@ -195,9 +220,10 @@ class LineLook {
     std::array<double, line::coordinates> whole;
     whole.fill(1.0);
     constexpr double enough = 1e-9;
-    const auto x =
+    weights_ =
         MixtureSimplex<vectors, most_columns_of_line, line::coordinates>(columns, count, whole, line::coordinates)
             .solve(enough);
+    const auto& x = weights_;
     // What counts: the mixture with its errors. The weights of both kinds add to 1 but for rounding, for which
     // `square_` has room.
     DesignForm sum;
@@ -214,9 +240,32 @@ class LineLook {
         sum = sum + (weight * scale_of(rules_[j])) * rules_[j];
     return !part_.keep(sum);
   }
+  /// The weights of `by_mixture`, of the vectors as sums.
+  void append_weights(Bytes& out) const {
+    const LineBlocks<DesignForm>& m = blocks_;
+    const std::array all{directions(m.axial_11.c, m.axial_12.c, 0.0, m.axial_22.c),
+                         directions(m.across_11.c, m.across_re.c, m.across_im.c, m.across_22.c)};
+    std::array<HermitianSum, 4> sums;
+    for (std::size_t i = 0; i < 2 * vectors; ++i) {
+      const auto& [a, b, c] = all[i / 4 % 2][i % 4];
+      const double weight = weights_[i] / (a * a + b * b + c * c);
+      HermitianSum& sum = sums[i / 4];
+      sum.m11 += weight * a * a;
+      sum.re += weight * a * b;
+      sum.im += weight * a * c;
+      sum.m22 += weight * (b * b + c * c);
+    }
+    std::vector<std::pair<std::size_t, double>> limits;
+    for (std::size_t j = 0; j < rules_.size() && 2 * vectors + j < weights_.size(); ++j)
+      if (const double weight = weights_[2 * vectors + j]; weight > 0.0)
+        limits.emplace_back(number_[j], weight * scale_of(rules_[j]));
+    append_mixture(out, sums, limits);
+  }
 
   LineBlocks<DesignForm> blocks_;
   std::vector<DesignForm> rules_;
+  std::array<std::size_t, most_columns_of_line> number_{};  ///< of rules that are not known to be kept, among all
+  std::array<double, most_columns_of_line> weights_{};
   double square_;  ///< above the square of the target by more than weights are rounded
   KeptPart part_;
 };
@@ -227,18 +276,18 @@ double cut_at(const LineBox& box, std::size_t k) {
   return geometric(box, k) ? std::clamp(std::sqrt(box[k].lo * box[k].hi), box[k].lo, box[k].hi) : middle(box[k]);
 }
 
-LineVerdict test_box(LineBox& box, const LineLimits& limits, const SidesOfO& sides, double target) {
+LineVerdict test_box(LineBox& box, const LineLimits& limits, const SidesOfO& sides, double target, bool keep) {
   LineVerdict out;
   constexpr int most_looks = 4;
   constexpr double much = 0.5, smallest = 1e-11;
   for (int i = 1;; ++i) {
     LineLook look(box, limits, sides, target);
-    if (look.closes()) {
+    if (look.closes(keep ? &out.reasons : nullptr)) {
       out.empty = true;
       return out;
     }
-    const double left = look.part().apply(box);
-    if (left < much && i < most_looks) continue;
+    look.part().apply(box);
+    if (look.part().share() < much && i < most_looks) continue;
     out.cut = look.cut(box);
     break;
   }

@@ -67,9 +67,11 @@ std::string certificate(const Problem& study, double target, const std::vector<s
   const std::vector<VariableInfo>& names = design_family(study.family).variables();
   for (std::size_t k = 0; k < names.size(); ++k)
     range("variable", names[k].name, study.variables[k].low, study.variables[k].high);
-  for (const Limit& limit : study.limits)
-    if (std::ranges::find(left_out, limit.label()) == left_out.end())
-      range("limit", limit.name, std::max(limit.low, 0.0), limit.high);
+  for (const Limit& limit : study.limits) {
+    if (std::ranges::find(left_out, limit.label()) != left_out.end()) continue;
+    range("limit", limit.name, std::max(limit.low, 0.0), limit.high);
+    if (limit.of != Unit::length) body.insert(body.size() - 1, std::string(" ") + to_string(limit.of));
+  }
   for (const std::string& limit : left_out) body += "left_out " + limit + "\n";
   body += "tree " + std::to_string(tree.size()) + "\n";
   body.append(tree.begin(), tree.end());

@@ -82,6 +82,23 @@ BoxBound excluded_by_domain() {
   return out;
 }
 
+// Below these, a byte is the coordinate of a cut.
+constexpr std::uint8_t outside = 16, by_ranges = 17, by_combination = 18, by_legs = 19;
+
+Bytes reason_of(const BoxBound& found) {
+  if (found.reason == Reason::domain) return {outside};
+  if (found.reason == Reason::ranges) return {by_ranges};
+  const Combination& by = found.combination;
+  const bool legs = by.external != 0.0F || by.upper != 0.0F;
+  Bytes out{legs ? by_legs : by_combination};
+  append(out, by.max);
+  append(out, by.min);
+  if (!legs) return out;
+  append(out, by.external);
+  append(out, by.upper);
+  return out;
+}
+
 class Search : public BoxSearch {
  public:
   Search(const AxisDomain& domain, const OptimumSettings& settings)
@@ -103,14 +120,14 @@ class Search : public BoxSearch {
   void merge(const Open& one, const BoxBound& seen) {
     ++looked;
     if (seen.condition_number >= settings_.target) {
-      if (tree_) tree_->close(one.node, seen);
+      if (tree_) tree_->close(one.node, reason_of(seen));
       return;
     }
     if (seen.at_middle < std::min(better, settings_.target) && domain_.contains(middle_of(one.box, domain_.chart)))
       better = seen.at_middle;
     const double bound = std::max(one.bound, seen.condition_number);
     const double m = middle_of(one.box, seen.cut);
-    const std::uint32_t first = tree_ ? tree_->cut(one.node, seen.cut) : 0;
+    const std::uint32_t first = tree_ ? tree_->cut(one.node, {static_cast<std::uint8_t>(seen.cut)}) : 0;
     for (std::uint32_t side : {0U, 1U}) {
       Open half{one.box, bound, first + side};
       (side == 0 ? half.box[seen.cut].hi : half.box[seen.cut].lo) = m;
@@ -151,7 +168,7 @@ OptimumProof prove_optimum(const Problem& study, const OptimumSettings& settings
     out.lower_bound = settings.target;
     out.complete = true;
     ProofTree nothing;
-    nothing.close(0, excluded_by_domain());
+    nothing.close(0, {outside});
     if (settings.keep_tree) out.certificate = certificate(study, settings.target, out.left_out, nothing.bytes());
     return out;
   }
