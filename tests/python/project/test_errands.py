@@ -60,7 +60,7 @@ def test_few_files_name_a_limit():
     """The table, the checker, which shares nothing with it, and what explains limits to people."""
     texts = [path.read_text("utf-8") for path in (*(ROOT / "cpp").rglob("*.?pp"), *(ROOT / "python").rglob("*.py"))]
     for name in ROWS.keys() - OTHER_THINGS:
-        most = 7 if name == "radius_ratio" else 5  # the paper's limit is that of examples
+        most = 8 if name == "radius_ratio" else 5  # the paper's limit is that of examples, and of every class
         assert sum(f'"{name}"' in text for text in texts) <= most, name
 
 

@@ -51,15 +51,21 @@ class TreeBytes {
     const unsigned low = byte();
     return low | byte() << 8U;
   }
-  float real() {
-    const std::uint32_t low = pair();
-    return std::bit_cast<float>(low | static_cast<std::uint32_t>(pair()) << 16U);
+  float real() { return std::bit_cast<float>(four()); }
+  double long_real() {
+    const std::uint64_t low = four();
+    return std::bit_cast<double>(low | static_cast<std::uint64_t>(four()) << 32U);
   }
   void finish() const {
     if (at_ != size_) refuse("the tree goes on after its last box");
   }
 
  private:
+  std::uint32_t four() {
+    const std::uint32_t low = pair();
+    return low | static_cast<std::uint32_t>(pair()) << 16U;
+  }
+
   Stream& file_;
   std::size_t size_, at_ = 0;
 };

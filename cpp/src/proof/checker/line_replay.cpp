@@ -39,7 +39,7 @@ class LineReplay {
     while (true) {
       const unsigned code = tree_.byte();
       if (code < coordinates) {
-        const double at = tree_.real();
+        const double at = tree_.long_real();
         if (!std::isfinite(at)) refuse("a box is cut at no number");
         Waiting low = box, high = box;
         low.box[code].b = std::min(box.box[code].b, at);
@@ -74,8 +74,10 @@ class LineReplay {
       for (const std::size_t k : {0, 2, 3, 6}) trace[n] += sums[n][k];
       if (!(trace[n] > 0.0)) refuse("a mixture has no vectors");
     }
-    for (std::size_t k = 0; k < 7; ++k)
-      out.entry[k] = Range(sums[0][k]) / trace[0] - square(Range(study_.target)) * (Range(sums[1][k]) / trace[1]);
+    for (std::size_t k = 0; k < 7; ++k) {
+      const Range x = Range(sums[0][k]) / trace[0] - square(Range(study_.target)) * (Range(sums[1][k]) / trace[1]);
+      out.entry[k] = Linear(0.5 * (x.a + x.b), up(x.b - x.a));
+    }
     for (unsigned count = tree_.byte(); count > 0; --count) {
       const std::size_t limit = tree_.byte();
       const double weight = tree_.real();

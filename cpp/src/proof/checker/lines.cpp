@@ -160,13 +160,6 @@ bool keep(const Linear& g, Box& part) {
   return !empty(part);
 }
 
-Linear scaled(Range by, const Linear& x) {
-  const double middle = 0.5 * (by.a + by.b), off = up(std::max(by.b - middle, middle - by.a));
-  Linear out = middle * x;
-  out.r = (out.r + off * (std::abs(x.c) + swing(x) + x.r)) * grain::up;
-  return out;
-}
-
 }  // namespace
 
 bool narrow(const Study& study, Box& box, Sides sides, const Mixture* by) {
@@ -179,7 +172,7 @@ bool narrow(const Study& study, Box& box, Sides sides, const Mixture* by) {
   if (by) {
     const std::array<Linear, 7> m = entries_of(forms);
     Linear sum;
-    for (std::size_t k = 0; k < m.size(); ++k) sum = sum + scaled(by->entry[k], m[k]);
+    for (std::size_t k = 0; k < m.size(); ++k) sum = sum + by->entry[k] * m[k];
     for (const auto& [k, weight] : by->limits) {
       if (k >= all.size()) refuse("a weight of a limit that the study does not have");
       sum = sum + weight * all[k];

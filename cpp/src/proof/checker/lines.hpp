@@ -37,7 +37,7 @@ struct Sides {
 /// Of lemma 14: A / tr A - K^2 B / tr B, whose entries belong to axial 11, 12, 22, then transverse 11, Re 12, Im 12, 22;
 /// and limits with their weights, in the order of docs/certificate.md.
 struct Mixture {
-  std::array<Range, 7> entry;
+  std::array<Linear, 7> entry;  ///< numbers with an error
   std::vector<std::pair<std::size_t, double>> limits;
 };
 

@@ -6,7 +6,11 @@ namespace ninedof::proof {
 
 void append(Bytes& out, float x) {
   const auto bits = std::bit_cast<std::uint32_t>(x);
-  for (int shift : {0, 8, 16, 24}) out.push_back(static_cast<std::uint8_t>(bits >> shift));
+  for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<std::uint8_t>(bits >> shift));
+}
+void append(Bytes& out, double x) {
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  for (int shift = 0; shift < 64; shift += 8) out.push_back(static_cast<std::uint8_t>(bits >> shift));
 }
 
 void ProofTree::close(std::uint32_t node, const Bytes& reason) {

@@ -11,6 +11,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// The lowest byte first.
 void append(Bytes& out, float x);
+void append(Bytes& out, double x);
 
 class ProofTree {
  public:
