@@ -80,7 +80,8 @@ double distance(const Configuration& a, const Configuration& b) {
 }
 
 struct Tally {
-  /// `through` a singularity: the determinant has changed its sign. `open`: the continuation itself gives up next to one.
+  /// `through` a singularity: the determinant has changed its sign. `open`: the continuation itself gives up next to
+  /// one.
   long tracked = 0, divided = 0, wrong = 0, through = 0, open = 0, given_up = 0;
 
   void add(const Tally& t) {

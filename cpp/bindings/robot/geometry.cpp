@@ -133,8 +133,8 @@ platform_internal : array_like, shape (3, 3)
 Raises
 ------
 ValueError
-    If an array has another shape, a coordinate is not finite, or the robot is singular at every pose: internal joints on
-    one line, three external joints of a plate in one point, or two external legs with the same joints. The message
+    If an array has another shape, a coordinate is not finite, or the robot is singular at every pose: internal joints
+    on one line, three external joints of a plate in one point, or two external legs with the same joints. The message
     names the argument and the determinant that is 0.
 
 Examples

@@ -15,8 +15,8 @@ namespace ninedof::python {
 /// Stops the work of the calls of this thread and never returns. To be called without the GIL.
 [[noreturn]] void sleep_until_the_end();
 
-/// A call of the core under way on this thread, made with the GIL held. `worker`, if there is one, is stopped and joined
-/// where the thread has to sleep.
+/// A call of the core under way on this thread, made with the GIL held. `worker`, if there is one, is stopped and
+/// joined where the thread has to sleep.
 class CoreCall {
  public:
   explicit CoreCall(std::jthread* worker = nullptr);

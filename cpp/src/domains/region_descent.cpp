@@ -16,8 +16,8 @@ constexpr SlsqpSettings a_little{.tolerance = 1e-10, .max_evaluations = 25};
 constexpr double stationary = 1e-5;  // of the slopes
 constexpr int most_rounds = 4;
 constexpr double corner_gap = 1e-13;  // from the corners of a path, where its slopes change
-// In parts of the region. By slopes an end is known to 1e-6 where its number is flat there, and then it is as low as the
-// others to 1e-13.
+// In parts of the region. By slopes an end is known to 1e-6 where its number is flat there, and then it is as low as
+// the others to 1e-13.
 constexpr double same_pose = 1e-5;
 constexpr double same_value = 1e-11;  // of ends in one flat place
 

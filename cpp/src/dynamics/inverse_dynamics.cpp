@@ -21,7 +21,8 @@ struct EndForces {
 
 /// Both bodies of leg k along its unit vector e. Their centres are start + a e and other - b e; with forces f_c and f_r
 /// there, and -I edd for a thin body that turns, the virtual work of a displacement of the ends is
-///     f_c.d(start) + f_r.d(other) + t.de,    t = a f_c - b f_r - (I_c + I_r) edd,   de = (1 - e e^T) d(other - start) / l
+///     f_c.d(start) + f_r.d(other) + t.de,    t = a f_c - b f_r - (I_c + I_r) edd,   de = (1 - e e^T) d(other - start)
+/// / l
 EndForces of_leg(Eigen::Index k, const Vec3& e, double length, const PointMotion& start, const PointMotion& other,
                  const Masses& m, const Vec3& gravity) {
   if (m.cylinder[k] == 0.0 && m.rod[k] == 0.0 && m.cylinder_inertia[k] == 0.0 && m.rod_inertia[k] == 0.0)

@@ -11,8 +11,8 @@ namespace ninedof {
 template <class T>
 using Nine = std::array<T, 9>;
 
-/// Equations A x = b with A = h^T, where h is given by rows. It is inverted in the middle of the box, in doubles: errors
-/// of that inverse count as those of any other approximate one.
+/// Equations A x = b with A = h^T, where h is given by rows. It is inverted in the middle of the box, in doubles:
+/// errors of that inverse count as those of any other approximate one.
 template <class T>
 class BoxSystem {
  public:

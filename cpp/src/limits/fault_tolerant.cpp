@@ -1,7 +1,7 @@
 /// fault_tolerant: the condition number of J' with one internal leg locked, for each of the six. An external leg takes
-/// a freedom in every design (conditioning/locked_legs.hpp), and is no item. Not a formula over every number type: a dual
-/// through singular values is wrong at ties, and over boxes of poses matrices are tested (conditioning/forms/split.cpp).
-/// Declared in limits/rows.hpp.
+/// a freedom in every design (conditioning/locked_legs.hpp), and is no item. Not a formula over every number type: a
+/// dual through singular values is wrong at ties, and over boxes of poses matrices are tested
+/// (conditioning/forms/split.cpp). Declared in limits/rows.hpp.
 
 #include <cmath>
 

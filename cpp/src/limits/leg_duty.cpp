@@ -1,7 +1,7 @@
-/// force, rate, power: of every leg, the greatest modulus of its force under the loads and weights of a machine at rest,
-/// its greatest rate over all directions of both speeds of the platform, and their product. Slopes are those of the
-/// power in a motion that is held: see docs/theory/statics.md. external_force, upper_rate and so on are of the legs of
-/// one kind, whose actuators are others to buy. Declared in limits/rows.hpp.
+/// force, rate, power: of every leg, the greatest modulus of its force under the loads and weights of a machine at
+/// rest, its greatest rate over all directions of both speeds of the platform, and their product. Slopes are those of
+/// the power in a motion that is held: see docs/theory/statics.md. external_force, upper_rate and so on are of the legs
+/// of one kind, whose actuators are others to buy. Declared in limits/rows.hpp.
 
 #include <cmath>
 

@@ -15,7 +15,8 @@ constexpr double worth_a_division = 1e-3;
 constexpr double plane_rounding = 0x1p-48;
 
 /// The volume of the x in [0, 1]^n with sum a_k x_k < level, for positive a: by inclusion and exclusion, the simplex
-/// below the plane less those beyond the faces, (level - sum of a_k in S)_+^n / (n! a_1 ... a_n) with alternating signs.
+/// below the plane less those beyond the faces, (level - sum of a_k in S)_+^n / (n! a_1 ... a_n) with alternating
+/// signs.
 Interval simplex_sum(const std::array<double, 3>& a, std::size_t n, const Interval& level) {
   Interval sum;
   for (std::size_t set = 0; set < (std::size_t{1} << n); ++set) {

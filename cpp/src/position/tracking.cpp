@@ -114,7 +114,8 @@ Reach set_target(const Robot& robot, const Vec9& lengths, const Mat3& rotation, 
 }
 
 /// Whether, for all lengths between two points of the path, Kantorovich's number stays below 1/2 and a mode within
-/// `away` is the only one there, by bounds of the derivatives of the equations along the path (docs/theory/position.md).
+/// `away` is the only one there, by bounds of the derivatives of the equations along the path
+/// (docs/theory/position.md).
 bool bounded(const Robot& robot, const Waypoint& from, const Target& to, double away) {
   const PathBounds lower = path_bounds(robot.base, from.lower, to.waypoint.lower),
                    upper = path_bounds(robot.platform, from.upper, to.waypoint.upper);

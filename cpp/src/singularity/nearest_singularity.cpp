@@ -39,7 +39,8 @@ struct Search {
     return {std::isnan(d.distance) ? infinity : d.distance, d.mechanism, direction, pose, d.resolved};
   }
 
-  /// Turns a direction to where the distance is least: to the best of some around, or closer to it where none is nearer.
+  /// Turns a direction to where the distance is least: to the best of some around, or closer to it where none is
+  /// nearer.
   Way refine(Way best, double angle) const {
     if (!std::isfinite(best.distance)) return best;
     constexpr int around = 8, most_turns = 400;

@@ -15,8 +15,8 @@ using namespace support;
 
 namespace {
 
-/// A linear function, a bowl about a point inside, a narrow valley across the coordinates below a cone, and no number at
-/// all.
+/// A linear function, a bowl about a point inside, a narrow valley across the coordinates below a cone, and no number
+/// at all.
 class Known : public PoseNumbers {
  public:
   Known(const Vec6& slope, const Vec6& middle) : slope_(slope), middle_(middle) {}

@@ -1,5 +1,5 @@
-/// check.hpp: an optimum passes, a design beside it does not; a design is worst over a region where a search says so, and
-/// ranges of lengths count; the same on any number of threads.
+/// check.hpp: an optimum passes, a design beside it does not; a design is worst over a region where a search says so,
+/// and ranges of lengths count; the same on any number of threads.
 
 #include "ninedof/optimize/check.hpp"
 

@@ -230,7 +230,8 @@ TEST_SUITE("axis_rows") {
             Box box = box_about(random.point(), factor, random);
             if (hexagons) box = hexagonal(box);
             const std::size_t dimension = hexagons ? hexagonal_coordinates : coordinates;
-            const BoxBound bound = bound_box(box, {dimension}, 1e300, std::log(leg_ratio));
+            const BoxBound bound =
+                bound_box(box, {.dimension = dimension, .slopes = false, .length = {}}, 1e300, std::log(leg_ratio));
             for (int j = 0; j < 30; ++j) {
               Point p = inside(box, random);
               if (hexagons) p[at_lower] = p[at_ratio], p[at_upper] = 1.0;

@@ -1,5 +1,5 @@
-/// sheet_numbers.hpp, sheet_region.hpp: every number against the function that it is of; over a region no pose of another
-/// sample is worse, and each extreme is met at one of the poses that are given.
+/// sheet_numbers.hpp, sheet_region.hpp: every number against the function that it is of; over a region no pose of
+/// another sample is worse, and each extreme is met at one of the poses that are given.
 
 #include "ninedof/sheet/sheet_region.hpp"
 

@@ -120,7 +120,7 @@ def test_the_certificate_is_replayed(proof, tmp_path):
     assert "joint_height from 0 to 0.3 of radius" in found.study
     assert "without the limit leg_clearance" in found.study
     assert found.recut < 0.1 * found.boxes
-    assert len(proof.certificate) < 14 * proof.boxes
+    assert len(proof.certificate) < 16 * proof.boxes
     lines, tree = parts_of(proof.certificate)
     assert sealed(lines, tree) == proof.certificate
 
@@ -169,11 +169,11 @@ def test_edited_bytes_of_the_tree_are_refused_or_harmless(proof, tmp_path):
     n = next(n for n, line in enumerate(lines) if line.startswith("target"))
     above = [*lines[:n], f"target {spelled(1.001 * BEST)}", *lines[n + 1 :]]
     rng, refused = np.random.default_rng(3), 0
-    for place in rng.integers(len(tree), size=20):
+    for place in rng.integers(len(tree), size=40):
         edited = tree[:place] + bytes([int(rng.integers(256))]) + tree[place + 1 :]
         refused += not verdict_of(sealed(lines, edited), tmp_path).proved
         assert not verdict_of(sealed(above, edited), tmp_path).proved
-    assert refused > 2  # others are the last digits of a weight, or where a box is cut
+    assert refused > 2  # others are digits of a weight, or where a box is cut
     for cut_short in (tree[:-1], tree[: len(tree) // 2], tree + b"\x10", b""):
         assert not verdict_of(sealed(lines, cut_short), tmp_path).proved
     assert not verdict_of(sealed(lines, b"\x00\x00\x00\x00\x00\x00\x00\xf0\x3f" * 100_000), tmp_path).proved
@@ -201,7 +201,7 @@ def test_a_head_that_the_theory_does_not_reach_is_refused(old, new, words, tmp_p
 
 
 def test_the_last_bound_in_time_has_a_file(tmp_path):
-    proof = nd.prove_optimum(STUDY, BEST, gap=1e-7, time_limit=8.0)
+    proof = nd.prove_optimum(STUDY, BEST, gap=1e-7, time_limit=3.0)
     assert not proof.complete
     if proof.certificate:
         assert verdict_of(proof.certificate, tmp_path).proved
@@ -212,7 +212,7 @@ def test_the_last_bound_in_time_has_a_file(tmp_path):
 def test_flat_triples_are_planar():
     flat = dict.fromkeys((name for name in STUDY.variables if name.endswith("_height")), 0.0)
     study = replace(STUDY, variables=dict(STUDY.variables) | flat, constraints={"radius_ratio": (None, 2.0)})
-    proof = nd.prove_optimum(study, 2.0, gap=0.4, time_limit=20.0)
+    proof = nd.prove_optimum(study, 2.0, gap=0.4, time_limit=200.0)
     assert proof.complete
     assert proof.certificate.startswith(b"ninedof certificate 1")
     assert b"family symmetric\n" in proof.certificate

@@ -8,8 +8,8 @@
 /// J' without columns K is never formed. Of an orthonormal basis [U; N] of the rates of the internal legs, N the left
 /// null space of [C; B] as in conditioning.hpp and U its complement, M J' = [1 0 0; 0 -N], so that
 ///     J'_K J'_K^T = M^-1 (1 - D D^T) M^-T,  D the columns K of N,
-/// and the singular values rho of the rows K of U are those of (1 - D^T D)^1/2. The inverse of each is a factor of M along
-/// one direction. For one leg rho is its relative manipulability, sqrt(det(J'_K J'_K^T) / det(J' J'^T)).
+/// and the singular values rho of the rows K of U are those of (1 - D^T D)^1/2. The inverse of each is a factor of M
+/// along one direction. For one leg rho is its relative manipulability, sqrt(det(J'_K J'_K^T) / det(J' J'^T)).
 
 #include "ninedof/conditioning/sensitivity.hpp"
 #include "ninedof/math/types.hpp"

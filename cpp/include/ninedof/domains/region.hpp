@@ -42,7 +42,8 @@ struct Region {
   /// The derivatives of `nearest`.
   Mat6 nearest_slopes(const Vec6& at) const;
   Pose pose(const Vec6& at) const;
-  /// The coordinates of a pose in the unit of the region, which may lie beside it; on a path those of the nearest point.
+  /// The coordinates of a pose in the unit of the region, which may lie beside it; on a path those of the nearest
+  /// point.
   Vec6 coordinates(const Pose& pose) const;
   /// The derivatives of `pose`; at a corner of a path those of the way that ends there.
   PoseSlopes slopes(const Vec6& at) const;

@@ -21,8 +21,8 @@ using Vec18 = Eigen::Matrix<double, 18, 1>;
 /// where the room is positive; infinite where there is none, and at a singular configuration that a load moves.
 Vec18 payload_shares(const Geometry& g, const Configuration& c, const PayloadLimits& limits, const Load& without);
 
-/// The largest mass m >= 0 that keeps all limits; infinite where none is reached, NaN where the load without the payload
-/// passes one.
+/// The largest mass m >= 0 that keeps all limits; infinite where none is reached, NaN where the load without the
+/// payload passes one.
 double payload_of(const Vec18& shares);
 
 }  // namespace ninedof

@@ -78,7 +78,8 @@ struct Limit {
   std::string label() const;
 
   /// Throws InvalidArgument for an unknown name, a limit that is not a number, low > high, or a side or option the
-  /// constraint does not have, or none where it needs it; at the neutral pose also for what compares poses: strokes, and cones without an axis.
+  /// constraint does not have, or none where it needs it; at the neutral pose also for what compares poses: strokes,
+  /// and cones without an axis.
   void validate() const;
 };
 

@@ -32,8 +32,9 @@ std::vector<std::string> limit_parts(const std::string& name);
 /// The body of the joints whose angles a limit is about, "base" or "platform"; "" for other limits.
 std::string limit_body(const std::string& name);
 
-/// The numbers that a limit at poses is about, an item each: lengths, angles in radians, distances of legs, determinants,
-/// positive on the side of the neutral pose, condition numbers with a leg locked, or forces, rates and powers of legs.
+/// The numbers that a limit at poses is about, an item each: lengths, angles in radians, distances of legs,
+/// determinants, positive on the side of the neutral pose, condition numbers with a leg locked, or forces, rates and
+/// powers of legs.
 class LimitNumbers {
  public:
   /// Pairs of legs that are `exempt` have an infinite distance.

@@ -7,7 +7,8 @@
 /// safe on any thread, the same bits on every processor.
 ///
 /// Assumed: IEEE 754 doubles rounded to nearest, with gradual underflow and without fused operations
-/// (-ffp-contract=off). `arithmetic_fault` looks whether that holds in this process. Nothing is assumed of the C library.
+/// (-ffp-contract=off). `arithmetic_fault` looks whether that holds in this process. Nothing is assumed of the C
+/// library.
 ///
 /// Sources of values and gradients that are templates over the number type take an Interval, or a dual number of
 /// intervals, as they take a double.

@@ -28,8 +28,9 @@ struct Tracked {
   Configuration configuration;  ///< NaN unless tracked
   /// Kantorovich's number h = sqrt(3) beta eta of the equations at the end, at the start of the last step. For h <= 1/2
   /// a mode exists near the start and is the only one within `alone_within`. Above, the mode is nearer to the start
-  /// than 0.385 times its `separation`, from where Newton's method converges to it. In both cases the bound of h between
-  /// the two ends of the step, from its start or from half-way, proves that the mode reached is the continuous one.
+  /// than 0.385 times its `separation`, from where Newton's method converges to it. In both cases the bound of h
+  /// between the two ends of the step, from its start or from half-way, proves that the mode reached is the continuous
+  /// one.
   double certificate;
   /// No second mode with O on the same sides is nearer than this to the start of the last step, rad. NaN if the
   /// certificate is above 1/2.

@@ -87,7 +87,8 @@ DesignExistence any_admissible(const DesignQuestion& question, const DesignSetti
 /// A file that ninedof_check replays: the question, and the pieces with their reasons (docs/certificate.md).
 std::string design_certificate(const DesignQuestion& question, const DesignSet& set);
 
-/// The file of a machine that keeps its limits, up to a slack as in `limits_over_poses`: a set of one design, `at`, inside.
+/// The file of a machine that keeps its limits, up to a slack as in `limits_over_poses`: a set of one design, `at`,
+/// inside.
 std::string machine_certificate(DesignQuestion question, double slack);
 
 /// A box around a design, all of which is inside.
@@ -99,8 +100,8 @@ struct DesignRoom {
 };
 
 /// The largest box around a design, within the ends of the question: its half widths are in the given proportions, or
-/// without them the product of the room to all sides is greatest, so that there is room to each. A local search of boxes
-/// each of which is proved; it ends after `most_boxes` of poses.
+/// without them the product of the room to all sides is greatest, so that there is room to each. A local search of
+/// boxes each of which is proved; it ends after `most_boxes` of poses.
 DesignRoom room_around(const DesignQuestion& question, const std::vector<double>& design,
                        const std::vector<double>& proportions, long most_boxes, const Control& control = {});
 

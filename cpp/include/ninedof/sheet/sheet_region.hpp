@@ -22,8 +22,8 @@ struct SheetRegion {
 /// region_extremes of every number, and the corners of the region from which a singularity is nearest.
 ///
 /// `placing`: none, or what gives every thread its own way to place O. Then descents follow the lengths of the legs
-/// alone, those of the external legs without placing O, and the other numbers are the worst of the sample: placing takes
-/// a thousand times as long as the rest. Throws as region_extremes does.
+/// alone, those of the external legs without placing O, and the other numbers are the worst of the sample: placing
+/// takes a thousand times as long as the rest. Throws as region_extremes does.
 SheetRegion sheet_over_region(const SheetQuestion& question, const Region& region, const RegionSettings& settings,
                               const std::function<PlacedAt()>& placing = {}, const Control& control = {});
 

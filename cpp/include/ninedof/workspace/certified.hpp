@@ -1,6 +1,6 @@
 #pragma once
-/// A workspace of positions with a proof: boxes in which every pose is allowed, boxes in which none is, and bounds of the
-/// volume. The set of poses, the rule for O and the criteria are those of workspace.hpp.
+/// A workspace of positions with a proof: boxes in which every pose is allowed, boxes in which none is, and bounds of
+/// the volume. The set of poses, the rule for O and the criteria are those of workspace.hpp.
 ///
 /// Assumed: the arithmetic of interval.hpp.
 
@@ -42,8 +42,8 @@ struct CertifiedWorkspace {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< of the box divided: nothing else in the box asked for is allowed
   std::vector<Vec3> inner_low, inner_high;  ///< every pose is allowed
   std::vector<Vec3> open_low, open_high;  ///< all others are in these boxes
-  /// The cuts of open box n are those from first_cut[n] to first_cut[n + 1]: poses allowed by all are allowed, and those
-  /// forbidden by one are not.
+  /// The cuts of open box n are those from first_cut[n] to first_cut[n + 1]: poses allowed by all are allowed, and
+  /// those forbidden by one are not.
   std::vector<std::int64_t> first_cut;
   std::vector<BoxCut> cuts;
   std::vector<VolumeBounds> open_volume;  ///< of the allowed part of each

@@ -22,9 +22,9 @@ struct WorkspaceField {
 /// Throws InvalidArgument for a sample, and Stopped.
 WorkspaceField field_of(const WorkspaceMap& map, long most = 1'300'000, const std::stop_token& stop = {});
 
-/// The body of the workspace, at a level of the allowed share. The field is averaged, which shrinks a body that is round
-/// or thin where the share is one half. So the level is the one that as many points of the raster are above as are
-/// allowed, from 0.15 to 0.6.
+/// The body of the workspace, at a level of the allowed share. The field is averaged, which shrinks a body that is
+/// round or thin where the share is one half. So the level is the one that as many points of the raster are above as
+/// are allowed, from 0.15 to 0.6.
 QuadSurface surface_of(const WorkspaceField& field);
 
 /// A plane section. Rows lie along `vertical`; in each, the points along `horizontal` are next to each other.

@@ -15,9 +15,9 @@ struct RegionShare {
   std::vector<std::string> passed;  ///< criteria that some pose passes
 };
 
-/// Looks at `count` even poses of a region, with its tilts and its rule for O, and at as many toward its boundary. Poses
-/// count as connected with `home` where no determinant has changed its sign. Throws InvalidArgument for a region or
-/// criteria that are not valid, Stopped on a stop.
+/// Looks at `count` even poses of a region, with its tilts and its rule for O, and at as many toward its boundary.
+/// Poses count as connected with `home` where no determinant has changed its sign. Throws InvalidArgument for a region
+/// or criteria that are not valid, Stopped on a stop.
 RegionShare region_share(const Geometry& g, const Configuration& home, const WorkspaceCriteria& criteria,
                          const Region& region, long count, const Control& control = {});
 

@@ -179,8 +179,8 @@ std::vector<Mat3> spread_rotations(int count, double angle = 3.14159265358979323
 /// limit throughout, and inside if nothing else limits and all legs are within theirs throughout. Other criteria are
 /// judged: all nine points agree by more than the margins may curve between them. The rest are divided repeatedly. In
 /// the smallest cells the boundary is taken as linear in six tetrahedra, so that the error of the volume is
-/// proportional to the square of the cell size. An audit evaluates poses of a low-discrepancy sequence: a cell that one of
-/// them contradicts is divided too. `error` compares levels, and includes `unseen`: what may still be hidden.
+/// proportional to the square of the cell size. An audit evaluates poses of a low-discrepancy sequence: a cell that one
+/// of them contradicts is divided too. `error` compares levels, and includes `unseen`: what may still be hidden.
 ///
 /// The best O is that of best_internal_map at the first corners (or the centres of a grid). At any other point it is
 /// continued from two known points around it; a pose where that fails is searched. A sample searches all its poses.

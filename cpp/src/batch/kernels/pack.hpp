@@ -28,8 +28,8 @@ constexpr int per_register = register_bytes / static_cast<int>(sizeof(double));
 
 #define NINEDOF_INLINE [[gnu::always_inline]] inline
 
-/// Vectors from and to memory that is aligned for one number only. One instruction each; clang forgets in templates what
-/// alignment a vector type was declared with.
+/// Vectors from and to memory that is aligned for one number only. One instruction each; clang forgets in templates
+/// what alignment a vector type was declared with.
 template <class V>
 NINEDOF_INLINE V vector_at(const double* from) {
   V v;

@@ -49,8 +49,8 @@ Mat6 middle_of(const Symmetric6Of<T>& g) {
 /// M^T M between bounds without an inverse: for a number w of three components,
 ///     x^T M^T M x = min over w of x^T above x + 2 w^T across x + w^T sum w,
 /// so that `above` is not below M^T M. `across` vanishes in the middle of the box. With an internal leg locked (3 to 8)
-/// M is that of conditioning/locked_legs.hpp: w is across the leg, and `above` of a velocity of O that keeps its length.
-/// With `across` and `sum` free of the direction of the leg, the least over all w is that over those.
+/// M is that of conditioning/locked_legs.hpp: w is across the leg, and `above` of a velocity of O that keeps its
+/// length. With `across` and `sum` free of the direction of the leg, the least over all w is that over those.
 template <class T>
 struct SplitGramOf {
   Symmetric6Of<T> above;
@@ -76,8 +76,8 @@ Looseness looseness(const AsBuilt& g, double characteristic_length, const PoseOf
 /// Whether the condition number is proved to be at most K in all of the box.
 bool bounded(const SplitGramOf<CurvedForm>& g, double condition, const Looseness& loose = {});
 
-/// Where in a box the condition number is at most K, and where it is not: by `cuts` coordinates from `first_cut` on, the
-/// first three of a box of poses, which then are all that move, or those of the designs.
+/// Where in a box the condition number is at most K, and where it is not: by `cuts` coordinates from `first_cut` on,
+/// the first three of a box of poses, which then are all that move, or those of the designs.
 template <class T>
 struct ConditionSplitOf {
   static constexpr std::size_t first_cut = T::size == PoseForm::size ? 0 : PoseForm::size;

@@ -9,7 +9,8 @@
 namespace ninedof {
 namespace {
 
-/// The singular values compared by a margin of a limit on the condition number: log(limit) less the difference of their logarithms.
+/// The singular values compared by a margin of a limit on the condition number: log(limit) less the difference of their
+/// logarithms.
 struct ConditionPair {
   int top, bottom;
 };

@@ -18,7 +18,8 @@ constexpr double loose = 1e-10, tight = 1e-13;
 /// Relative difference of objectives that is not worth an optimum: what lies below it by less is only next to one.
 constexpr double next_to = 1e-8;
 
-/// What the violation that is tolerated may have gained, in the logarithm of the objective: much, where a limit is dear.
+/// What the violation that is tolerated may have gained, in the logarithm of the objective: much, where a limit is
+/// dear.
 double bought(const Candidate& c) {
   double price = 0.0;
   for (const auto& [name, of] : c.prices) price = std::max(price, of);

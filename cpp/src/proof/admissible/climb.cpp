@@ -14,7 +14,8 @@ namespace {
 constexpr double most_boxes_of_item = 4000.0, most_boxes_of_condition = 40'000.0, boxes_of_whole = 500.0;
 constexpr std::size_t most_cuts = 400;
 constexpr double part_around_middle = 1.0 / 16.0;
-/// Errors grow with the square of both: at this ratio the boxes of five coordinates of poses and two of designs are few.
+/// Errors grow with the square of both: at this ratio the boxes of five coordinates of poses and two of designs are
+/// few.
 constexpr double times_designs = 2.0;
 /// A plane is taken where it is off by less than this part of what the number changes over the designs, or by this many
 /// times what the designs alone leave open.

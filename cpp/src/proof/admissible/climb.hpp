@@ -1,5 +1,6 @@
 #pragma once
-/// An item over all its poses as planes over a box of designs: a branch and bound whose bounds are linear in the design.
+/// An item over all its poses as planes over a box of designs: a branch and bound whose bounds are linear in the
+/// design.
 
 #include <stop_token>
 #include <vector>
@@ -31,7 +32,8 @@ struct Found {
   long boxes = 0;
 };
 
-/// On a stop it ends with what is known. `width`: of the box of designs, as a part of all: large boxes are hardly ever proved, and searched for less long.
+/// On a stop it ends with what is known. `width`: of the box of designs, as a part of all: large boxes are hardly ever
+/// proved, and searched for less long.
 Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width,
             const std::stop_token& stop);
 

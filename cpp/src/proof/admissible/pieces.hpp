@@ -7,8 +7,8 @@
 
 namespace ninedof::admissible {
 
-/// What is known of a box of designs: inside where all cuts are positive, if they are all there is; outside where a loss
-/// is negative.
+/// What is known of a box of designs: inside where all cuts are positive, if they are all there is; outside where a
+/// loss is negative.
 struct Knowledge {
   bool complete = false;
   std::vector<Plane> cuts;

@@ -50,8 +50,8 @@ double reach_along(const std::vector<Bound>& bounds, const Vector& along) {
   return most;
 }
 
-/// The x of greatest product, by Newton's method on a logarithmic barrier: the problem is concave. Sides that start at 0
-/// stay there.
+/// The x of greatest product, by Newton's method on a logarithmic barrier: the problem is concave. Sides that start at
+/// 0 stay there.
 Vector widest(const std::vector<Bound>& bounds, const Vector& start) {
   Vector x = start;
   for (double weight = 1.0; weight > 1e-7; weight *= 0.3)
@@ -226,8 +226,8 @@ class RoomSearch {
     else out.low[k] = from.high[k];
     return out;
   }
-  /// Planes of a whole box lose where limits are curved: sides go on by slabs, each proved alone; in given proportions all
-  /// sides at once. All keep step: a side on a limit leaves the slabs of others nothing that could be proved.
+  /// Planes of a whole box lose where limits are curved: sides go on by slabs, each proved alone; in given proportions
+  /// all sides at once. All keep step: a side on a limit leaves the slabs of others nothing that could be proved.
   void push_sides() {
     for (double step = 0.25; step > 2e-3 && !spent();) {
       bool grew = false;

@@ -49,7 +49,8 @@ Square<Linear, 3> parallel_sum(const Square<Linear, 3>& h, const Square<Linear, 
 }
 
 /// The same with a leg that keeps its length. Three legs that move by r give O the motion of the sum of r_k n_k / det,
-/// where n_k is the product of the directions of the other two: H^-1 is the sum of n_k n_k^T / det^2, over legs that move.
+/// where n_k is the product of the directions of the other two: H^-1 is the sum of n_k n_k^T / det^2, over legs that
+/// move.
 Square<Linear, 3> parallel_sum(const Mount& m, const Stand& at, int locked) {
   Square<Linear, 3> sum;
   for (int first = 3; first < 9; first += 3) {
@@ -81,8 +82,9 @@ Row in_basis(const Row& row, const Square<double, six>& basis) {
   return out;
 }
 
-/// The squares of the rates of all nine legs for the twist t = (l_c w, v) of the platform, O free: t^T S t. The singular
-/// values of the map from rates to twists are the inverse roots of the eigenvalues of S. Here B^T S B of a basis B.
+/// The squares of the rates of all nine legs for the twist t = (l_c w, v) of the platform, O free: t^T S t. The
+/// singular values of the map from rates to twists are the inverse roots of the eigenvalues of S. Here B^T S B of a
+/// basis B.
 Square<Linear, six> stiffness(const Mount& m, const Stand& at, double length, int locked,
                               const Square<double, six>& basis) {
   const Linear over = inverse(length);
@@ -181,8 +183,9 @@ bool positive_everywhere(const Square<Linear, six>& a) {
 
 }  // namespace
 
-/// kappa <= K where mu - S and K^2 S - mu are positive definite for some mu, which may change along the box. They are seen
-/// in the eigenvectors of the middle, each as long as makes S nearly one: there the errors of soft directions are small.
+/// kappa <= K where mu - S and K^2 S - mu are positive definite for some mu, which may change along the box. They are
+/// seen in the eigenvectors of the middle, each as long as makes S nearly one: there the errors of soft directions are
+/// small.
 int condition_within(const Mount& m, const Stand& at, double length, double most, int locked) {
   Square<double, six> middle{}, basis{};
   for (std::size_t i = 0; i < six; ++i) basis[i][i] = 1.0;

@@ -1,7 +1,8 @@
 #pragma once
 /// Sine, cosine, arc tangent and logarithm by their series. Of the C library nothing is believed.
 ///
-/// Ranges hold every rounding by themselves. Where a series ends, its rest is a range too: its terms alternate and fall.
+/// Ranges hold every rounding by themselves. Where a series ends, its rest is a range too: its terms alternate and
+/// fall.
 
 #include <bit>
 #include <cstdint>

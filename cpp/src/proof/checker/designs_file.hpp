@@ -12,9 +12,9 @@ namespace ninedof::checker::sets {
 
 using Triple = std::array<double, 3>;
 
-/// A box of poses. Piece -1 is the neutral pose, -2 - k listed pose k, and others are those of the region: all of it, or
-/// straight part k of a path. Coordinates: the shift of p in the unit of the region (of a path the first, from 0 to 1
-/// along the part), the tilt vector about x and y, the yaw.
+/// A box of poses. Piece -1 is the neutral pose, -2 - k listed pose k, and others are those of the region: all of it,
+/// or straight part k of a path. Coordinates: the shift of p in the unit of the region (of a path the first, from 0 to
+/// 1 along the part), the tilt vector about x and y, the yaw.
 struct Patch {
   int piece = -1;
   std::array<double, pose_symbols> low{}, high{};

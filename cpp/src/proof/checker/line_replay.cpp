@@ -64,18 +64,19 @@ class LineReplay {
   Mixture mixture() {
     const unsigned given = tree_.pair();
     if (given >> 14U != 0U) refuse("a mixture has more than fourteen entries");
-    std::array<double, 14> l{};
+    std::array<Range, 14> l;
+    l.fill(0.0);
     for (unsigned k = 0; k < l.size(); ++k)
-      if ((given >> k & 1U) != 0U) l[k] = static_cast<std::int16_t>(tree_.pair());
-    const std::array<std::array<double, 7>, 2> sums{entries_of_factors(&l[0]), entries_of_factors(&l[7])};
+      if ((given >> k & 1U) != 0U) l[k] = double(tree_.real());
+    const std::array<std::array<Range, 7>, 2> sums{entries_of_factors(&l[0]), entries_of_factors(&l[7])};
     Mixture out;
-    std::array<double, 2> trace{};
+    std::array<Range, 2> trace{0.0, 0.0};
     for (std::size_t n = 0; n < 2; ++n) {
-      for (const std::size_t k : {0, 2, 3, 6}) trace[n] += sums[n][k];
-      if (!(trace[n] > 0.0)) refuse("a mixture has no vectors");
+      for (const std::size_t k : {0, 2, 3, 6}) trace[n] = trace[n] + sums[n][k];
+      if (!(trace[n].a > 0.0 && trace[n].b < inf)) refuse("a mixture has no vectors");
     }
     for (std::size_t k = 0; k < 7; ++k) {
-      const Range x = Range(sums[0][k]) / trace[0] - square(Range(study_.target)) * (Range(sums[1][k]) / trace[1]);
+      const Range x = sums[0][k] / trace[0] - square(Range(study_.target)) * (sums[1][k] / trace[1]);
       out.entry[k] = Linear(0.5 * (x.a + x.b), up(x.b - x.a));
     }
     for (unsigned count = tree_.byte(); count > 0; --count) {
@@ -86,15 +87,15 @@ class LineReplay {
     }
     return out;
   }
-  /// L L* of both blocks, off the diagonal twice; whole numbers far below 2^53.
-  static std::array<double, 7> entries_of_factors(const double* l) {
-    return {l[0] * l[0],
+  /// L L* of both blocks, off the diagonal twice.
+  static std::array<Range, 7> entries_of_factors(const Range* l) {
+    return {square(l[0]),
             2.0 * l[0] * l[1],
-            l[1] * l[1] + l[2] * l[2],
-            l[3] * l[3],
+            square(l[1]) + square(l[2]),
+            square(l[3]),
             2.0 * l[3] * l[4],
             2.0 * l[3] * l[5],
-            l[4] * l[4] + l[5] * l[5] + l[6] * l[6]};
+            square(l[4]) + square(l[5]) + square(l[6])};
   }
 
   bool closed(Box box, Sides sides, const Mixture* by, int depth) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The checker's numbers over a box of designs and poses: c + sum of a_k t_k, off by at most r, for all t_k from -1 to 1.
-/// Every error of rounding is in r. A number of which nothing is known has r = NaN, and passes no test.
+/// The checker's numbers over a box of designs and poses: c + sum of a_k t_k, off by at most r, for all t_k from -1 to
+/// 1. Every error of rounding is in r. A number of which nothing is known has r = NaN, and passes no test.
 
 #include <array>
 
@@ -129,7 +129,8 @@ inline Linear cosine(const Linear& x) {
 }
 
 /// sin(v)/v (shift 1) and (1 - cos v)/v^2 (shift 2) of u = v^2, by their series sum of (-u)^n / (2n + shift)!. Their
-/// second derivatives fall from 1/60 and 1/360 at 0, and are positive up to v = 5.7; here v is little more than pi at most.
+/// second derivatives fall from 1/60 and 1/360 at 0, and are positive up to v = 5.7; here v is little more than pi at
+/// most.
 inline Linear of_angle_squared(const Linear& u, int shift) {
   if (!(lower_end(u) > -1.0 && upper_end(u) < 12.0)) return unknown_number();
   double term = 1.0 / shift, value = term, slope = 0.0;

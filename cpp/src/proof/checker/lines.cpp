@@ -3,8 +3,8 @@
 namespace ninedof::checker::lines {
 namespace {
 
-/// f(x) for f convex, or concave, on the range of x: along its chord, between the ends and the tangent at `touch`, which
-/// only has to be near the one parallel to the chord, of the slope m.
+/// f(x) for f convex, or concave, on the range of x: along its chord, between the ends and the tangent at `touch`,
+/// which only has to be near the one parallel to the chord, of the slope m.
 template <class Value, class Slope, class Touch>
 Linear along_chord(bool convex, const Linear& x, const Value& value, const Slope& slope, const Touch& touch) {
   const double low = lower_end(x), high = upper_end(x);

@@ -7,8 +7,8 @@
 
 namespace ninedof::checker::lines {
 
-/// Of a design, in characteristic lengths: the line of its external leg, zp - zs, the slopes of an upper and a lower leg,
-/// where on the line the joints are, zp, and the vertical parts of an upper and a lower leg.
+/// Of a design, in characteristic lengths: the line of its external leg, zp - zs, the slopes of an upper and a lower
+/// leg, where on the line the joints are, zp, and the vertical parts of an upper and a lower leg.
 constexpr std::size_t delta = 0, eta = 1, epsilon = 2, drop = 3, upper = 4, lower = 5, x_b = 6, x_a = 7, zp = 8,
                       upper_up = 9, lower_up = 10, coordinates = 11;
 using Box = std::array<Range, coordinates>;
@@ -17,8 +17,8 @@ inline bool empty(const Box& box) {
   return std::ranges::any_of(box, [](Range r) { return r.a > r.b; });
 }
 
-/// Bounds in characteristic lengths; triples are external and internal of the base, then of the platform; legs external,
-/// upper, lower.
+/// Bounds in characteristic lengths; triples are external and internal of the base, then of the platform; legs
+/// external, upper, lower.
 struct Study {
   double target = 0.0;
   std::array<Range, 4> radius, height;
@@ -34,14 +34,15 @@ struct Sides {
   double upper, lower;
 };
 
-/// Of lemma 14: A / tr A - K^2 B / tr B, whose entries belong to axial 11, 12, 22, then transverse 11, Re 12, Im 12, 22;
-/// and limits with their weights, in the order of docs/certificate.md.
+/// Of lemma 14: A / tr A - K^2 B / tr B, whose entries belong to axial 11, 12, 22, then transverse 11, Re 12, Im 12,
+/// 22; and limits with their weights, in the order of docs/certificate.md.
 struct Mixture {
   std::array<Linear, 7> entry;  ///< numbers with an error
   std::vector<std::pair<std::size_t, double>> limits;
 };
 
-/// Cuts off what breaks a limit or, by the mixture, has a condition number above the target. False where nothing is left.
+/// Cuts off what breaks a limit or, by the mixture, has a condition number above the target. False where nothing is
+/// left.
 bool narrow(const Study& study, Box& box, Sides sides, const Mixture* by);
 
 /// Throws where the tree is refused.

@@ -207,8 +207,8 @@ Patch drawn_in(const DesignsFile& file, const std::vector<Patch>& among, Patch p
   refuse("pose " + digits(pose.piece) + " is none at which the limit holds");
 }
 
-/// In a disc of radius R the sum of b_k x_k is at least -R |b|; in the box each term has its own least value. The better
-/// of both counts.
+/// In a disc of radius R the sum of b_k x_k is at least -R |b|; in the box each term has its own least value. The
+/// better of both counts.
 double least_over(const DesignsFile& file, const Linear& x, const Patch& patch) {
   double out = lower_end(x);
   if (!(out > -inf)) return -inf;

@@ -24,7 +24,8 @@ Mount mount(const DesignsFile& file, const Cube& designs);
 /// The poses of a patch. Its piece has to be one of the file.
 Stand stand(const DesignsFile& file, const Mount& m, const Patch& patch);
 
-/// The ends of a leg: l1 l2 l3 from the base to the platform, q1 q2 q3 from the platform and r1 r2 r3 from the base to O.
+/// The ends of a leg: l1 l2 l3 from the base to the platform, q1 q2 q3 from the platform and r1 r2 r3 from the base to
+/// O.
 struct LegLine {
   Arrow from, to;
   Arrow along() const { return to - from; }

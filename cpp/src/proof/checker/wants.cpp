@@ -155,8 +155,8 @@ Linear Weigher::number(const Want& want, const Posed& at, Weighed& out) const {
   return dot(Linear(sense) * unit(v), axis) - cosine(bound(want));
 }
 
-/// The legs are at least the least of four products along a unit vector n apart: those of n with the ways from the ends of
-/// one to the ends of the other. And at most as far as two points of them.
+/// The legs are at least the least of four products along a unit vector n apart: those of n with the ways from the ends
+/// of one to the ends of the other. And at most as far as two points of them.
 void Weigher::pair(const Want& want, const Posed& at, const Patch& patch, Weighed& out) const {
   const auto [a, b] = legs_of_pair(want.item);
   const LegLine one = at.leg(a), two = at.leg(b);

@@ -61,8 +61,8 @@ class Weigher {
   std::array<bool, 3> side_of_all_{};  ///< whether it is that of all designs
 };
 
-/// Whether kappa <= K over the box (1), kappa > K for all designs at the single pose (-1), or neither is known (0); with
-/// an internal leg locked where that is not -1.
+/// Whether kappa <= K over the box (1), kappa > K for all designs at the single pose (-1), or neither is known (0);
+/// with an internal leg locked where that is not -1.
 int condition_within(const Mount& m, const Stand& at, double length, double most, int locked = -1);
 
 /// Forces, greatest rates or powers of legs, for each load: of what moduli the limit is.

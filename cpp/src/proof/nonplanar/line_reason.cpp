@@ -7,13 +7,12 @@ namespace ninedof::proof {
 
 void append_mixture(Bytes& out, const std::array<HermitianSum, 4>& sums,
                     const std::vector<std::pair<std::size_t, double>>& limits) {
-  constexpr double one_as_entry = 32767.0;
-  std::array<unsigned, 14> entries{};  // of L, whose L L* are the sums
+  std::array<float, 14> entries{};  // of L, whose L L* are the sums
   std::size_t count = 0;
   const auto add = [&](double x) {
-    const long entry = std::lround(one_as_entry * std::clamp(x, -1.0, 1.0));
-    entries[count++] = static_cast<unsigned>(entry) & 0xFFFFU;
-    return static_cast<double>(entry) / one_as_entry;
+    const auto entry = static_cast<float>(x);
+    entries[count++] = entry;
+    return static_cast<double>(entry);
   };
   for (std::size_t n = 0; n < sums.size(); ++n) {
     const auto& [m11, re, im, m22] = sums[n];
@@ -22,15 +21,11 @@ void append_mixture(Bytes& out, const std::array<HermitianSum, 4>& sums,
     if (n % 2 == 1) add(share * im);
     add(std::sqrt(std::max(m22 - left * (re * re + im * im), 0.0)));
   }
-  const auto pair = [&](unsigned x) {
-    out.push_back(static_cast<std::uint8_t>(x));
-    out.push_back(static_cast<std::uint8_t>(x >> 8U));
-  };
   unsigned given = 0;
-  for (std::size_t k = 0; k < entries.size(); ++k) given |= entries[k] != 0 ? 1U << k : 0U;
-  pair(given);
-  for (const unsigned entry : entries)
-    if (entry != 0) pair(entry);
+  for (std::size_t k = 0; k < entries.size(); ++k) given |= entries[k] != 0.0F ? 1U << k : 0U;
+  for (const unsigned byte : {given, given >> 8U}) out.push_back(static_cast<std::uint8_t>(byte));
+  for (const float entry : entries)
+    if (entry != 0.0F) append(out, entry);
   out.push_back(static_cast<std::uint8_t>(limits.size()));
   for (const auto& [limit, weight] : limits) {
     out.push_back(static_cast<std::uint8_t>(limit));

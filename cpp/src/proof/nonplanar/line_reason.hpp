@@ -18,7 +18,8 @@ struct HermitianSum {
   double m11 = 0.0, re = 0.0, im = 0.0, m22 = 0.0;
 };
 
-/// Sums of the axial and the transverse block, first of the greatest, then of the least; numbers of limits with weights.
+/// Sums of the axial and the transverse block, first of the greatest, then of the least; numbers of limits with
+/// weights.
 void append_mixture(Bytes& out, const std::array<HermitianSum, 4>& sums,
                     const std::vector<std::pair<std::size_t, double>>& limits);
 

@@ -2,8 +2,8 @@
 /// The singular values on the symmetry axis of planar threefold designs, through seven numbers (docs/theory/proof.md).
 ///
 /// U, R: distance of the external joints of platform and base from the axis; theta: the angle between the first two, of
-/// which c and sine are taken; the internal joints count by their distances alone. Hexagons need five numbers: y = x and
-/// z = 1.
+/// which c and sine are taken; the internal joints count by their distances alone. Hexagons need five numbers: y = x
+/// and z = 1.
 ///
 /// Shares no code with conditioning/symmetric.hpp: the tests check each against the other.
 

@@ -17,8 +17,8 @@ class ProofTree {
  public:
   explicit ProofTree(std::size_t roots = 1) : nodes_(roots), roots_(roots) {}
 
-  /// What is said of a box, at most 65535 bytes: that it is closed, or how it is cut. Then its lower half comes back; the
-  /// upper half is the next node.
+  /// What is said of a box, at most 65535 bytes: that it is closed, or how it is cut. Then its lower half comes back;
+  /// the upper half is the next node.
   void close(std::uint32_t node, const Bytes& reason);
   std::uint32_t cut(std::uint32_t node, const Bytes& cut);
 

@@ -1,8 +1,8 @@
 /// The error of the platform over all poses. Declared in ninedof/proof/machine.hpp.
 ///
-/// Where the legs have lengths that are off by at most eta, the platform is off by x = H^-1 (eta - rest(x)): the lengths
-/// of the drawing's machine are those of its pose, H x, and a rest of second order. An x that this takes into the ball
-/// that it is from has a fixed point there (Brouwer): docs/theory/proof-machine.md.
+/// Where the legs have lengths that are off by at most eta, the platform is off by x = H^-1 (eta - rest(x)): the
+/// lengths of the drawing's machine are those of its pose, H x, and a rest of second order. An x that this takes into
+/// the ball that it is from has a fixed point there (Brouwer): docs/theory/proof-machine.md.
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #pragma once
 /// Boxes of poses, and a pose as forms over a box.
 ///
-/// A domain is a list of pieces: the region, the straight parts of a path, or one listed pose. A pose of a piece has the
-/// six coordinates of Region (on a path the first goes from 0 to 1 along one part). Discs and balls are boxes with
+/// A domain is a list of pieces: the region, the straight parts of a path, or one listed pose. A pose of a piece has
+/// the six coordinates of Region (on a path the first goes from 0 to 1 along one part). Discs and balls are boxes with
 /// corners cut off: boxes wholly outside are left out, and linear functions are bounded over the disc as well.
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
-/// The criteria of a workspace over a box of positions, each as cuts: planes beyond which it is proved to hold, or to be
-/// violated.
+/// The criteria of a workspace over a box of positions, each as cuts: planes beyond which it is proved to hold, or to
+/// be violated.
 
 #include <bitset>
 

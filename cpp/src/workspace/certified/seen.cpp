@@ -60,7 +60,8 @@ double share_forbidden(const std::vector<Cut>& cuts) {
 Seen seen_of(const LimitsOverBox& cuts, const PositionBox& box, const std::vector<Seen::Left>& left, bool some) {
   Seen out{true, some ? 0.0 : 1.0, some ? 0.0 : 1.0, {}, {}};
   Interval sum;  // of shares that are allowed with some rotation
-  // Where every rotation is wanted and one proves nothing in all of the box, the others matter only where they forbid it.
+  // Where every rotation is wanted and one proves nothing in all of the box, the others matter only where they forbid
+  // it.
   bool nothing_proved = false;
   for (const Seen::Left& one : left) {
     const LimitsOverBox::Found found = cuts.look(box, one.rotation, one.open, nothing_proved);

@@ -1,6 +1,6 @@
 #pragma once
-/// Bounds over a whole cell: of leg lengths, of angles from the axes of joints, and of the distance from the boundary of
-/// the region.
+/// Bounds over a whole cell: of leg lengths, of angles from the axes of joints, and of the distance from the boundary
+/// of the region.
 
 #include <ranges>
 #include <vector>

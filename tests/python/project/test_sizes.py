@@ -1,4 +1,4 @@
-"""No function takes more than seven parameters: more of them are a struct."""
+"""No function takes more than seven parameters: more of them are a struct. Lines have at most 120 columns."""
 
 import ast
 from pathlib import Path
@@ -8,6 +8,8 @@ import ninedof
 MOST = 7
 # Fixed as public names: the keywords of the workspace; robot, pose and the six vectors of an equation.
 LONGER = {"workspace", "inverse_acceleration"}
+ROOT = Path(__file__).parents[3]
+COLUMNS = 120
 
 
 def test_functions_take_at_most_seven_parameters():
@@ -19,3 +21,11 @@ def test_functions_take_at_most_seven_parameters():
                 if len([one for one in own if one.arg not in ("self", "cls")]) > MOST:
                     names.add(node.name)
     assert names == LONGER
+
+
+def test_lines_of_the_core_end_at_column_120():
+    """Those of Python are the linter's, code of the core the formatter's, which leaves comments as they are."""
+    files = [file for room in ("cpp", "tests/cpp", "bench/cpp") for file in (ROOT / room).rglob("*.[ch]pp")]
+    assert len(files) > 500
+    lines = ((file.name, line) for file in files for line in file.read_text(encoding="utf-8").splitlines())
+    assert not [(name, line) for name, line in lines if len(line) > COLUMNS]
