@@ -24,7 +24,7 @@ namespace {
 std::string completed(std::string body) {
   const std::string mark = "\ntree\n";
   if (const std::size_t at = body.find(mark); at != std::string::npos)
-    body.insert(at + mark.size() - 1, " " + std::to_string(body.size() - at - mark.size()));
+    body.insert(at + mark.size() - 1, std::to_string(body.size() - at - mark.size()).insert(0, 1, ' '));
   return checker::sealed("ninedof certificate 1", body);
 }
 
