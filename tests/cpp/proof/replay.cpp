@@ -442,14 +442,14 @@ TEST_SUITE("replay") {
     CHECK_MESSAGE(good.proved, good.words);
     CHECK(good.leaves == static_cast<long>(set.pieces.size()));
 
-    for (const auto& [from, to] : {std::pair<std::string, std::string>{" outside 3", " outside 2"},
-                                   {" undecided", " inside"},
-                                   {" inside", " undecided"},
-                                   {"variable a2 0x1p+1", "variable a2 0x1.8p+0"},
-                                   {"variable zp 0x1.4p+2 0x1.4p+2", "variable zp 0x1.8p+2 0x1.8p+2"},
-                                   {"limit condition_number 0x0p+0 0x1.8p+2", "limit condition_number 0x0p+0 0x1p+2"},
-                                   {"limit condition_number 0x0p+0 0x1.8p+2 length poses",
-                                    "limit fault_tolerant 0x0p+0 0x1p+2 length poses"}}) {
+    for (const auto& [from, to] :
+         {std::pair<std::string, std::string>{" outside 3", " outside 2"},
+          {" undecided", " inside"},
+          {" inside", " undecided"},
+          {"variable a2 0x1p+1", "variable a2 0x1.8p+0"},
+          {"variable zp 0x1.4p+2 0x1.4p+2", "variable zp 0x1.8p+2 0x1.8p+2"},
+          {"limit condition_number 0x0p+0 0x1.8p+2", "limit condition_number 0x0p+0 0x1p+2"},
+          {"limit condition_number 0x0p+0 0x1.8p+2 length poses", "limit fault_tolerant 0x0p+0 0x1p+2 length poses"}}) {
       INFO(from << " -> " << to);
       const checker::Verdict bad = checker::check(resealed(file, from, to));
       CHECK_FALSE(bad.proved);
