@@ -10,6 +10,7 @@
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/symmetric.hpp"
 #include "ninedof/problem/problem.hpp"
+#include "proof/checker/blocks.hpp"
 #include "proof/optimum/box_bound.hpp"
 
 using namespace ninedof;
@@ -219,6 +220,38 @@ TEST_SUITE("axis_rows") {
             if (factor < 1e-4 && leg_ratio == infinity && box[at_share].lo > 1.001 && box[at_share].hi < 1.999)
               CHECK(std::log(least / bound.condition_number) < 1e-3);
           }
+  }
+
+  /// On the straight way from the middle of such a box to a design, U / l_c may leave what is known of it.
+  TEST_CASE("no design is below the bound of a box of which U / l_c is known") {
+    Random random;
+    for (const Chart& chart : charts) {
+      if (!chart.length) continue;
+      checker::Domain domain;
+      domain.dimension = static_cast<int>(chart.dimension);
+      domain.slopes = chart.slopes;
+      domain.length = *chart.length == LengthKind::natural    ? checker::Length::natural
+                      : *chart.length == LengthKind::mean_leg ? checker::Length::mean_leg
+                                                              : checker::Length::platform_radius;
+      for (const double factor : {0.1, 0.3, 1.0, 3.0})
+        for (int i = 0; i < 4000; ++i) {
+          Box box = box_in(chart, random.point(), factor, random);
+          for (std::size_t k = at_ratio; k < coordinates; ++k)
+            if (random.part() < 0.6) box[k] = middle_of(box, k);
+          box[at_size] = {0.0, infinity};
+          settle(box, chart);
+          const Point p = plain(inside(box, random), chart);
+          box[at_size] = p[at_size] * Interval(1.0 - 1e-7, 1.0 + 1e-7);
+          const double kappa = condition_number(logarithms(p));
+          const BoxBound bound = bound_box(box, chart, 1e300, infinity);
+          INFO("slopes " << chart.slopes << ", dimension " << chart.dimension << ", factor " << factor);
+          CHECK(kappa >= bound.condition_number * (1.0 - 1e-7));
+          checker::Box same;
+          for (std::size_t k = 0; k < coordinates; ++k) same[k] = {box[k].lo, box[k].hi};
+          domain.target = kappa * (1.0 + 1e-6);
+          CHECK_FALSE(checker::by_combination(same, domain, {bound.combination.max, bound.combination.min}));
+        }
+    }
   }
 
   TEST_CASE("no design of a box is below its bound, of any kind") {

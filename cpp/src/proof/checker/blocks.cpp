@@ -141,12 +141,14 @@ Pieces<n> pieces(const Box& b, const Domain& d) {
 
   Number U = coordinate<n>(b, 0);
   if (d.length != Length::free) {
-    const Number moment = (squared(x) * sine2 + eta2) * inverse(N), lever = up2 * radial;
+    const Number flat2 = squared(x) * sine2, lever = up2 * radial;
+    Number moment = (flat2 + eta2) * inverse(N);  // at most 1, as N = (1 - x c)^2 + x^2 s^2 + eta^2
+    moment.value = 1.0 / (1.0 + square(1.0 - x.value * cosine.value) / (flat2.value + eta2.value));
     const Number turn = d.slopes ? squared(rest) * (eta2 * radial) + moment : lever + moment;
     const Signed<n> legs = d.slopes ? rest * root(z2 + eta2) + part * root(squared(y) + eta2)
                                     : plain(root(p.upper2)) + plain(root(p.lower2));
     U = size_by(d, p, d.slopes ? positive(rest * z) : z, legs, plus(1.0, axial + radial), turn);
-    U.value = meet(b[0], U.value);
+    if (n == 0) U.value = meet(b[0], U.value);  // slopes are those of the whole way to a design, which may lie beyond
   }
   p.size = U.value;
   const Number U2 = squared(U);

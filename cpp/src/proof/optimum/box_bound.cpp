@@ -37,12 +37,16 @@ BoxBound bound_box(const Box& box, const Chart& chart, double target, double log
     const double m = point[k].lo;
     radius[k] = std::max(log(Interval(box[k].hi) / m).hi, log(m / Interval(box[k].lo)).hi);
   }
-  if (chart.length) radius[at_size] = 0.0;  // it moves with the others, and so do the slopes
+  Box whole = box;
+  if (chart.length) {  // it moves with the others, and so do the slopes, also where the domain has no design
+    radius[at_size] = 0.0;
+    whole[at_size] = size_of(box, chart);
+  }
   const Values at_middle = axis_values(axis_pieces(point, chart));
   const double greatest = std::max(at_middle[axial_max].hi, at_middle[transverse_max].hi);
   const double least = std::min(at_middle[axial_min].lo, at_middle[transverse_min].lo);
   out.at_middle = exp(Interval(greatest) - least).hi;
-  const std::array<Slopes, rows> slopes = axis_slopes(box, pieces, chart);
+  const std::array<Slopes, rows> slopes = axis_slopes(whole, chart.length ? axis_pieces(whole, chart) : pieces, chart);
 
   // The coordinate whose change matters most to the singular values. Slopes are fractions: a larger one comes from a
   // denominator that is not known yet, and says nothing.
