@@ -55,6 +55,15 @@ def test_the_paper_s_optimum_with_the_best_length_is_the_same():
     np.testing.assert_allclose(best, 3.7626590785960, rtol=1e-12)
 
 
+def test_limits_that_only_designs_too_low_keep_are_a_proof(tmp_path):
+    """All have zp up to 0.0002, which leaves no condition number below 4."""
+    variables = dict(PAPER.variables) | {"zp": (0.0, 80.0), "zs": (0.0, 1e-4)}
+    study = replace(PAPER, variables=variables, constraints={"zs_fraction": (0.5, None)})
+    proof = nd.prove_optimum(study, 4.0, gap=0.0)
+    assert proof.complete
+    assert nd.check_certificate(proof.save(tmp_path / "optimum.certificate")).proved
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_nothing_is_proved_above_a_design_that_is_known(seed):
     """Bounds from 0 about designs whose internal joints are near the axis, and O near a plate."""

@@ -198,8 +198,9 @@ AxisDomain axis_domain(const Problem& study, double target, std::vector<std::str
   read_limits(study, d, left_out);
 
   const bool hexagonal = d.chart.hexagonal();
+  both(d.share, d.zs / d.zp);
   if (!(d.zp.lo > 0.0)) d.zp = left_of(d.zp, {least_height(d, target), infinity}, d.empty);
-  Interval t = both(d.share, d.zs / d.zp);
+  Interval t = left_of(d.share, d.zs / d.zp, d.empty);
   if (hexagonal) both(d.base_external / d.platform_external, d.radius_ratio);
 
   // Lemma 9: kappa >= f0 / g0 >= zp / (R U) and kappa >= f0 / w0 >= max(z (1 + o), y (1 + 1/o)) / sqrt(N): outside
