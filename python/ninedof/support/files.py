@@ -291,7 +291,7 @@ class Saved:
         words = from_json_array(arrays[WORDS])
         if words.pop("format") != form_of(cls.KIND):
             raise ValueError
-        return cls._restored(_whole(words, arrays))
+        return cls._restored(_whole(words, "", arrays))
 
     def _saved(self) -> dict[str, Any]:
         """Return the entries of the file: plain values, and arrays among them."""
@@ -306,19 +306,29 @@ class Saved:
 def _apart(value: Any, way: str, arrays: Arrays) -> Any:
     """Return a plain value with a name in place of each array, which `arrays` then has."""
     if isinstance(value, dict):
-        return {key: _apart(one, f"{way}.{key}".strip("."), arrays) for key, one in value.items()}
+        return {key: _apart(one, _further(way, key), arrays) for key, one in value.items()}
     if isinstance(value, list):
-        return [_apart(one, f"{way}.{k}", arrays) for k, one in enumerate(value)]
+        return [_apart(one, _further(way, k), arrays) for k, one in enumerate(value)]
     if isinstance(value, np.ndarray):
+        assert way not in (WORDS, *arrays), f"{way} names two arrays"
         arrays[way] = value
         return {ARRAY: way}
     return value
 
 
-def _whole(value: Any, arrays: Arrays) -> Any:
+def _whole(value: Any, way: str, arrays: Arrays) -> Any:
+    """Return a value of `_apart` with its arrays; a mapping whose only key is ARRAY need not stand for one."""
+    if value == {ARRAY: way} and way in arrays:
+        return arrays[way]
     if isinstance(value, dict):
-        return arrays[value[ARRAY]] if value.keys() == {ARRAY} else {k: _whole(x, arrays) for k, x in value.items()}
-    return [_whole(one, arrays) for one in value] if isinstance(value, list) else value
+        return {key: _whole(one, _further(way, key), arrays) for key, one in value.items()}
+    if isinstance(value, list):
+        return [_whole(one, _further(way, k), arrays) for k, one in enumerate(value)]
+    return value
+
+
+def _further(way: str, key: object) -> str:
+    return f"{way}.{key}" if way else str(key)
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:

@@ -5,6 +5,8 @@ NINEDOF_LONG damages each kind 5500 times.
 
 import os
 import random
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +15,7 @@ from sizes import size
 import ninedof as nd
 from ninedof.records.proofs import save_certificate
 from ninedof.records.record import load_record
-from ninedof.support.files import form_of, json_bytes, read_json, read_npz, write_npz, write_whole
+from ninedof.support.files import Saved, form_of, json_bytes, read_json, read_npz, write_npz, write_whole
 from ninedof.support.store import Store
 
 FLIPS, CUTS = size(40, 5000), size(10, 500)
@@ -141,3 +143,30 @@ def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch, moment):
         write_whole(file, b"new")
     assert caught.value.filename == str(file)
     assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [(file.name, b"old")]
+
+
+@dataclass
+class Kept(Saved):
+    KIND = "test"
+
+    value: Any
+
+
+@pytest.mark.parametrize(
+    "value",
+    [{"npy": "value"}, {"npy": "words"}, {"npy": ["x_p"]}, {"npy": np.arange(3.0)}, {"npy": {"npy": np.zeros((0, 3))}}],
+    ids=str,
+)
+def test_no_mapping_is_taken_for_the_mark_of_an_array(tmp_path, value):
+    read = Kept.load(Kept(value).save(tmp_path / "a.npz")).value
+    assert repr(read) == repr(value)
+
+
+def test_an_index_may_have_the_name_of_that_mark(tmp_path, best):
+    def npy(geometry, configuration, _):
+        return nd.condition_number(geometry, configuration)
+
+    swept = nd.sweep(best.geometry, best.configuration, {"x_p": (-0.1, 0.1, 3)}, npy)
+    read = nd.SweepResult.load(swept.save(tmp_path / "a.npz"))
+    assert read.dims == swept.dims
+    assert np.array_equal(read["npy"], swept["npy"])
