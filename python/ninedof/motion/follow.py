@@ -309,7 +309,7 @@ def follow(
 
     """
     instance("trajectory", trajectory, Trajectory)
-    bears = options_of("follow", FollowDuty, duty, load=(None, None))
+    bears = options_of(follow, FollowDuty, duty, load=(None, None))
     ends, masses, gravity = items("load", bears["load"], "force and moment", 2), bears["masses"], bears["gravity"]
     rule, lc, design = internal_point, characteristic_length, geometry
     study: Any = None if isinstance(design, Geometry) else getattr(design, "study", None)

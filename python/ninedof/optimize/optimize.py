@@ -112,7 +112,7 @@ def optimize(
     True
 
     """
-    values = options_of("optimize", OptimizeOptions, options, time_limit=math.inf)
+    values = options_of(optimize, OptimizeOptions, options, time_limit=math.inf)
     instance("study", study, Study)
     for note in study.notes:
         warnings.warn(note, stacklevel=2)

@@ -102,7 +102,7 @@ def admissible(
     '18.2%'
 
     """
-    chosen = options_of("admissible", AdmissibleArguments, options, resolution=0.01, threads=0)
+    chosen = options_of(admissible, AdmissibleArguments, options, resolution=0.01, threads=0)
     question = design_range(of, vary, chosen["at"], chosen["condition_number"])
     seconds = LONGEST if chosen["time_limit"] is None else finite("time_limit", chosen["time_limit"], 0.0)
     resolution = finite("resolution", chosen["resolution"], 0.0, 1.0)

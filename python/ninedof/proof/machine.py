@@ -62,7 +62,7 @@ def certify(
     configurations are the neutral one, then the poses listed in the study. `Result.certify` says what the options mean;
     a `rule` that is a function without arguments is called for it once all else is known to fit.
     """
-    values = options_of("certify", CertifyArguments, options, gap=0.05, time_limit=300.0, slack=1e-6, threads=0)
+    values = options_of(certify, CertifyArguments, options, gap=0.05, time_limit=300.0, slack=1e-6, threads=0)
     region = study.objective.region
     gap, seconds = finite("gap", values["gap"], 1e-9), finite("time_limit", values["time_limit"], 0.0)
     slack = finite("slack", values["slack"], 0.0, 0.01)

@@ -139,7 +139,7 @@ def best_internal_point(
     (<InternalPointStatus.FOUND: 'found'>, True)
 
     """
-    values = options_of("best_internal_point", PointOptions, options, characteristic_length=1.0)
+    values = options_of(best_internal_point, PointOptions, options, characteristic_length=1.0)
     shape, p, q = poses_of(geometry, position, rotation)
     problem, starts = problem_of(criterion, limits, values), starts_of(values["start"], shape)
     points = _core.best_internal_point(geometry, p, q, starts, problem, thread_argument(threads))
@@ -213,7 +213,7 @@ def best_internal_path(
     shape, p, q = poses_of(geometry, position, rotation)
     if len(shape) != 1:
         raise ValueError(f"position: got shape {(*shape, 3)}, expected a path of shape (n, 3)")
-    values = options_of("best_internal_path", PointOptions, options, characteristic_length=1.0)
+    values = options_of(best_internal_path, PointOptions, options, characteristic_length=1.0)
     problem, weight = problem_of(criterion, limits, values), as_number("smoothness", smoothness)
     start = None if values["start"] is None else starts_of(values["start"], ())[0]
     points = _core.best_internal_path(geometry, p, q, start, problem, weight)

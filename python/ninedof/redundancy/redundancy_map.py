@@ -129,7 +129,7 @@ def best_internal_map(
     ((21, 21), 0)
 
     """
-    values = options_of("best_internal_map", MapOptions, options, **MAP_DEFAULTS)
+    values = options_of(best_internal_map, MapOptions, options, **MAP_DEFAULTS)
     shape, p, q = poses_of(geometry, position, rotation)
     settings = _core.MapSettings(
         seed_every=whole("seed_every", values["seed_every"], 1),

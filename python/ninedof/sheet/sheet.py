@@ -316,7 +316,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
 
     """
     duty = duty_of(design)
-    values, stated = with_duty(options_of("sheet", SheetArguments, options, samples=SAMPLES), duty)
+    values, stated = with_duty(options_of(sheet, SheetArguments, options, samples=SAMPLES), duty)
     g, c, length = robot_of(design, poses, values["characteristic_length"])
     weight = weight_of(duty, values["mass"], values["centre"], values["gravity"])
     study: Study | None = getattr(design, "study", None)

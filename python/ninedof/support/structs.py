@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import inspect
 import types
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -12,7 +13,7 @@ from typing import Any, NoReturn, Self, TypeVar, Union, get_args, get_origin, ge
 
 import numpy as np
 
-from ninedof.support.arguments import LARGEST, flag, items, known_keys, number, shown_key, table, text, whole
+from ninedof.support.arguments import LARGEST, choice, flag, items, known_keys, number, shown_key, table, text, whole
 from ninedof.support.units import DEG, angle_entry, in_radians
 
 K = TypeVar("K")
@@ -26,10 +27,13 @@ def from_core(kind: type[T], struct: Any, **others: Any) -> T:
     return kind(**{name: getattr(struct, name) for name in names if name not in others}, **others)
 
 
-def options_of(where: str, kind: type, options: Mapping[str, Any], **defaults: Any) -> Mapping[str, Any]:
-    """Return options of a declared kind; those that are left out have their default, or None."""
-    names = kind.__annotations__
-    known_keys(where, options, names)
+def options_of(function: Any, kind: type, options: Mapping[str, Any], **defaults: Any) -> Mapping[str, Any]:
+    """Return options of a declared kind; those that are left out have their default, or None.
+
+    ValueError names one that the function does not take, and all that it does.
+    """
+    names, code = kind.__annotations__, inspect.unwrap(function).__code__
+    known_keys(function.__name__, options, [*code.co_varnames[: code.co_argcount + code.co_kwonlyargcount], *names])
     return {**dict.fromkeys(names), **defaults, **options}
 
 
@@ -93,14 +97,20 @@ def value_of(name: str, value: Any, kind: Any) -> Any:
         }
         return entries if origin is dict else Fixed(entries)
     if issubclass(kind, StrEnum):
-        return kind(value)
+        return kind(choice(name, value, kind))
     if hasattr(kind, "from_dict"):
         return kind.from_dict(value)
     if is_dataclass(kind) and isinstance(kind, type):
         return made(kind, value, name)
     if hasattr(kind, "_fields"):
-        return kind(**{one: value_of(f"{name}.{one}", value[one], _hints(kind)[one]) for one in kind._fields})
+        return kind(**_named(name, table(name, value), kind))
     raise AssertionError(f"{name} is declared as {kind}, of which a file has none")
+
+
+def _named(name: str, entries: Mapping[str, Any], kind: Any) -> dict[str, Any]:
+    for missing in (one for one in kind._fields if one not in entries):
+        raise ValueError(f"{name}.{missing}: got nothing, expected it in a whole file")
+    return {one: value_of(f"{name}.{one}", entries[one], _hints(kind)[one]) for one in kind._fields}
 
 
 def _tuple(name: str, value: Any, inner: Sequence[Any]) -> tuple[Any, ...]:

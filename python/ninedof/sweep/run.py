@@ -159,7 +159,7 @@ def sweep(
     [6.7289, 4.8289, 3.9071, 4.7669, 6.5228]
 
     """
-    values = options_of("sweep", SweepOptions, options, relative=True, internal_point="held", characteristic_length=1.0)
+    values = options_of(sweep, SweepOptions, options, relative=True, internal_point="held", characteristic_length=1.0)
     single(geometry, home, "home")
     relative, threads, executor = flag("relative", values["relative"]), values["threads"], values["executor"]
     grid = axes_of(over, COORDINATES, ROTATION)
@@ -232,7 +232,7 @@ def sweep_designs(
     [3.924, 3.909, 3.91, 3.929]
 
     """
-    values = options_of("sweep_designs", DesignOptions, options, family="hexagonal", characteristic_length=1.0)
+    values = options_of(sweep_designs, DesignOptions, options, family="hexagonal", characteristic_length=1.0)
     family = choice("family", values["family"], FAMILIES)
     kinds = variable_kinds(family)
     grid = axes_of(over, list(kinds), [name for name, kind in kinds.items() if kind == "angle"])

@@ -96,7 +96,7 @@ def certified_workspace(
     True
 
     """
-    options = options_of("certified_workspace", WorkspaceArguments, question, archetype="constant_orientation")
+    options = options_of(certified_workspace, WorkspaceArguments, question, archetype="constant_orientation")
     progress_argument(progress)
     geometry, arguments = robot_and_arguments(geometry, {"box": box, **options})
     unit = unit_argument(arguments["unit"])

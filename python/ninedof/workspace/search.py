@@ -160,7 +160,7 @@ def workspace(
     (<WorkspaceStatus.CONVERGED: 'converged'>, 8.7, True)
 
     """
-    options = options_of("workspace", WorkspaceArguments, question, archetype="constant_orientation")
+    options = options_of(workspace, WorkspaceArguments, question, archetype="constant_orientation")
     geometry, arguments = robot_and_arguments(geometry, {"box": box, "position": position, **options})
     unit, archetype = unit_argument(arguments["unit"]), arguments["archetype"]
     problem = question_of(geometry, arguments["box"], arguments)

@@ -391,6 +391,8 @@ APART = [  # a row, entries that are refused because of what they are together o
     ),
     ("prove_optimum", {"study": nd.Study(objective={"index": "speed"})}, "objective: got another index"),
     ("optimize", {"study": MANY_FREE, "certify": True, "warm": None}, "variables: got 7 that are free"),
+    ("optimize", {"start": 3}, "optimize: got the entry 'start', expected only study, .*did you mean 'starts'"),
+    ("sweep", {"thread": 3}, "sweep: got the entry 'thread', expected only .*did you mean 'threads'"),
     ("prove_optimum", {"condition_number": 3.0, "gap": 1.0}, ".*more than 1 to be proved"),
     ("Result.certify", {"gap": 0.0}, "gap: got 0.0, expected a finite number at least 1e-09"),
     ("Result.certify", {"condition_number": 0.5}, "condition_number: got 0.5"),
