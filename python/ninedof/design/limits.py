@@ -95,7 +95,10 @@ class Limit:
         return sides | ({"max": self.high} if self.high != math.inf else {})
 
     def unit(self, of_lengths: str = "", force: str = "") -> str:
-        """Return the unit in which it is shown, as `kind_unit`: "deg" for an angle, that of lengths, "" for a ratio."""
+        """Return the unit in which it is shown, as `kind_unit`: "deg" for an angle, that of lengths or forces, or "".
+
+        `force` is the unit of forces, `Study.force_unit`.
+        """
         return kind_unit(self.kind, of_lengths, force)
 
     @property

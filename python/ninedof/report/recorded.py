@@ -8,7 +8,6 @@ from typing import Any
 from ninedof.design.duty import Tool
 from ninedof.design.limits import kind_of
 from ninedof.design.region import box_lines
-from ninedof.design.study import Study
 from ninedof.motion.tables import motion_tables
 from ninedof.paper.verdicts import verdicts_table
 from ninedof.redundancy.rules import where_o
@@ -27,7 +26,7 @@ from ninedof.workspace.tables import criterion_words, rule_words, workspace_tabl
 def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     """Return the page of a workspace; without machine and question where the record does not hold them."""
     question, view, machine = record.question, None, None
-    tool = Study(tool=question.get("tool", {})).tool
+    tool = Tool.from_dict(question.get("tool", {}))
     sections = {
         "answer": html_of(workspace_table(workspace, most=100)),
         "proof": proof.of_workspace(workspace, question),

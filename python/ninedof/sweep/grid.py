@@ -144,5 +144,5 @@ def _free(folder: Path) -> float:
     import shutil  # when it is needed, as it takes time to load
 
     with suppress(OSError):
-        return shutil.disk_usage(folder).free or math.inf
+        return disk.free if (disk := shutil.disk_usage(folder)).total else math.inf
     return math.inf

@@ -53,7 +53,8 @@ def payload(options: _Options) -> Answer:
         alone = largest_payload(chosen.machine, options.force, options.pull, centre, [[0.0] * 6])
         if result.fits and alone.mass < result.mass:
             words = "a load counts as always there, so that one upward carries"
-            parts.append(f"without these loads {alone.mass:.6g}: {words}")
+            mass = amount(f"{alone.mass:.6g}", "kg" * bool(result.force_unit))
+            parts.append(f"without these loads {mass}: {words}")
     if options.force is None:
         parts.append(f"from the study: force {_of_kinds(result.limits[0].tolist(), result.force_unit)}")
     if result.not_looked_at:
