@@ -5,6 +5,7 @@
 /// round: nor does the result. A stop leaves boxes open, with which the search can go on.
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -61,8 +62,9 @@ struct BoxSearch {
 /// Looks at the boxes of `search.open` until none is left, until there is enough, or until a stop. A search has
 ///   open              the boxes, as OpenStack and OpenHeap have them
 ///   enough()          whether no further round is needed; there are open boxes
-///   together()        how many of them a round has at most
-///   look(box, stop)   what is seen of a box, which it may narrow; nothing on a stop. Looks of a round run side by side
+///   together()        how many of them a round has at most, one at least
+///   look(box, stop)   what is seen of a box, which it may narrow; nothing on a stop, and only then: the box stays open.
+///                     Looks of a round run side by side
 ///   merge(box, seen)  takes that in, counts it in `looked`, and opens parts of the box
 ///   end_round()       after the last merge of a round
 ///   looked, value()   of progress
@@ -78,6 +80,7 @@ void bound(Search& search, const Control& control, int threads = 1, long block =
   while (!search.open.empty() && !control.stop.stop_requested() && !search.enough()) {
     round.clear();
     search.open.take(search.together(), round);
+    assert(!round.empty());
     seen.clear();
     seen.resize(round.size());
     if (round.size() == 1) look(0, 1);

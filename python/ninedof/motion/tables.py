@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -112,9 +112,12 @@ def motion_words(followed: Any, motion: Mapping[str, Any]) -> Iterator[tuple[str
     speed, time = amount(f"{moving:.5g}", per(followed.unit, "s")), "second" if followed.unit else "unit of time"
     yield "", f"platform: speed at most {speed}, turning at most {math.degrees(turning):.5g} degrees per {time}"
     breaks = motion["breaks"]
-    lengths = {*LEGS, *(row["name"] for row in motion.get("limits", ()) if row["kind"] == "length")}
+    units = dict.fromkeys(LEGS, followed.unit)
+    units |= {
+        row["name"]: kind_unit(row["kind"], followed.unit, followed.force_unit) for row in motion.get("limits", ())
+    }
     for entry in breaks[:SHOWN]:
-        yield _break_words(entry, followed.unit, lengths)
+        yield _break_words(entry, units)
     if len(breaks) > SHOWN:
         yield "", f"and {len(breaks) - SHOWN} more breaks of limits: see record.json"
     error = f"largest difference {motion['tracking_error']:.1e}"
@@ -124,12 +127,12 @@ def motion_words(followed: Any, motion: Mapping[str, Any]) -> Iterator[tuple[str
         yield "not tracked back", f" beyond t = {motion['tracked_until']:.6g}: {error}"
 
 
-def _break_words(entry: Mapping[str, Any], unit: str, lengths: Container[str]) -> tuple[str, str]:
+def _break_words(entry: Mapping[str, Any], units: Mapping[str, str]) -> tuple[str, str]:
     limit = entry["limit"]
     if limit.startswith("det"):
         return "singularity", f": {limit} changes sign at t = {entry['begin']:.6g}"
     worst = f"{entry['worst_deg']:.5g}°" if "worst_deg" in entry else f"{entry['worst']:.5g}"
-    if limit.split()[0] in lengths:
-        worst = amount(worst, unit)
+    if "worst_deg" not in entry:
+        worst = amount(worst, units.get(limit.split()[0], ""))
     when = f"from t = {entry['begin']:.6g} to {entry['end']:.6g}"
     return "limit breaks", f": {limit}, {when}, at worst {worst} at {entry['at']:.6g}"

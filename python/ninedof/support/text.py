@@ -116,10 +116,11 @@ def one_line(text: str) -> str:
 
 
 NON_FINITE = ("inf", "-inf", "nan")
+MARK = "'"  # before one that is a text
 
 
 def json_values(value: Any) -> Any:
-    """Return plain JSON values: arrays and tuples become lists, non-finite numbers words."""
+    """Return plain JSON values: arrays and tuples become lists, non-finite numbers words, such words have a mark."""
     if isinstance(value, Mapping):
         return {str(key): json_values(v) for key, v in value.items()}
     if isinstance(value, list | tuple):
@@ -128,7 +129,7 @@ def json_values(value: Any) -> Any:
         return json_values(value.tolist())
     if isinstance(value, float) and not math.isfinite(value):
         return repr(float(value))
-    return value
+    return f"{MARK}{value}" if isinstance(value, str) and value.lstrip(MARK) in NON_FINITE else value
 
 
 def encode(value: Any, *, indent: int | None = 2, sort_keys: bool = False) -> str:
@@ -146,4 +147,6 @@ def _numbers(value: Any) -> Any:
         return {key: _numbers(v) for key, v in value.items()}
     if isinstance(value, list):
         return [_numbers(v) for v in value]
-    return float(value) if value in NON_FINITE else value
+    if isinstance(value, str) and value.lstrip(MARK) in NON_FINITE:
+        return value[1:] if value.startswith(MARK) else float(value)
+    return value

@@ -1,5 +1,6 @@
 """Lines that commands say of a machine of a study: what its loads, speeds and fixed variables mean for the answer."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -86,6 +87,8 @@ def test_forces_are_newtons_and_powers_watts_where_masses_are_stated(words, fold
     along = words("path ./heavy --line 1 0 0 --points 51 --no-figures --no-report --out ./heavier")
     assert "200000 N mm/s" in along
     assert "700 N" in along
+    laden = words("path ./heavy --line 1 0 0 --points 51 --mass 300 --no-figures --no-report --out ./laden")
+    assert re.search(r"limit breaks: force \w+ max, from t = \S+ to \S+, at worst [\d.]+ N at ", laden)
     assert "t.tex" in words("export ./heavy --to latex --out ./t.tex")
     assert "N mm/s" in (folder / "t.tex").read_text()
     assert "a mass of 3 kg" in words("forces ./heavy")
@@ -126,4 +129,9 @@ def test_an_undecided_design_and_tolerances_that_are_not_looked_at_are_told(fold
     assert "The design of the run is not decided itself" in words("admissible ./free --vary zp --time 0")
     rows = [nd.Actuator("A", 100.0, 900.0)]
     replace(free, actuators=rows, constraints={}, tolerances={"legs": 0.01}).save(folder / "rows.toml")
-    assert "the tolerances of the study are not looked at" in words("admissible ./rows.toml --vary zp --time 1")
+    remark = "Of machines as they are drawn: the tolerances of the study are not looked at"
+    assert remark in words("admissible ./rows.toml --vary zp --time 1")
+    nd.save(nd.optimize(replace(free, tolerances={"legs": 0.01})), folder / "built")
+    assert remark in words("admissible ./built --around")
+    assert remark in words("certify ./built --tolerance 0 --time 1")
+    assert remark not in words("certify ./built --time 1")

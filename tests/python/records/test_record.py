@@ -49,6 +49,8 @@ def test_non_finite_numbers_are_words_in_json():
     text = encode({"a": math.inf, "b": [-math.inf, math.nan], "c": np.array([0.1, math.inf]), "d": np.int64(3)})
     assert json.loads(text) == {"a": "inf", "b": ["-inf", "nan"], "c": [0.1, "inf"], "d": 3}
     assert repr(decode(text)) == "{'a': inf, 'b': [-inf, nan], 'c': [0.1, inf], 'd': 3}"
+    texts = {"project": "inf", "parts": ["nan", "-inf", "'inf", "'", "infinity"]}  # no numbers
+    assert decode(encode(texts)) == texts
 
 
 KEYS = ["format", "kind", "study", "results", "versions", "created", "files", "digest"]

@@ -108,7 +108,7 @@ void fill_rows(const PreparedProblem& p, const Chosen& chosen, DesignEvaluation&
 void evaluate_alone(const PreparedProblem& p, const RowSelection& selection, DesignEvaluation& out) {
   const auto chosen = [&](int k) { return selection.spectra[at_index(k)]; };
   evaluate_spectra(p, chosen, true, out);
-  if (!selection.row_levels.empty()) fill_rows(p, chosen, out);
+  fill_rows(p, chosen, out);
   std::vector<MarginRow> rows;
   for (const int k : selection.margins) rows.push_back(p.margins[at_index(k)]);
   std::vector<double> values(rows.size());

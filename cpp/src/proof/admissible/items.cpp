@@ -123,12 +123,13 @@ Met DesignsAt::met(const DesignForm& f) {
 DesignForm DesignsAt::form_over(const Item& item, const DesignLook& look, const Box& box) const {
   const PoseRow& row = *item.row;
   if (row.design_forms == nullptr) return form_of(item, look);
-  auto at = of_rows_.find({&row, box});
+  const std::tuple key(&row, homes_[at_index(item.limit)].duty.get(), box);
+  auto at = of_rows_.find(key);
   if (at == of_rows_.end()) {
     std::array<DesignForm, 9> all;
     row.design_forms(look, all.data());
     if (of_rows_.size() >= most_kept) return all[at_index(item.item)];
-    at = of_rows_.emplace(std::pair(&row, box), all).first;
+    at = of_rows_.emplace(key, all).first;
   }
   return at->second[at_index(item.item)];
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "limits/leg_clearance.hpp"
@@ -116,7 +117,8 @@ class DesignsAt {
   bool known_ = true;
   double moves_ = 0.0;
   std::array<bool, 3> side_known_{};  ///< of each determinant: of one sign at home, in all designs
-  mutable std::map<std::pair<const PoseRow*, Box>, std::array<DesignForm, 9>> of_rows_;  ///< for the other items
+  /// For the other items of the row and of the same duty.
+  mutable std::map<std::tuple<const PoseRow*, const Duty*, Box>, std::array<DesignForm, 9>> of_rows_;
 };
 
 }  // namespace ninedof::admissible

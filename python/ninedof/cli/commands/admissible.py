@@ -11,7 +11,7 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import SCHEDULER, THREADS, VARIABLES, Options, argument, changes_option, option, struct
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
-from ninedof.proof.admissible_set import UNDECIDED, NoRoom, room_words
+from ninedof.proof.admissible_set import UNDECIDED, NoRoom, as_drawn, room_words
 from ninedof.proof.design_range import MOST_VARIED, design_range
 from ninedof.records.load import split
 from ninedof.records.proofs import admissible_file, load_admissible
@@ -90,7 +90,7 @@ def admissible(options: _Options) -> Answer:
     own = isinstance(of, nd.Result) and not at
     if own and designs.state_of([[designs.of.at[name] for name in designs.vary]]) == [UNDECIDED]:
         ended = designs.seconds >= how["time_limit"]
-        why = " yet" if ended else ": an optimum reaches limits exactly, without room"
+        why = " yet" if ended else ": an optimum reaches limits or ends of ranges exactly"
         screen.print(f"The design of the run is not decided itself{why}.")
     if file is not None:
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -116,8 +116,7 @@ def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: 
     heads = columns("legs", "actuator", "a design exists", "for example")
     rows = [(one.kind, one.row.name, WORDS.get(one.state, one.state), _example(one, study)) for one in answer.rows]
     data = {"rows": [one.to_dict() for one in answer.rows]}
-    drawn = ["Of machines as they are drawn: the tolerances of the study are not looked at."] * bool(study.tolerances)
-    return Answer([Table("", heads, rows), *drawn], data, INTERRUPTED if answer.interrupted else DONE)
+    return Answer([Table("", heads, rows), *as_drawn(study)], data, INTERRUPTED if answer.interrupted else DONE)
 
 
 def _how(options: _Options) -> dict[str, Any]:
@@ -169,7 +168,7 @@ def _around_alone(screen: Screen, of: nd.Study | nd.Result, options: _Options, a
     alone = "with --around and no --vary: designs are not divided"
     options.refuse(alone, "certificate", "out", "scheduler", "time", "resolution", "threads")
     designs = nd.admissible(of, free, at=at, condition_number=options.condition, time_limit=0.0)
-    return Answer([], _around(screen, designs, options))
+    return Answer(as_drawn(study), _around(screen, designs, options))
 
 
 def _proportions(text: str) -> dict[str, float]:

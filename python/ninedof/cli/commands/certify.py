@@ -11,6 +11,7 @@ import ninedof as nd
 from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.options import THREADS, Options, argument, option, struct, word_or_number
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
+from ninedof.proof.admissible_set import as_drawn
 from ninedof.proof.machine import tolerances_of
 from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import outward
@@ -103,6 +104,8 @@ def certify(options: _Options) -> Answer:
     sentences += architecture_sentences(result, result.study.unit)
     if largest:
         sentences.append(_largest(certificate))
+    elif tolerance == 0.0:
+        sentences += as_drawn(result.study)
     answer = Answer([certificate_table(certificate), *sentences], data)
     write_job(screen, answer, lambda _: save_certificate(certificate, file))
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")

@@ -32,8 +32,8 @@ def check(options: _Options) -> Answer:
     if not path.exists() and path != options.certificate:
         makers = "of `ninedof optimize --certify`, or a file of `certify` or `admissible` with --certificate FILE"
         raise ValueError(f"{options.certificate}: got a folder without {FILE}, expected that {makers}")
-    with options.screen.bar("points", "reading the certificate") as bar:
-        bar.phase("within a box no progress is known")  # the time is: a machine is one box, which may take minutes
+    with options.screen.bar("boxes", "reading the certificate") as bar:
+        bar.phase("a machine is one box, which may take minutes")  # the share of the file says nothing of its time
         result = check_certificate(path, progress=bar)
     lines = [*result.study, UNIT] if result.study else []
     parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in lines)] if lines else []
