@@ -46,6 +46,8 @@ def compare(found):
             sign, worse = searched
             if subject.startswith("region "):  # over which a design may be worse by 1e-7 than at the poses that rule
                 worse = max(worse, 1e-7)
+            if "O best" in subject and "margin" in what:  # of a design that the optimum leaves to the root of its error
+                worse = max(worse, 1e-6)
             if "O best" in subject and "legs" in what:
                 assert (abs(values - known)[3:] <= 0.02 * size).all(), (name, values - known)
                 values, known = values[:3], known[:3]
