@@ -63,7 +63,7 @@ struct BoxSearch {
 ///   open              the boxes, as OpenStack and OpenHeap have them
 ///   enough()          whether no further round is needed; there are open boxes
 ///   together()        how many of them a round has at most, one at least
-///   look(box, stop)   what is seen of a box, which it may narrow; nothing on a stop, and only then: the box stays open.
+///   look(box, stop)   what is seen of a box, which it may narrow; nothing on a stop, and only then: it stays open.
 ///                     Looks of a round run side by side
 ///   merge(box, seen)  takes that in, counts it in `looked`, and opens parts of the box
 ///   end_round()       after the last merge of a round
