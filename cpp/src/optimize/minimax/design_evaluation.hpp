@@ -34,8 +34,7 @@ void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignE
 /// The same for a design whose state is set.
 void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection* selection = nullptr);
 
-/// What evaluate_design leaves out where the selection is evaluated alone. The selection must have row levels: without
-/// any, the rows of its own poses stay stale.
+/// What evaluate_design leaves out where the selection is evaluated alone.
 void evaluate_others(const PreparedProblem& p, DesignEvaluation& out, const RowSelection& selection);
 
 /// The derivatives of a selection, of a design that was evaluated without them.

@@ -2,9 +2,11 @@
 /// What a certificate says, before anything of it is believed.
 
 #include <bit>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "ninedof/proof/checker.hpp"
 #include "proof/checker/spelling.hpp"
 
 namespace ninedof::checker {
@@ -30,6 +32,12 @@ struct Certificate {
 Certificate read(Stream& file);
 
 constexpr const char* kind_of_optimum = "ninedof certificate 1";
+
+/// Of what a certificate may have: 0, infinite, or such that squares and most products stay among the doubles.
+inline bool ordinary(double x) {
+  constexpr double smallest = 1e-100, largest = 1e100;
+  return x == 0.0 || std::isinf(x) || (std::abs(x) >= smallest && std::abs(x) <= largest);
+}
 
 /// The study for people, one line each: what was read is what is checked and what is printed.
 std::vector<std::string> study_of(const Certificate& c);
@@ -72,5 +80,22 @@ class TreeBytes {
 
 /// Boxes that wait are halves of one another: more than these are no search's.
 constexpr std::size_t most_waiting = 5000;
+
+/// Counts a closed box, and tells now and then how much is read.
+inline void count_leaf(const TreeBytes& tree, const Reading& reading, Verdict& out) {
+  constexpr long between_reports = 256;
+  if (reading && out.leaves % between_reports == 0) reading(tree.read(), tree.size());
+  ++out.leaves;
+}
+
+/// Whether a box may be cut further than the tree has it; counts that. A sound certificate needs one for each four
+/// boxes.
+inline bool may_recut(int depth, Verdict& out) {
+  constexpr int deepest = 12;
+  constexpr long to_begin_with = 10'000;
+  if (depth == deepest || out.recut >= to_begin_with + out.leaves) return false;
+  ++out.recut;
+  return true;
+}
 
 }  // namespace ninedof::checker

@@ -56,9 +56,7 @@ class Walk {
     } else if (code != 16 && code != 17) {
       refuse("byte " + std::to_string(code) + " of the tree means nothing");
     }
-    constexpr long between_reports = 256;
-    if (reading_ && verdict_.leaves % between_reports == 0) reading_(tree_.read(), tree_.size());
-    ++verdict_.leaves;
+    count_leaf(tree_, reading_, verdict_);
     if (!closed(box, by, 0)) refuse("a box is not proved to hold no design below the target");
   }
 
@@ -75,10 +73,7 @@ class Walk {
       if (empty(part)) return true;
       if (part != box) return closed(part, by, 1);
     }
-    constexpr int deepest = 12;
-    constexpr long to_begin_with = 10'000;  // a sound certificate needs one for each four boxes
-    if (depth == deepest || verdict_.recut >= to_begin_with + verdict_.leaves) return false;
-    ++verdict_.recut;
+    if (!may_recut(depth, verdict_)) return false;
     std::size_t widest = 0;
     double width = -1.0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d_.dimension); ++k) {

@@ -9,8 +9,6 @@ namespace ninedof::checker {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-/// Of what a certificate may have: squares and most products stay among the doubles.
-constexpr double smallest_number = 1e-100, largest_number = 1e100;
 
 /// Radius of a hexagon with sides s1 and s2, and the angle of its first joint below the x axis.
 Range radius(Range s1, Range s2) {
@@ -109,16 +107,10 @@ void take_slopes(Domain& d, Range U, Range room, Range t) {
 Domain domain_of(const Certificate& c) {
   const bool hexagonal = c.family == "hexagonal";
   if (!hexagonal && c.family != "symmetric") refuse("the family is neither hexagonal nor symmetric");
-  const std::vector<std::string> names = sets::names_of(c.family);
-  if (c.variables.size() != names.size()) refuse("the variables are not those of the family");
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (c.variables[k].name != names[k]) refuse("variable " + names[k] + " is missing");
+  sets::require_variables(c.family, c.variables);
   if (!(c.target > 1.0) || !(c.target < inf)) refuse("the target is not a finite number above 1");
   if (c.length_kind.empty() && (!(c.length.a > 0.0) || !(c.length.b < inf) || !c.length.sound()))
     refuse("the characteristic length is not positive and finite");
-  const auto ordinary = [](double x) {
-    return x == 0.0 || std::isinf(x) || (std::abs(x) >= smallest_number && std::abs(x) <= largest_number);
-  };
   for (const std::vector<Bound>& bounds : {c.variables, c.limits})
     for (const auto& [name, range, of] : bounds)
       if (!of.empty()) refuse(name + " has a unit");
@@ -133,7 +125,7 @@ Domain domain_of(const Certificate& c) {
   const auto size_of = [&](Range x) { return meet(x / unit, {0.0, inf}); };
   const auto positive = [&](std::size_t k) {
     if (!(variable(k).a >= 0.0) || !(variable(k).b > 0.0) || !(variable(k).b < inf))
-      refuse("the bounds of " + names[k] + " are not positive and finite");
+      refuse("the bounds of " + c.variables[k].name + " are not positive and finite");
     return size_of(variable(k));
   };
   if (hexagonal) {

@@ -166,10 +166,7 @@ void validate_duty(const DesignsFile& file) {
 }
 
 void validate(const DesignsFile& file) {
-  const std::vector<std::string> names = names_of(file.family);
-  if (file.variables.size() != names.size()) refuse("the variables are not those of the family");
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (file.variables[k].name != names[k]) refuse("variable " + names[k] + " is missing");
+  require_variables(file.family, file.variables);
   if (!(file.length > 0.0)) refuse("the characteristic length is not positive");
   const RegionLine& region = file.region;
   bool known = region.corners.empty() == (region.shape != "path") && region.corners.size() != 1;
@@ -189,15 +186,7 @@ void validate(const DesignsFile& file) {
   if (file.boxes.empty()) refuse("the file has no boxes");
 }
 
-std::string plain(const Triple& x) {
-  return digits(x[0]) + ", " + digits(x[1]) + ", " + digits(x[2]);
-}
-std::string turned_by(const Triple& x) {
-  return ", turned by " + plain(x) + in_degrees({x[0], x[1], x[2]});
-}
-
-}  // namespace
-
+/// The variables of a family in their order.
 std::vector<std::string> names_of(const std::string& family) {
   if (family == "hexagonal") return {"a1", "a2", "b1", "b2", "zp", "zs", "theta_z"};
   std::vector<std::string> out;
@@ -218,6 +207,22 @@ std::vector<std::string> names_of(const std::string& family) {
   if (family == "symmetric_nonplanar")
     for (const std::string triple : triples) out.push_back(triple + "_height");
   return out;
+}
+
+std::string plain(const Triple& x) {
+  return digits(x[0]) + ", " + digits(x[1]) + ", " + digits(x[2]);
+}
+std::string turned_by(const Triple& x) {
+  return ", turned by " + plain(x) + in_degrees({x[0], x[1], x[2]});
+}
+
+}  // namespace
+
+void require_variables(const std::string& family, const std::vector<Bound>& variables) {
+  const std::vector<std::string> names = names_of(family);
+  if (variables.size() != names.size()) refuse("the variables are not those of the family");
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (variables[k].name != names[k]) refuse("variable " + names[k] + " is missing");
 }
 
 DesignsFile read_designs(Stream& file) {

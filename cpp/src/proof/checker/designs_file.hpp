@@ -86,8 +86,8 @@ constexpr const char* kind_of_designs = "ninedof certificate of designs 1";
 /// Accepts one spelling of each certificate, as `read` does.
 DesignsFile read_designs(Stream& file);
 
-/// The variables of a family in their order; refuses an unknown one.
-std::vector<std::string> names_of(const std::string& family);
+/// Refuses an unknown family, and variables that are not all of its own in their order.
+void require_variables(const std::string& family, const std::vector<Bound>& variables);
 
 /// The question for people.
 std::vector<std::string> question_of(const DesignsFile& file);

@@ -53,7 +53,7 @@ class LineReplay {
       std::optional<Mixture> by;
       if (code > 17) by = mixture();
       const bool last = code == 16 || code == 18;
-      if (last && out_.leaves++ % 256 == 0 && reading_) reading_(tree_.read(), tree_.size());
+      if (last) count_leaf(tree_, reading_, out_);
       if (!box.empty && last && !closed(box.box, box.sides, by ? &*by : nullptr, 0))
         refuse("a box is not proved to hold no design below the target");
       if (last) return;
@@ -100,10 +100,7 @@ class LineReplay {
 
   bool closed(Box box, Sides sides, const Mixture* by, int depth) {
     if (!narrow(study_, box, sides, by)) return true;
-    constexpr int deepest = 12;
-    constexpr long to_begin_with = 10'000;
-    if (depth == deepest || out_.recut >= to_begin_with + out_.leaves) return false;
-    ++out_.recut;
+    if (!may_recut(depth, out_)) return false;
     std::size_t widest = 0;
     const auto width = [&](std::size_t k) { return (box[k].b - box[k].a) / (0.1 + size(box[k])); };
     for (std::size_t k = 1; k < coordinates; ++k)

@@ -57,20 +57,18 @@ Box first_box(const Study& s) {
 }  // namespace
 
 Study study_of_lines(const Certificate& c) {
-  const std::vector<std::string> names = sets::names_of(c.family);
-  if (c.variables.size() != names.size()) refuse("the variables are not those of the family");
+  sets::require_variables(c.family, c.variables);
   if (!(c.target > 1.0 && c.target < 1e3)) refuse("the target is not from 1 to 1000");
-  const auto ordinary = [](double x) { return x == 0.0 || (std::abs(x) >= 1e-100 && std::abs(x) <= 1e100); };
   const double length = c.length.a;
-  if (!c.length_kind.empty() || c.length.b != length || !ordinary(length) || !(length > 0.0))
+  if (!c.length_kind.empty() || c.length.b != length || !ordinary(length) || !(length > 0.0 && length < inf))
     refuse("the characteristic length is not one number from 1e-100 to 1e100");
-  std::vector<Range> x(names.size());
-  for (std::size_t k = 0; k < names.size(); ++k) {
+  std::vector<Range> x(c.variables.size());
+  for (std::size_t k = 0; k < x.size(); ++k) {
     const auto& [name, range, of] = c.variables[k];
-    const bool size = name == "zp" || name.ends_with("radius");
-    if (name != names[k] || !of.empty()) refuse("variable " + names[k] + " is missing");
+    const bool positive = name == "zp" || name.ends_with("radius");
+    if (!of.empty()) refuse("variable " + name + " is missing");
     if (name.ends_with("angle")) continue;
-    if (!ordinary(range.a) || !ordinary(range.b) || (size && !(range.a >= 0.0)))
+    if (!ordinary(range.a) || !ordinary(range.b) || !(size(range) < inf) || (positive && !(range.a >= 0.0)))
       refuse("the bounds of " + name + " are not those of such a number, or not from 1e-100 to 1e100");
     x[k] = range / length;
   }
@@ -84,7 +82,7 @@ Study study_of_lines(const Certificate& c) {
   out.length_in_zp.fill({-inf, inf});
   for (const Bound& limit : c.limits) {
     for (const double end : {limit.range.a, limit.range.b})
-      if (!ordinary(end) && !std::isinf(end)) refuse("a bound of " + limit.name + " is not from 1e-100 to 1e100");
+      if (!ordinary(end)) refuse("a bound of " + limit.name + " is not from 1e-100 to 1e100");
     read_limit(limit, length, out);
   }
   out.box = first_box(out);
