@@ -29,6 +29,25 @@ Rows random_rows(std::mt19937& engine, double size) {
   return h;
 }
 
+using Place = std::array<double, PoseForm::size>;
+
+/// Of the linear part of a form.
+double value(const PoseForm& f, const Place& t) {
+  double out = f.c;
+  for (std::size_t k = 0; k < t.size(); ++k) out += f.a[k] * t[k];
+  return out;
+}
+
+/// A matrix of the box: `part` is drawn for each entry, the part of its error.
+template <class Part>
+Mat9 matrix_at(const Rows& h, const Place& t, const Part& part) {
+  Mat9 out;
+  for (std::size_t i = 0; i < 9; ++i)
+    for (std::size_t j = 0; j < 9; ++j)
+      out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = value(h[i][j], t) + part() * h[i][j].r;
+  return out;
+}
+
 }  // namespace
 
 TEST_SUITE("box_system") {
@@ -42,23 +61,14 @@ TEST_SUITE("box_system") {
         for (int n = 0; n < 200; ++n) {
           std::uniform_real_distribution<double> number(-1.0, 1.0);
           const auto part = [&] { return n % 2 == 0 ? number(engine) : std::copysign(1.0, number(engine)); };
-          std::array<double, PoseForm::size> t;
+          Place t;
           for (double& x : t) x = part();
-          const auto value = [&](const PoseForm& f) {
-            double out = f.c;
-            for (std::size_t k = 0; k < t.size(); ++k) out += f.a[k] * t[k];
-            return out;
-          };
-          Mat9 at;
-          for (std::size_t i = 0; i < 9; ++i)
-            for (std::size_t j = 0; j < 9; ++j)
-              at(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = value(h[i][j]) + part() * h[i][j].r;
-          const Mat9 exact = at.inverse();
+          const Mat9 exact = matrix_at(h, t, part).inverse();
           bool holds = true;
           for (std::size_t i = 0; i < 9; ++i)
             for (std::size_t j = 0; j < 9; ++j) {
               const double x = exact(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-              holds = holds && std::abs(x - value(inverse[i][j])) <= inverse[i][j].r + 1e-13;
+              holds = holds && std::abs(x - value(inverse[i][j], t)) <= inverse[i][j].r + 1e-13;
               widest = std::max(widest, inverse[i][j].r);
             }
           CHECK(holds);
@@ -85,18 +95,10 @@ TEST_SUITE("box_system") {
       const PoseForm x = BoxSystem(h).component(4, wanted);
       double away = 0.0;
       for (int n = 0; n < 500; ++n) {
-        std::array<double, PoseForm::size> t;
+        Place t;
         for (double& one : t) one = std::copysign(1.0, number(engine));
-        const auto value = [&](const PoseForm& f) {
-          double out = f.c;
-          for (std::size_t k = 0; k < t.size(); ++k) out += f.a[k] * t[k];
-          return out;
-        };
-        Mat9 at;
-        for (std::size_t i = 0; i < 9; ++i)
-          for (std::size_t j = 0; j < 9; ++j)
-            at(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = value(h[i][j]);
-        away = std::max(away, std::abs(at.transpose().lu().solve(b)[4] - value(x)));
+        const Mat9 at = matrix_at(h, t, [] { return 0.0; });
+        away = std::max(away, std::abs(at.transpose().lu().solve(b)[4] - value(x, t)));
       }
       CHECK(away <= x.r + 1e-13);
       open += x.r;

@@ -125,6 +125,41 @@ LineLimits limits_about(const AxisDesign<double>& d, RandomLines& random) {
   return out;
 }
 
+/// A box about a design, limits that the design keeps, and a target near its condition number.
+struct BoxAndTarget {
+  LinePoint<double> x;
+  SidesOfO sides;
+  LineLimits limits;
+  LineBox box;
+  double target;
+};
+
+/// Looks at boxes of four sizes, so many of each.
+template <class Look>
+void look_at_boxes(RandomLines& random, int count, const Look& look) {
+  for (const double size : {0.002, 0.02, 0.1, 0.3})
+    for (int i = 0; i < count; ++i) {
+      const LinePoint<double> x = random.point();
+      const SidesOfO sides = random.sides();
+      const LineLimits limits = limits_about(joints(x, sides), random);
+      const LineBox box = random.box_about(x, size);
+      const double target = kappa(joints(x, sides)) * (1.0 + random.uniform(-6.0, 1.0) * size);
+      if (target > 1.0 && std::isfinite(target)) look(BoxAndTarget{x, sides, limits, box, target}, i);
+    }
+}
+
+/// Designs of the box, its own and others, that keep the limits and are below the target.
+std::vector<LinePoint<double>> below_target(const BoxAndTarget& of, RandomLines& random) {
+  std::vector<LinePoint<double>> out;
+  for (int j = 0; j < 30; ++j) {
+    LinePoint<double> y = random.inside(of.box);
+    if (j == 0) y = of.x;
+    const AxisDesign<double> d = joints(y, of.sides);
+    if (keeps(d, of.limits) && !(kappa(d) >= of.target * (1.0 - 1e-9))) out.push_back(y);
+  }
+  return out;
+}
+
 }  // namespace
 
 TEST_SUITE("line_test") {
@@ -201,27 +236,16 @@ TEST_SUITE("line_test") {
   TEST_CASE("no design below the target is lost, of a box or beside what is left of it") {
     RandomLines random;
     int empty = 0, below = 0;
-    for (const double size : {0.002, 0.02, 0.1, 0.3})
-      for (int i = 0; i < 1500; ++i) {
-        const LinePoint<double> x = random.point();
-        const SidesOfO sides = random.sides();
-        const LineLimits limits = limits_about(joints(x, sides), random);
-        const LineBox box = random.box_about(x, size);
-        const double target = kappa(joints(x, sides)) * (1.0 + random.uniform(-6.0, 1.0) * size);
-        if (!(target > 1.0) || !std::isfinite(target)) continue;
-        LineBox left = box;
-        const bool closed = test_box(left, limits, sides, target).empty;
-        empty += closed;
-        for (int j = 0; j < 30; ++j) {
-          LinePoint<double> y = random.inside(box);
-          if (j == 0) y = x;
-          const AxisDesign<double> d = joints(y, sides);
-          if (!keeps(d, limits) || kappa(d) >= target * (1.0 - 1e-9)) continue;
-          ++below;
-          CHECK_FALSE(closed);
-          for (std::size_t k = 0; k < line::coordinates; ++k) CHECK(contains(left[k], y[k]));
-        }
+    look_at_boxes(random, 1500, [&](const BoxAndTarget& of, int) {
+      LineBox left = of.box;
+      const bool closed = test_box(left, of.limits, of.sides, of.target).empty;
+      empty += closed;
+      for (const LinePoint<double>& y : below_target(of, random)) {
+        ++below;
+        CHECK_FALSE(closed);
+        for (std::size_t k = 0; k < line::coordinates; ++k) CHECK(contains(left[k], y[k]));
       }
+    });
     CHECK(empty > 300);
     CHECK(below > 1000);
   }
@@ -229,53 +253,43 @@ TEST_SUITE("line_test") {
   TEST_CASE("the checker loses no design below the target, whatever the mixture") {
     RandomLines random;
     int gone = 0, smaller = 0, below = 0;
-    for (const double size : {0.002, 0.02, 0.1, 0.3})
-      for (int i = 0; i < 1000; ++i) {
-        const LinePoint<double> x = random.point();
-        const SidesOfO sides = random.sides();
-        const LineLimits limits = limits_about(joints(x, sides), random);
-        const LineBox box = random.box_about(x, size);
-        const double target = kappa(joints(x, sides)) * (1.0 + random.uniform(-6.0, 1.0) * size);
-        if (!(target > 1.0) || !std::isfinite(target)) continue;
-        checker::lines::Study study;
-        const auto range = [](const Interval& of) { return checker::Range(of.lo, of.hi); };
-        study.target = target;
-        for (std::size_t k = 0; k < 4; ++k) {
-          study.radius[k] = range(limits.radius[k]);
-          study.height[k] = range(limits.height[k]);
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-          study.length[k] = range(limits.length[k]);
-          study.length_in_zp[k] = range(limits.length_in_zp[k]);
-        }
-        study.zp = range(limits.zp), study.zs = range(limits.zs), study.share = range(limits.share);
-        study.radius_ratio = range(limits.radius_ratio), study.leg_ratio = limits.leg_ratio;
-        study.joint_height = limits.joint_height, study.joint_height_in_radius = limits.joint_height_in_radius;
-        checker::lines::Box whole;
-        for (std::size_t k = 0; k < line::coordinates; ++k) whole[k] = range(box[k]);
-        // One vector for the greatest value and one for the least: the eigenvectors in the middle, or any.
-        const LineBlocks<double> m = LineDesign<double>(x).blocks();
-        const double turn =
-            i % 2 == 0 ? random.uniform(0.0, 3.2) : 0.5 * std::atan2(2.0 * m.axial_12, m.axial_11 - m.axial_22);
-        const double c = std::cos(turn), s = std::sin(turn), K2 = target * target;
-        checker::lines::Mixture by;
-        by.entry = {c * c - K2 * s * s, 2.0 * c * s * (1.0 + K2), s * s - K2 * c * c, 0.0, 0.0, 0.0, 0.0};
-        for (std::size_t k = 0; k < 3; ++k)
-          if (random.uniform(0.0, 1.0) < 0.3) by.limits.emplace_back(k, random.uniform(0.0, 2.0));
-        checker::lines::Box left = whole;
-        const bool kept = checker::lines::narrow(study, left, {sides.upper, sides.lower}, &by);
-        gone += !kept;
-        smaller += kept && left != whole;
-        for (int j = 0; j < 30; ++j) {
-          LinePoint<double> y = random.inside(box);
-          if (j == 0) y = x;
-          const AxisDesign<double> d = joints(y, sides);
-          if (!keeps(d, limits) || kappa(d) >= target * (1.0 - 1e-9)) continue;
-          ++below;
-          REQUIRE(kept);
-          for (std::size_t k = 0; k < line::coordinates; ++k) CHECK((left[k].a <= y[k] && y[k] <= left[k].b));
-        }
+    look_at_boxes(random, 1000, [&](const BoxAndTarget& of, int i) {
+      const LineLimits& limits = of.limits;
+      checker::lines::Study study;
+      const auto range = [](const Interval& x) { return checker::Range(x.lo, x.hi); };
+      study.target = of.target;
+      for (std::size_t k = 0; k < 4; ++k) {
+        study.radius[k] = range(limits.radius[k]);
+        study.height[k] = range(limits.height[k]);
       }
+      for (std::size_t k = 0; k < 3; ++k) {
+        study.length[k] = range(limits.length[k]);
+        study.length_in_zp[k] = range(limits.length_in_zp[k]);
+      }
+      study.zp = range(limits.zp), study.zs = range(limits.zs), study.share = range(limits.share);
+      study.radius_ratio = range(limits.radius_ratio), study.leg_ratio = limits.leg_ratio;
+      study.joint_height = limits.joint_height, study.joint_height_in_radius = limits.joint_height_in_radius;
+      checker::lines::Box whole;
+      for (std::size_t k = 0; k < line::coordinates; ++k) whole[k] = range(of.box[k]);
+      // One vector for the greatest value and one for the least: the eigenvectors in the middle, or any.
+      const LineBlocks<double> m = LineDesign<double>(of.x).blocks();
+      const double turn =
+          i % 2 == 0 ? random.uniform(0.0, 3.2) : 0.5 * std::atan2(2.0 * m.axial_12, m.axial_11 - m.axial_22);
+      const double c = std::cos(turn), s = std::sin(turn), K2 = of.target * of.target;
+      checker::lines::Mixture by;
+      by.entry = {c * c - K2 * s * s, 2.0 * c * s * (1.0 + K2), s * s - K2 * c * c, 0.0, 0.0, 0.0, 0.0};
+      for (std::size_t k = 0; k < 3; ++k)
+        if (random.uniform(0.0, 1.0) < 0.3) by.limits.emplace_back(k, random.uniform(0.0, 2.0));
+      checker::lines::Box left = whole;
+      const bool kept = checker::lines::narrow(study, left, {of.sides.upper, of.sides.lower}, &by);
+      gone += !kept;
+      smaller += kept && left != whole;
+      for (const LinePoint<double>& y : below_target(of, random)) {
+        ++below;
+        REQUIRE(kept);
+        for (std::size_t k = 0; k < line::coordinates; ++k) CHECK((left[k].a <= y[k] && y[k] <= left[k].b));
+      }
+    });
     CHECK(gone > 100);
     CHECK(smaller > 100);
     CHECK(below > 500);
