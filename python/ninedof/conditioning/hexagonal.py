@@ -61,10 +61,11 @@ def hexagonal_condition_number(
     columns = {name: all_finite(name, _column(name, value), missing=True) for name, value in arguments.items()}
     shape, count = leading_shape({name: (values, 0) for name, values in columns.items()}), thread_argument(threads)
     results = np.empty(shape)
+    access: Any = [["readonly"]] * 6 + [["writeonly"]]
     pieces: Any = np.nditer(
         [*columns.values(), results],
         flags=["external_loop", "buffered", "zerosize_ok"],
-        op_flags=[["readonly"]] * 6 + [["writeonly"]],  # type: ignore[call-overload]
+        op_flags=access,
         buffersize=GATHERED,
         order="C",
     )

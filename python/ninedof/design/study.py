@@ -52,6 +52,7 @@ from ninedof.support.units import (
     require_unit_at_top,
     unit_argument,
     unit_entry,
+    unit_of_forces,
 )
 from ninedof.tables.html import notebook
 
@@ -360,7 +361,7 @@ class Study:
     @property
     def force_unit(self) -> str:
         """The unit of forces: "N" where masses are stated and lengths have a unit, else ""."""
-        return "N" if self.unit and self.masses else ""
+        return unit_of_forces(self.unit, self.masses)
 
     @property
     def free_variables(self) -> tuple[str, ...]:

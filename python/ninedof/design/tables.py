@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import Any
 
 from ninedof.design.limits import Limit
@@ -13,16 +13,16 @@ from ninedof.tables import Line, Table, columns
 MOST_FIXED = 8  # variables; of more, only the free ones are listed
 
 
-def listed_variables(variables: Mapping[str, Any]) -> list[str]:
+def listed_variables(study: Any) -> Sequence[str]:
     """Return the names of the variables that are listed: the fixed ones where they are few."""
-    free = [name for name, bound in variables.items() if isinstance(bound, tuple)]
-    return list(variables) if len(variables) - len(free) <= MOST_FIXED else free
+    names, free = tuple(study.variables), study.free_variables
+    return names if len(names) - len(free) <= MOST_FIXED else free
 
 
 def variables_table(study: Any) -> Table:
     """Return the variables with their bounds."""
     rows = []
-    for name in listed_variables(study.variables):
+    for name in listed_variables(study):
         bound = study.variables[name]
         low, *high = (end_text(study.shown(name, end)) for end in (bound if isinstance(bound, tuple) else (bound,)))
         rows.append(Line(name, [low, *(high or ["fixed"])], unit=study.unit_of(name)))

@@ -27,7 +27,7 @@ from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_lead
 from ninedof.support.files import Saved
 from ninedof.support.structs import entries_of, from_core, options_of, plain_fields
 from ninedof.support.text import short_repr
-from ninedof.support.units import metres, unit_entry
+from ninedof.support.units import metres, unit_entry, unit_of_forces
 from ninedof.tables.html import notebook
 
 PATH = ("time", "position", "rotation")
@@ -356,7 +356,7 @@ def follow(
         tracked=motion.tracked == len(path),
         tracked_until=float(path.time[motion.tracked - 1]),
         unit=unit,
-        force_unit="N" if masses is not None and unit else "",
+        force_unit=unit_of_forces(unit, masses is not None),
         study_breaks=None,
     )
     held = getattr(design, "path_limits", None)  # of a study; a geometry has none

@@ -131,8 +131,9 @@ def _break_words(entry: Mapping[str, Any], units: Mapping[str, str]) -> tuple[st
     limit = entry["limit"]
     if limit.startswith("det"):
         return "singularity", f": {limit} changes sign at t = {entry['begin']:.6g}"
-    worst = f"{entry['worst_deg']:.5g}°" if "worst_deg" in entry else f"{entry['worst']:.5g}"
-    if "worst_deg" not in entry:
-        worst = amount(worst, units.get(limit.split()[0], ""))
+    if "worst_deg" in entry:
+        worst = f"{entry['worst_deg']:.5g}°"
+    else:
+        worst = amount(f"{entry['worst']:.5g}", units.get(limit.split()[0], ""))
     when = f"from t = {entry['begin']:.6g} to {entry['end']:.6g}"
     return "limit breaks", f": {limit}, {when}, at worst {worst} at {entry['at']:.6g}"

@@ -127,7 +127,7 @@ def candidates_table(result: Any) -> Table:
     candidates, study = result.candidates[:SHOWN], result.study
     heads = ["best", *(f"no. {k}" for k in range(2, len(candidates) + 1))]
     rows: list[Any] = [*_index_lines(result), ()]
-    for name in listed_variables(study.variables):
+    for name in listed_variables(study):
         values = [study.shown(name, c.variables[name]) for c in candidates]
         rows.append(Line(name, values, SHORT, study.unit_of(name)))
     if study.characteristic_length != 1.0:

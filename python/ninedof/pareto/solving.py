@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from warnings import catch_warnings, simplefilter
 
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import Study
@@ -15,7 +14,7 @@ from ninedof.optimize.reserve import FIRST, MOST, STEP
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import SAME, Front, limit_text, objective_of
 from ninedof.pareto.limits import floor_of, own_value, tightest_first, unit_of, value_of, with_limit
-from ninedof.support.running import Progress
+from ninedof.support.running import Progress, notes_told
 from ninedof.support.store import Store
 from ninedof.support.units import amount, degrees_of
 
@@ -71,8 +70,7 @@ class FrontSolver:
 
     def optimum(self, study: Study, warm: Sequence[Result] = ()) -> Result:
         """Return the result of a study, whether it is one of the limits or not."""
-        with catch_warnings():
-            simplefilter("ignore", UserWarning)  # the notes of the study, which were given once
+        with notes_told():
             result = self._pieces.result(study, lambda: optimize(study, threads=self._threads, warm=list(warm) or None))
         if result.interrupted:
             raise KeyboardInterrupt

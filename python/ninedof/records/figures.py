@@ -210,7 +210,7 @@ def _is_violated(point: DesignPoint) -> bool:
 def _traces(result: Result, formulation: str) -> list[tuple[float, ...]]:
     """Return the course of single starts, low-discrepancy ones; none where no variable is free."""
     study = result.solved
-    if not any(isinstance(bound, tuple) for bound in study.variables.values()):
+    if not study.free_variables:
         return []
     problem = study.problem()
     count = max(FEWEST_TRACED, TRACED_STARTS // (1 + len(study.objective.poses)))

@@ -15,7 +15,8 @@
   data.floor = squares();
 
   function extent() {
-    const points = data.machines.flatMap((m) => [...m.base, ...m.poses.flatMap((p) => [...placed(m, p).platform, ...placed(m, p).tool])]);
+    const reached = (m) => m.poses.map((p) => placed(m, p)).flatMap((robot) => [...robot.platform, ...robot.tool]);
+    const points = data.machines.flatMap((m) => [...m.base, ...reached(m)]);
     points.push(...data.machines.flatMap((m) => (m.body ? m.body.vertices : [])));
     const low = [0, 1, 2].map((k) => Math.min(...points.map((p) => p[k])));
     const high = [0, 1, 2].map((k) => Math.max(...points.map((p) => p[k])));

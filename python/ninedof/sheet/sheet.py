@@ -39,7 +39,7 @@ from ninedof.statics.dynamics import masses_for_core
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats, all_finite, one_or_each
 from ninedof.support.structs import options_of, plain_fields, rows_of
-from ninedof.support.units import per, unit_argument, with_unit
+from ninedof.support.units import per, unit_argument, unit_of_forces, with_unit
 from ninedof.tables.html import notebook
 from ninedof.tables.table import plain_text
 
@@ -147,7 +147,7 @@ class Sheet:
     @property
     def force_unit(self) -> str:
         """The unit of forces: "N" where masses are stated and lengths have a unit, else ""."""
-        return "N" if self.unit and (self.weight is not None or self.has_leg_masses) else ""
+        return unit_of_forces(self.unit, self.weight is not None or self.has_leg_masses)
 
     @property
     def idle(self) -> tuple[str, ...]:

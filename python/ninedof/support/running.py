@@ -8,6 +8,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
+from warnings import catch_warnings, simplefilter
 
 from ninedof.support.arguments import shown
 
@@ -38,6 +39,14 @@ class _Part:
 
     def phase(self, words: str) -> None:
         phase(self._whole, f"{self._name}, {words}")
+
+
+@contextmanager
+def notes_told() -> Iterator[None]:
+    """Leave out warnings: the notes of a study, which were told once."""
+    with catch_warnings():
+        simplefilter("ignore", UserWarning)
+        yield
 
 
 def progress_argument(progress: object) -> Progress | None:

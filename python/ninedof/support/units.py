@@ -84,6 +84,11 @@ def kind_unit(kind: str, of_lengths: str, force: str = "") -> str:
     return (units | {"power": times(force or "force", rate)}).get(kind, "")
 
 
+def unit_of_forces(of_lengths: str, masses: object) -> str:
+    """Return the unit of forces: "N" where masses are stated and lengths have a unit, else ""."""
+    return "N" if of_lengths and masses else ""
+
+
 def watt_note(of_lengths: str) -> str:
     """Return what a watt is in newtons times a unit of lengths per second."""
     return f"1 W is {1.0 / metres(of_lengths):.4g} N {of_lengths}/s"

@@ -15,7 +15,7 @@ from ninedof.design.region import Region
 from ninedof.redundancy.rules import point_words, where_o
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS as LEG_NAMES
-from ninedof.support.units import amount, kind_unit
+from ninedof.support.units import amount, kind_unit, unit_of_forces
 from ninedof.tables import RIGHT, Column, Line, Table
 from ninedof.workspace.question import LEG_LIMITS, ROWS
 
@@ -164,7 +164,7 @@ def criterion_words(name: str, value: Any, unit: str, tool: Tool | None = None, 
     entries = value if isinstance(value, Mapping) else {row.sides[0]: value}
     words = {"min": "at least", "max": "at most"}
     of_masses = isinstance(value, Mapping) and value.get("duty", {}).get("masses")
-    of = kind_unit(row.kind, unit, "N" if unit and of_masses else "")
+    of = kind_unit(row.kind, unit, unit_of_forces(unit, of_masses))
     for side in row.sides:
         if side not in entries:
             continue

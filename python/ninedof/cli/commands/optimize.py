@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any
-from warnings import catch_warnings, simplefilter
 
 import ninedof as nd
 from ninedof.cli.answer import Answer, folder_words, write_job
@@ -22,7 +21,7 @@ from ninedof.records.record import run_folder, write_run
 from ninedof.sheet.tables import limits_table
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.arguments import finite
-from ninedof.support.running import ended_by_time
+from ninedof.support.running import ended_by_time, notes_told
 from ninedof.support.units import amount, unit_entry
 
 PLACE = 1
@@ -99,8 +98,7 @@ def _solve(study: nd.Study, file: Path | None, how: dict[str, Any], screen: Scre
         low, high = (study.shown(variable, end) for end in study.variables[variable])  # type: ignore[union-attr]
         ends = amount(f"[{low:g}, {high:g}]", study.unit_of(variable))
         screen.print(f"{variable} is not given: {ends} assumed")
-    with screen.bar("starts", file.name) as bar, catch_warnings():
-        simplefilter("ignore", UserWarning)  # the notes, which were printed
+    with screen.bar("starts", file.name) as bar, notes_told():
         return nd.optimize(study, progress=bar, **how)
 
 

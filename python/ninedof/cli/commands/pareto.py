@@ -6,7 +6,6 @@ import math
 from functools import partial
 from pathlib import Path
 from typing import Any
-from warnings import catch_warnings, simplefilter
 
 import ninedof as nd
 from ninedof.cli.answer import Answer, finish_job
@@ -20,6 +19,7 @@ from ninedof.pareto.limits import TOLERANCE, with_degrees
 from ninedof.pareto.solving import range_words
 from ninedof.records.load import split
 from ninedof.records.record import run_folder, write_run
+from ninedof.support.running import notes_told
 
 PLACE = 2
 EXAMPLES = """
@@ -71,8 +71,7 @@ def pareto(options: _Options) -> None:
     if options.against is None and options.value:
         values = ", ".join(f"{value:g}" for value in options.value)
         screen.print(f"--against is not given: the front is against {against} at {values}")
-    with run_folder(options.out) as directory, screen.bar("limits", f"{name}, {against}") as bar, catch_warnings():
-        simplefilter("ignore", UserWarning)  # the notes, which were printed
+    with run_folder(options.out) as directory, screen.bar("limits", f"{name}, {against}") as bar, notes_told():
         how: dict[str, Any] = {"threads": options.threads, "progress": bar.show, "out": directory}
         front = nd.pareto(study, against, options.value or None, points=options.points, **how)
     parts: list[Any] = [front_table(front)] if front.limits else []

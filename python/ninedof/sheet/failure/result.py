@@ -13,6 +13,7 @@ from ninedof.sheet.region_look import RegionSearch
 from ninedof.sheet.sheet import Extreme
 from ninedof.support.arrays import Floats
 from ninedof.support.structs import plain_fields
+from ninedof.support.units import unit_of_forces
 from ninedof.tables.html import notebook
 from ninedof.tables.table import plain_text
 
@@ -110,7 +111,7 @@ class Failure:
     @property
     def force_unit(self) -> str:
         """The unit of forces: "N" where masses are stated and lengths have a unit, else ""."""
-        return "N" if self.unit and self.masses is not None else ""
+        return unit_of_forces(self.unit, self.masses is not None)
 
     @property
     def worst(self) -> LockedLegs:
