@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
 from ninedof.design.actuators import LEG_KINDS, Actuator
 from ninedof.design.study import Study
-from ninedof.proof.design_range import LONGEST, design_range, existence
+from ninedof.proof.design_range import LONGEST, UNDECIDED, design_range, existence
 from ninedof.support.arguments import finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS
 from ninedof.support.running import Progress, part_of, progress_argument
@@ -85,12 +86,17 @@ def admissible_actuators(
     progress = progress_argument(progress)
     kinds = {"all": LEG_KINDS} if study.actuators_for == "all" else {kind: (kind,) for kind in LEG_KINDS}
     rows = [(kind, row) for kind in kinds for row in study.actuators]
-    out, interrupted = [], False
-    for n, (kind, row) in enumerate(rows):
-        question = design_range(study.with_actuators(dict.fromkeys(kinds[kind], row)), vary, at)
-        seconds = 0.0 if interrupted else max(end - perf_counter(), 0.0) / (len(rows) - n)
-        words = part_of(progress, f"{row.name} for {kind} legs")
-        answer = existence(question, seconds=seconds, resolution=resolution, threads=threads, progress=words)
-        out.append(AdmissibleRow(kind, row, answer.state, answer.design))
-        interrupted = interrupted or answer.interrupted
+    out, interrupted = list[AdmissibleRow](), True
+    with suppress(KeyboardInterrupt):
+        for n, (kind, row) in enumerate(rows):
+            question = design_range(study.with_actuators(dict.fromkeys(kinds[kind], row)), vary, at)
+            seconds = max(end - perf_counter(), 0.0) / (len(rows) - n)
+            words = part_of(progress, f"{row.name} for {kind} legs")
+            answer = existence(question, seconds=seconds, resolution=resolution, threads=threads, progress=words)
+            out.append(AdmissibleRow(kind, row, answer.state, answer.design))
+            if answer.interrupted:
+                break
+        else:
+            interrupted = False
+    out += [AdmissibleRow(kind, row, UNDECIDED, None) for kind, row in rows[len(out) :]]
     return AdmissibleRows(tuple(out), interrupted)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from interrupts import interrupted_on_entry
+from interrupts import InterruptedPhase, interrupted_on_entry
 from limit_oracle import limits_of, margins, robot_of
 from region_oracle import random_poses
 
@@ -71,3 +71,11 @@ def test_without_time_all_is_undecided_and_ctrl_c_keeps_what_was_found():
     assert found.interrupted
     assert len(found.rows) == 9
     assert found.rows[-1].state == "undecided"
+
+
+def test_ctrl_c_between_rows_keeps_those_before(found):
+    """Beside the core it was raised, and what had been found was lost."""
+    ended = nd.admissible_actuators(STUDY, VARY, progress=InterruptedPhase("long for external legs"))
+    assert ended.interrupted
+    assert [one.state for one in ended.rows[:2]] == [one.state for one in found.rows[:2]]
+    assert [one.state for one in ended.rows[2:]] == ["undecided"] * 7
