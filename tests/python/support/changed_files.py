@@ -1,13 +1,12 @@
 """Files of a run that a test changes, made to fit again: their digest would tell."""
 
-import json
-
 from ninedof.support.files import json_bytes
+from ninedof.support.text import decode
 
 
 def entries_of(path):
-    """Return what a file says, without its digest."""
-    return {name: value for name, value in json.loads(path.read_text()).items() if name != "digest"}
+    """Return what a file says, without its digest: numbers that JSON has no form for are numbers."""
+    return {name: value for name, value in decode(path.read_text()).items() if name != "digest"}
 
 
 def write_sealed(path, entries):
