@@ -42,7 +42,7 @@ from ninedof.support.arguments import (
 )
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import read_toml, write_toml
-from ninedof.support.structs import Check, Fixed, check_entries, entry, plain, within
+from ninedof.support.structs import Check, Fixed, Named, check_entries, entry, plain, within
 from ninedof.support.text import short_repr
 from ninedof.support.units import (
     DEG,
@@ -111,7 +111,7 @@ def _unit(name: str, value: Any) -> str:
 
 @short_repr
 @dataclass(frozen=True)
-class Study:
+class Study(Named):
     """A design problem: minimize an objective over the free variables of a family, subject to limits.
 
     Immutable; `dataclasses.replace` makes another.

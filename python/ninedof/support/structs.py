@@ -135,7 +135,16 @@ def entry(check: Check, default: Any = MISSING, angle: bool = False) -> Any:
     return field(default=default, metadata=metadata)
 
 
-class StudyTable:
+class Named:
+    """Base of dataclasses that people make: ValueError for an argument that they do not have, with the nearest name."""
+
+    def __new__(cls, *_: Any, **arguments: Any) -> Self:
+        """Check the names; the dataclass takes the values."""
+        known_keys(cls.__name__, arguments, [one.name for one in fields(cls) if one.init])  # type: ignore[arg-type]
+        return super().__new__(cls)
+
+
+class StudyTable(Named):
     """Base of the tables: each entry has a check, a default and, for an angle, a name in degrees too.
 
     The class is the schema: its docstring has the sentence of each entry, from which docs/study-file.md has its tables.

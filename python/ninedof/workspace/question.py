@@ -17,7 +17,18 @@ from ninedof.design.limits import Row
 from ninedof.redundancy.redundancy import leg_limits
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS, Geometry
-from ninedof.support.arguments import choice, flag, instance, items, known_keys, number, shown, vector, whole
+from ninedof.support.arguments import (
+    choice,
+    flag,
+    instance,
+    items,
+    known_keys,
+    number,
+    shown,
+    takes_names,
+    vector,
+    whole,
+)
 from ninedof.support.arrays import Floats, as_floats, as_number
 
 SETS = ("reachable", "inclusive", "dexterous")
@@ -49,6 +60,7 @@ DEFAULTS = {"internal_point": 0.5, "characteristic_length": 1.0}
 """Of a robot alone; a design has its own."""
 
 
+@takes_names
 def spread_rotations(count: int, angle: float = math.pi) -> Floats:
     """Return rotations that cover a ball of SO(3) evenly: all of it, or those within an angle of the identity.
 
