@@ -154,17 +154,21 @@ void bind_admissible(py::module_& m) {
   m.def(
       "room_around",
       [](const DesignQuestion& question, const std::vector<double>& design, const std::vector<double>& proportions,
-         long boxes) {
+         long boxes, const py::object& progress) {
         require_sound_arithmetic();
-        const DesignRoom room = interruptible(py::none(), [&](const WorkControl& control) {
+        const DesignRoom room = interruptible(progress, [&](const WorkControl& control) {
           return room_around(question, design, proportions, boxes, control);
         });
         const auto ends = [&](const std::array<double, most_varied>& all) {
           return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(design.size()));
         };
-        return py::make_tuple(room.found, ends(room.low), ends(room.high), room.demand);
+        py::list beyond;
+        for (std::size_t k = 0; k < design.size(); ++k)
+          for (const DesignRoom::Beyond& one : room.beyond[k]) beyond.append(py::make_tuple(one.demand, one.at));
+        return py::make_tuple(room.found, ends(room.low), ends(room.high), room.demand, beyond, room.boxes);
       },
-      py::arg("question"), py::arg("design"), py::arg("proportions"), py::kw_only(), py::arg("boxes"));
+      py::arg("question"), py::arg("design"), py::arg("proportions"), py::kw_only(), py::arg("boxes"),
+      py::arg("progress") = py::none());
 }
 
 }  // namespace ninedof::python

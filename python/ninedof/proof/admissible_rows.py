@@ -11,7 +11,7 @@ from typing import Any
 from ninedof.design.actuators import LEG_KINDS, Actuator
 from ninedof.design.study import Study
 from ninedof.proof.design_range import LONGEST, UNDECIDED, design_range, existence
-from ninedof.support.arguments import finite, instance, whole
+from ninedof.support.arguments import finite, instance, takes_names, whole
 from ninedof.support.arrays import MOST_THREADS
 from ninedof.support.running import Progress, part_of, progress_argument
 
@@ -40,10 +40,13 @@ class AdmissibleRows:
 
     rows: tuple[AdmissibleRow, ...]
     """By kinds of legs, the rows in the order of the study."""
+    of: str
+    """The designs that were asked about, in words."""
     interrupted: bool = False
     """Ctrl-C: the rows after it are undecided."""
 
 
+@takes_names
 def admissible_actuators(
     study: Study,
     vary: Collection[str] | Mapping[str, tuple[float, float] | None],
@@ -86,10 +89,11 @@ def admissible_actuators(
     progress = progress_argument(progress)
     kinds = {"all": LEG_KINDS} if study.actuators_for == "all" else {kind: (kind,) for kind in LEG_KINDS}
     rows = [(kind, row) for kind in kinds for row in study.actuators]
+    questions = [design_range(study.with_actuators(dict.fromkeys(kinds[kind], row)), vary, at) for kind, row in rows]
+    of = questions[0].words + (f", at {held}" if (held := questions[0].held) else "")
     out, interrupted = list[AdmissibleRow](), True
     with suppress(KeyboardInterrupt):
-        for n, (kind, row) in enumerate(rows):
-            question = design_range(study.with_actuators(dict.fromkeys(kinds[kind], row)), vary, at)
+        for n, ((kind, row), question) in enumerate(zip(rows, questions, strict=True)):
             seconds = max(end - perf_counter(), 0.0) / (len(rows) - n)
             words = part_of(progress, f"{row.name} for {kind} legs")
             answer = existence(question, seconds=seconds, resolution=resolution, threads=threads, progress=words)
@@ -99,4 +103,4 @@ def admissible_actuators(
         else:
             interrupted = False
     out += [AdmissibleRow(kind, row, UNDECIDED, None) for kind, row in rows[len(out) :]]
-    return AdmissibleRows(tuple(out), interrupted)
+    return AdmissibleRows(tuple(out), of, interrupted)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -21,6 +21,7 @@ from ninedof.proof.machine_record import ProofPose, outward
 from ninedof.support.arguments import finite, path_argument, shown, table
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import Saved, write_whole
+from ninedof.support.running import Progress, progress_argument
 from ninedof.support.units import amount
 from ninedof.tables.html import Worded
 
@@ -55,6 +56,13 @@ class Reason(NamedTuple):
     """The leg, pair of legs or determinant; "" where the limit has none."""
     pose: ProofPose
     """The pose at which all designs of the box break it; of a spread of lengths where the leg is longest."""
+
+
+class Room(dict[str, tuple[float, float]]):
+    """How far each variable may go at once: its two ends."""
+
+    ended_by: dict[str, tuple[str, str]]
+    """In words: a bound, a limit that designs just beyond break and at which pose, or how far the search came."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,8 +153,11 @@ class AdmissibleSet(Worded, Saved):
         return out
 
     def around(
-        self, design: HasDesign | Mapping[str, float] | None = None, proportions: Mapping[str, float] | None = None
-    ) -> dict[str, tuple[float, float]]:
+        self,
+        design: HasDesign | Mapping[str, float] | None = None,
+        proportions: Mapping[str, float] | None = None,
+        progress: Progress | None = None,
+    ) -> Room:
         """Return how far each variable may go at once: the largest box around a design that is proved inside.
 
         Parameters
@@ -157,6 +168,13 @@ class AdmissibleSet(Worded, Saved):
             The half widths of the box by variable, up to a factor: tolerances of manufacture; angles in radians, or in
             degrees with _deg behind the name. By default the box for which the product of the room to all sides is
             greatest: there is room to each.
+        progress : callable, optional
+            Called as progress(boxes of poses, the most of them, None).
+
+        Returns
+        -------
+        Room
+            The ends by variable; `ended_by` has what each is at, in words.
 
         Raises
         ------
@@ -183,9 +201,23 @@ class AdmissibleSet(Worded, Saved):
                 raise ValueError(f"proportions: got {shown(list(proportions))}, expected {', '.join(self.vary)}")
             half = [widths[name] for name in self.vary]
 
-        def room(of: DesignRange, boxes: int) -> tuple[dict[str, tuple[float, float]], int]:
-            inside, low, high, broken = _core.room_around(of.for_core(), x, half, boxes=boxes)
-            return dict(zip(self.vary, zip(low, high, strict=True), strict=True)) if inside else {}, broken
+        progress_argument(progress)
+
+        def room(of: DesignRange, boxes: int) -> tuple[Room, int]:
+            inside, low, high, broken, beyond, looked_at = _core.room_around(
+                of.for_core(), x, half, boxes=boxes, progress=progress
+            )
+            out = Room(zip(self.vary, zip(low, high, strict=True), strict=True)) if inside else Room()
+            last = "the other sides: the proportions are kept" if half else "what could be proved: more may be there"
+            if looked_at >= boxes:
+                last = f"the search, after {boxes:,} boxes of poses: more may be there"
+            ends = [end for two in out.values() for end in two]
+            words = [
+                self._bound(k // 2, end) or (self._breaks(demand, at) if demand >= 0 else last)
+                for k, (end, (demand, at)) in enumerate(zip(ends, beyond if inside else (), strict=True))
+            ]
+            out.ended_by = dict(zip(out, zip(words[::2], words[1::2], strict=True), strict=True))
+            return out, broken
 
         box, broken = room(self.of, AROUND_BOXES)
         if box:
@@ -195,7 +227,7 @@ class AdmissibleSet(Worded, Saved):
         on, breaks = room(self.of.eased(share), EASED_BOXES)
         if max(broken, breaks) < 0:
             raise NoRoom(words, "")
-        limit = " ".join(self.demands[broken if broken >= 0 else breaks]).strip().replace("_", " ")
+        limit = self._limit(broken if broken >= 0 else breaks)
         if broken >= 0 and not on:
             raise NoRoom(words, f"it breaks {limit}" if breaks >= 0 else f"it is on the limit {limit}, or breaks it")
         wide, _ = room(self.of.eased(WIDER), AROUND_BOXES)
@@ -231,6 +263,18 @@ class AdmissibleSet(Worded, Saved):
         data = _core.design_certificate(self.of.for_core(), vars(self), self.demands, shares)
         return write_whole(path_argument("path", path), data)
 
+    def _bound(self, k: int, end: float) -> str:
+        """Return the words for an end of a range; "" for another value."""
+        own = self.of.ranges[k] == self.study.variables[self.vary[k]]
+        return "" if end not in self.of.ranges[k] else "a bound of the study" if own else "an end of the range"
+
+    def _breaks(self, demand: int, at: _core.MetAt) -> str:
+        pose = _pose([at.pose, *at.shift, *at.tilt[:2], at.yaw])
+        return f"{self._limit(demand)}, at {pose.worded(self.study.unit)}"
+
+    def _limit(self, demand: int) -> str:
+        return " ".join(self.demands[demand]).strip().replace("_", " ")
+
     def _boxes(self, state: int) -> Floats:
         chosen = self.state == state
         return np.stack([self.low[chosen], self.high[chosen]], axis=-1)
@@ -246,7 +290,7 @@ def room_words(of: DesignRange, room: Mapping[str, tuple[float, float]]) -> str:
     return f"{', '.join(parts)}{', all at once' if len(parts) > 1 else ''}"
 
 
-def _pose(row: list[float]) -> ProofPose:
+def _pose(row: Sequence[float]) -> ProofPose:
     listed, x, y, z, tilt_x, tilt_y, yaw = row[:7]
     if listed >= 0:
         return ProofPose(listed=int(listed))

@@ -2,6 +2,7 @@
 
 import json
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -142,8 +143,13 @@ def test_around_alone_says_how_far_all_free_variables_may_go(run, study):
     assert status == 0
     words = " ".join(out.split())
     assert words.startswith("Proved around a2 = 6 mm, b1 = 3 mm, zp = 5 mm, zs = 3 mm: a2 may be ")
-    assert words.endswith(" mm, all at once.")
-    room = json.loads(run(f"{line} --json")[1])["around"]
+    assert " mm, all at once. " in words
+    answer = json.loads(run(f"{line} --json")[1])
+    room = answer["around"]
+    assert all(f"{name} {side}" in words for name in room for side in ("down", "up"))
+    ended = [end for two in answer["ended_by"].values() for end in two]
+    assert any(end == "a bound of the study" for end in ended)
+    assert any(end.startswith(("radius ratio, at ", "leg ratio, at ")) for end in ended)
     at = {"a2": 6, "b1": 3, "zp": 5, "zs": 3}
     found = nd.admissible(nd.Study.load(study), tuple(at), at=at, time_limit=0.0)
     assert {name: tuple(ends) for name, ends in room.items()} == found.around()
@@ -154,6 +160,16 @@ def test_around_alone_says_how_far_all_free_variables_may_go(run, study):
     assert status == 0
     widths = {name: high - low for name, (low, high) in json.loads(out)["around"].items()}
     assert widths == pytest.approx(dict.fromkeys(widths, widths["b1"]) | {"a2": 2.0 * widths["b1"]})
+
+
+def test_after_an_interruption_of_the_set_nothing_is_asked_around(run, study, tmp_path, monkeypatch):
+    found = nd.admissible(nd.Study.load(study), ("a2", "b1"), at={"zp": 5.0, "zs": 3.0}, time_limit=0.0)
+    monkeypatch.setattr(nd, "admissible", lambda *_, **__: replace(found, interrupted=True))
+    status, out, err = run(f"admissible {study} {ASKED} 0.05 --around --out {tmp_path / 'set'}")
+    assert status == 130
+    assert "around" not in out
+    assert (tmp_path / "set" / "admissible-a2-b1.npz").exists()
+    assert "interrupted; to go on, type: ninedof admissible " in err
 
 
 def test_around_alone_names_the_limit_that_leaves_no_room(run, study):
@@ -202,6 +218,9 @@ def test_a_study_with_actuators_says_for_which_rows_a_design_exists(run, study):
     with study.open("a") as file:
         file.write('[[actuators]]\nname = "A"\nshortest = 2.0\nlongest = 9.0\n')
         file.write('[[actuators]]\nname = "B"\nshortest = 0.1\nlongest = 0.5\n')
+    said = " ".join(run(f"admissible {study} {ASKED} 0.05 --time 0")[1].split())
+    assert said.startswith("Of designs with a2 from 2 to 10, b1 from 1 to 5, at zp = 5, zs = 3")
+    assert said.endswith("Undecided: a longer --time may decide it.")
     status, out, _ = run(f"admissible {study} {ASKED} 0.05 --json")
     assert status == 0
     rows = json.loads(out)["rows"]

@@ -357,6 +357,20 @@ def test_the_room_around_a_design():
             )
             least = min(least, *(float(values.min()) for values in every.values()))
     assert 0.0 < least < 0.02  # its sides go on until a limit is near
+    reports = []
+    assert found.around(progress=lambda *report: reports.append(report)) == room
+    assert all(done > 0 and total == 1_000_000 for done, total, _ in reports)
+    assert set(room.ended_by) == {"a2", "b1"}
+    limits = {"leg length l", "footprint, at"}
+    assert any(end.startswith(tuple(limits)) for two in room.ended_by.values() for end in two)
+    for k, name in enumerate(room):  # what is said of each side is proved of some design in a slab beyond it
+        for side, words in enumerate(room.ended_by[name]):
+            ends = {one: list(two) for one, two in room.items()}
+            far = ends[name][side] + (0.11, -0.11)[1 - side] * (ends[name][1] - ends[name][0])
+            ends[name] = sorted((ends[name][side], far))
+            beyond = nd.admissible(study, {one: tuple(two) for one, two in ends.items()}, resolution=0.05)
+            broken = {" ".join((one.limit, one.part)).strip().replace("_", " ") for one in beyond.reasons}
+            assert words.split(", at ")[0] in broken | {"a bound of the study"}, (k, name, words)
     wide = found.around(proportions={"a2": 2.0, "b1": 1.0})
     assert np.ptp(wide["a2"]) == pytest.approx(2.0 * np.ptp(wide["b1"]))
     turned = nd.admissible(

@@ -38,6 +38,7 @@ def test_every_row_of_every_kind_has_an_answer_of_both_sorts(found):
         (kind, row.name) for kind in ("external", "upper", "lower") for row in STUDY.actuators
     ]
     assert {one.state for one in found.rows} == {"exists", "none"}
+    assert found.of == "a2 from 2 to 10, b1 from 1 to 5, at zp = 5, zs = 3"
     assert not found.interrupted
 
 

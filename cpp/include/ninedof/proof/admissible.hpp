@@ -96,6 +96,12 @@ struct DesignRoom {
   bool found = false;  ///< not where the design breaks a limit, or where nothing could be proved
   std::array<double, most_varied> low{}, high{};
   int demand = -1;  ///< which the design breaks, proved; -1: none is known
+  /// What designs just beyond a side break, proved, and at which pose; -1: none is known.
+  struct Beyond {
+    int demand = -1;
+    MetAt at;
+  };
+  std::array<std::array<Beyond, 2>, most_varied> beyond{};  ///< of each variable below and above
   long boxes = 0;
 };
 

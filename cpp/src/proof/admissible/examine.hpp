@@ -39,13 +39,13 @@ class Examiner {
   std::vector<int> worst_of(const DesignBox& design, const std::vector<Loss>& witnesses) const;
   /// With the poses at which limits are broken.
   std::vector<DesignPiece> pieces_of(const std::vector<Piece>& pieces) const;
+  MetAt met_at(const Box& point, const DesignBox& designs) const;
 
  private:
   Met meet(const DesignsAt& designs, const Spreads& spreads, const Loss& loss) const;
   /// Whether no design is inside, by where another broke a demand; the plane of those that are not goes to `known`.
   bool is_lost(const DesignsAt& designs, const Spreads& spreads, const Loss& witness, Knowledge& known) const;
   std::vector<Box> roots_of(const Item& item) const;
-  MetAt met_at(const Box& point, const DesignBox& designs) const;
 
   const DesignQuestion& question_;
   Poses poses_;

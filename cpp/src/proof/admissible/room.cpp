@@ -86,20 +86,19 @@ Vector widest(const std::vector<Bound>& bounds, const Vector& start) {
 class RoomSearch {
  public:
   RoomSearch(const DesignQuestion& question, const std::vector<double>& design, const std::vector<double>& proportions,
-             long most_boxes, std::stop_token stop)
+             long most_boxes, const Control& control)
       : question_(question),
         examiner_(question),
         design_(design),
         proportions_(proportions),
         most_boxes_(most_boxes),
-        stop_(std::move(stop)) {}
+        control_(control) {}
 
   DesignRoom run() {
     double part = 0.25, growth = 0.15;
     DesignBox outer = around(part);
     while (growth > 0.005 && wide(outer) && !spent()) {
-      const Examined found = examiner_.examine({outer, {}, {}, {}}, stop_);
-      out_.boxes += found.boxes;
+      const Examined found = examined(outer);
       if (!found.finished) break;
       if (breaks(found.known, outer)) break;
       const std::optional<Vector> x = inner(found.known, outer);
@@ -114,12 +113,19 @@ class RoomSearch {
       outer = grown({out_.low, out_.high}, growth);
     }
     if (out_.found) push_sides();
+    for (std::size_t side = 0; side < 2 * count() && out_.found; ++side) look_beyond(side);
     return out_;
   }
 
  private:
   std::size_t count() const { return design_.size(); }
-  bool spent() const { return out_.boxes >= most_boxes_ || stop_.stop_requested(); }
+  Examined examined(const DesignBox& box) {
+    Examined found = examiner_.examine({box, {}, {}, {}}, control_.stop);
+    out_.boxes += found.boxes;
+    if (control_.progress) control_.progress(out_.boxes, most_boxes_, std::numeric_limits<double>::quiet_NaN());
+    return found;
+  }
+  bool spent() const { return out_.boxes >= most_boxes_ || control_.stop.stop_requested(); }
   /// A design on a limit has no box around it: the search ends where boxes have no width.
   bool wide(const DesignBox& box) const {
     for (std::size_t k = 0; k < count(); ++k)
@@ -201,8 +207,7 @@ class RoomSearch {
       if ((box.high[k] - box.low[k]) / range(k) > (box.high[widest] - box.low[widest]) / range(widest)) widest = k;
     }
     if (spent()) return false;
-    const Examined found = examiner_.examine({box, {}, {}, {}}, stop_);
-    out_.boxes += found.boxes;
+    const Examined found = examined(box);
     if (!found.finished) return false;
     if (!found.known.losses.empty()) return false;
     if (found.known.complete && found.known.cuts.empty()) return true;
@@ -257,6 +262,39 @@ class RoomSearch {
       if (!grew) step *= 0.5;
     }
   }
+  /// Whether a design of a box beyond a side breaks a demand: the one that is broken nearest to the side is kept.
+  bool broken_in(const DesignBox& beyond, std::size_t side) {
+    const std::size_t k = side / 2;
+    double nearest = infinity;
+    for (const Loss& loss : examiner_.examine({beyond, {}, {}, {}}, control_.stop).known.losses) {
+      const double slope = side % 2 == 0 ? -loss.most.a[k] : loss.most.a[k];  // outward
+      const double far = least_of(loss.most) + std::abs(slope) + slope, near = far - 2.0 * slope;
+      const double share = near < 0.0 ? 0.0 : far < 0.0 ? near / (near - far) : infinity;
+      if (share >= nearest) continue;
+      nearest = share;
+      out_.beyond[k][side % 2] = {loss.demand, examiner_.met_at(loss.at, beyond)};
+    }
+    return nearest < infinity;
+  }
+  /// In slabs beyond a side, the thin one first, and at corners of a slab.
+  void look_beyond(std::size_t side) {
+    const DesignBox from{out_.low, out_.high};
+    const std::size_t k = side / 2;
+    const auto slab_of = [&](double part) {
+      return slab(from, pushed(side, part * (from.high[k] - from.low[k])), side);
+    };
+    if (!(slab_of(0.01).low[k] < slab_of(0.01).high[k])) return;  // an end of the range
+    for (const double part : {0.01, 0.1})
+      if (broken_in(slab_of(part), side)) return;
+    const DesignBox beyond = slab_of(0.1);
+    for (std::size_t corner = 0; corner < std::size_t{1} << count(); ++corner) {
+      if ((corner >> k) % 2 != side % 2) continue;
+      DesignBox point = beyond;
+      for (std::size_t i = 0; i < count(); ++i)
+        point.low[i] = point.high[i] = (corner >> i) % 2 == 0 ? beyond.low[i] : beyond.high[i];
+      if (broken_in(point, side)) return;
+    }
+  }
   DesignBox inside(const DesignBox& outer, const Vector& x) const {
     DesignBox out;
     for (std::size_t k = 0; k < count(); ++k) {
@@ -278,7 +316,7 @@ class RoomSearch {
   const std::vector<double>& design_;
   const std::vector<double>& proportions_;
   long most_boxes_;
-  std::stop_token stop_;
+  const Control& control_;
   double size_ = 0.0;
   DesignRoom out_;
 };
@@ -297,7 +335,7 @@ DesignRoom room_around(const DesignQuestion& question, const std::vector<double>
       throw InvalidArgument("design", format_number(design[k]), format_interval(question.low[k], question.high[k]));
   for (const double one : proportions)
     if (!(one > 0.0 && std::isfinite(one))) throw InvalidArgument("proportions", format_number(one), "numbers above 0");
-  return admissible::RoomSearch(question, design, proportions, most_boxes, control.stop).run();
+  return admissible::RoomSearch(question, design, proportions, most_boxes, control).run();
 }
 
 }  // namespace ninedof

@@ -22,6 +22,7 @@ from ninedof.tables import Table, columns
 
 PLACE = 4
 TIME, RESOLUTION = 300.0, 0.01
+SIDES = ("down", "up")
 WORDS = {"exists": "yes", "none": "no"}
 Ranges = Mapping[str, tuple[float, float] | None]
 EXAMPLES = """
@@ -102,7 +103,7 @@ def admissible(options: _Options) -> Answer:
         designs.save_certificate(options.certificate)
         screen.print(f"certificate {options.certificate}")
         data["certificate"] = str(options.certificate)
-    if options.around:
+    if options.around and not designs.interrupted:
         data |= _around(screen, designs, options)
     return Answer([], data, INTERRUPTED if designs.interrupted else DONE)
 
@@ -116,7 +117,13 @@ def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: 
     heads = columns("legs", "actuator", "a design exists", "for example")
     rows = [(one.kind, one.row.name, WORDS.get(one.state, one.state), _example(one, study)) for one in answer.rows]
     data = {"rows": [one.to_dict() for one in answer.rows]}
-    return Answer([Table("", heads, rows), *as_drawn(study)], data, INTERRUPTED if answer.interrupted else DONE)
+    undecided = any(one.state == UNDECIDED for one in answer.rows)
+    more = ["Undecided: a longer --time may decide it."] if undecided else []
+    return Answer(
+        [Table(f"Of designs with {answer.of}", heads, rows), *more, *as_drawn(study)],
+        data,
+        INTERRUPTED if answer.interrupted else DONE,
+    )
 
 
 def _how(options: _Options) -> dict[str, Any]:
@@ -187,10 +194,15 @@ def _around(screen: Screen, designs: nd.AdmissibleSet, options: _Options) -> dic
     proportions = None if options.proportions is None else _proportions(options.proportions)
     held = f", at {designs.of.held}" if designs.of.held else ""
     try:
-        room = designs.around(proportions=proportions)
+        with screen.bar("boxes", "around") as bar:
+            room = designs.around(proportions=proportions, progress=bar)
     except NoRoom as error:
         words = f": {error.reason}" if error.reason else ""
         screen.print(f"No box around {designs.of.values(designs.vary)}{held} is proved{words}.")
         return {"around": None, "reason": error.reason}
     screen.print(f"Proved around {designs.of.values(designs.vary)}{held}: {room_words(designs.of, room)}.")
-    return {"around": {name: list(ends) for name, ends in room.items()}}
+    ends = [
+        (f"{name} {side}", end) for name, two in room.ended_by.items() for side, end in zip(SIDES, two, strict=True)
+    ]
+    screen.print(Table("What ends each side; a limit: designs beyond break it there", columns("", "ended by"), ends))
+    return {"around": {name: list(ends) for name, ends in room.items()}, "ended_by": room.ended_by}
