@@ -2,6 +2,7 @@
 
 #include "ninedof/proof/optimum.hpp"
 
+#include <chrono>
 #include <cmath>
 
 #include "ninedof/proof/checker.hpp"
@@ -51,21 +52,35 @@ void bind_optimum(py::module_& m) {
   py::class_<checker::Verdict>(m, "Verdict", "What the checker of a certificate says.")
       .def_readonly("proved", &checker::Verdict::proved, "Whether the certificate proves what it says.")
       .def_readonly("incomplete", &checker::Verdict::incomplete,
-                    "Whether a set of designs is right as far as it could be confirmed, and not all of it could.")
+                    "Whether all is right as far as it could be confirmed, and not all of it could.")
       .def_readonly("words", &checker::Verdict::words, "What is proved, or why the certificate is refused.")
       .def_readonly("boxes", &checker::Verdict::leaves, "Looked at.")
       .def_readonly("recut", &checker::Verdict::recut, "Of them, those that were divided further.")
       .def_property_readonly(
           "study", [](const checker::Verdict& v) { return py::tuple(py::cast(v.study)); },
           "The designs that the proof is about, lines of text.");
-  m.def("check_certificate", [](std::string_view certificate, const py::object& progress) {
-    return interruptible(progress, [&](const Control& control) {
-      return checker::check(certificate, [&](std::size_t done, std::size_t total) {
-        if (control.stop.stop_requested()) throw Stopped{};
-        control.progress(static_cast<long>(done), static_cast<long>(total), std::nan(""));
-      });
-    });
-  });
+  m.def(
+      "check_certificate",
+      [](std::string_view certificate, const py::object& progress, double seconds) {
+        using Clock = std::chrono::steady_clock;
+        struct TimeIsOver {};
+        const auto begin = Clock::now();
+        return interruptible(progress, [&](const Control& control) {
+          try {
+            return checker::check(certificate, [&](std::size_t done, std::size_t total) {
+              if (control.stop.stop_requested()) throw Stopped{};
+              if (std::chrono::duration<double>(Clock::now() - begin).count() > seconds) throw TimeIsOver{};
+              control.progress(static_cast<long>(done), static_cast<long>(total), std::nan(""));
+            });
+          } catch (const TimeIsOver&) {
+            checker::Verdict out;
+            out.incomplete = true;
+            out.words = "not checked to its end, as the time is over: nothing wrong was found, and nothing is proved";
+            return out;
+          }
+        });
+      },
+      py::arg("certificate"), py::arg("progress"), py::arg("seconds") = HUGE_VAL);
 }
 
 }  // namespace ninedof::python

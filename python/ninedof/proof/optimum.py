@@ -11,13 +11,14 @@ from ninedof.proof.class_proof import MOST_BOXES, prove_class
 from ninedof.proof.design_range import LONGEST
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.proof.optimum_steps import StepByStep, ways_of
-from ninedof.support.arguments import finite, instance, path_argument
+from ninedof.support.arguments import finite, instance, path_argument, takes_names
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, progress_argument
 from ninedof.support.structs import from_core
 from ninedof.support.text import short_repr
 
 
+@takes_names
 def prove_optimum(
     study: Study,
     condition_number: float,
@@ -137,12 +138,15 @@ class CertificateCheck:
     recut: int
     """Boxes that were cut further than by the search."""
     incomplete: bool = False
-    """Of a set of designs: nothing in it is wrong, and not all of it could be confirmed."""
+    """Nothing wrong was found, and not all of it could be confirmed: of a set of designs, or as the time was over."""
     study: tuple[str, ...] = ()
     """Of a proof: the designs that it is about, one line each, as the checker read them; angles in radians."""
 
 
-def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None = None) -> CertificateCheck:
+@takes_names
+def check_certificate(
+    path: str | os.PathLike[str], *, time_limit: float | None = None, progress: Progress | None = None
+) -> CertificateCheck:
     """Check a certificate of an optimum, a machine or a set of designs, without trusting the search that wrote it.
 
     By the code of the program ninedof_check, which shares none with the search: numbers, formulas and bounds are its
@@ -152,6 +156,8 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
     ----------
     path : path
         As `OptimumProof.save`, `Result.save_certificate` and `AdmissibleSet.save_certificate` write it.
+    time_limit : float, optional
+        Seconds; none by default. A machine with limits of forces may take minutes.
     progress : callable, optional
         Called as progress(bytes or boxes of designs read, all of them, None).
 
@@ -170,5 +176,5 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
         data = path_argument("path", path).read_bytes()
     except OSError as error:
         raise ValueError(f"certificate: got {path!s}, expected a file that can be read ({error.strerror})") from None
-    progress_argument(progress)
-    return from_core(CertificateCheck, _core.check_certificate(data, progress))
+    seconds = LONGEST if time_limit is None else finite("time_limit", time_limit, least=0.0)
+    return from_core(CertificateCheck, _core.check_certificate(data, progress_argument(progress), seconds))

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import Options, argument, struct
+from ninedof.cli.options import Options, argument, option, struct
 from ninedof.cli.screen import DONE, NO_RESULT, REFUSED, bold
 from ninedof.proof.optimum import check_certificate
 from ninedof.proof.optimum_proof import FILE
@@ -18,27 +18,30 @@ EXAMPLES = f"""
   ninedof admissible study.toml --vary a2 --vary b1 --certificate designs.certificate
   ninedof check designs.certificate"""
 
+MAKERS = "of `ninedof optimize --certify`, or a file of `certify` or `admissible` with --certificate FILE"
 UNIT = "lengths in the study's unit, which a certificate does not name"
 
 
 @struct
 class _Options(Options):
     certificate: Path = argument(f"A certificate, or a run folder that has {FILE}.")
+    time: float | None = option("Seconds, no limit by default; a machine with limits of forces may take minutes.")
 
 
 def check(options: _Options) -> Answer:
     """Check a certificate: of a bound of all designs, a machine that keeps its limits, or a set of designs."""
     path = options.certificate / FILE if options.certificate.is_dir() else options.certificate
     if not path.exists() and path != options.certificate:
-        makers = "of `ninedof optimize --certify`, or a file of `certify` or `admissible` with --certificate FILE"
-        raise ValueError(f"{options.certificate}: got a folder without {FILE}, expected that {makers}")
+        raise ValueError(f"{options.certificate}: got a folder without {FILE}, expected that {MAKERS}")
     with options.screen.bar("boxes", "reading the certificate") as bar:
         bar.phase("a machine is one box, which may take minutes")  # the share of the file says nothing of its time
-        result = check_certificate(path, progress=bar)
+        result = check_certificate(path, time_limit=options.time, progress=bar)
     lines = [*result.study, UNIT] if result.study else []
     parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in lines)] if lines else []
     verdict = "Proved" if result.proved else "Incomplete" if result.incomplete else "Refused"
     parts.append(bold(verdict, f": {result.words}"))
+    if result.words == "this is no certificate":
+        parts.append(f"Expected {FILE} {MAKERS}. certify.json says what is proved of a machine, and not why.")
     if result.study:
         parts.append(f"{result.boxes} boxes of designs read, {result.recut} cut further by the checker")
     data = {name: getattr(result, name) for name in ("proved", "incomplete", "words", "boxes", "study")}
