@@ -129,7 +129,7 @@ class Reserve(StudyTable):
     def words(self) -> list[str]:
         """The reserve in sentences."""
         parts = [f"{name.replace('_', ' ')} {100.0 * abs(1.0 - share):.2g} %" for name, share in self.shares.items()]
-        others = "verdict, prices and what is left to gain are with it; a smaller one may do"
+        others = "verdict, prices and what is left to gain are of the study with it; a smaller reserve may be enough"
         out = [f"reserve for the tolerances: {', '.join(parts)}; {others}"] if parts else []
         note = "proved of every machine within the tolerances" if self.proved else self.note
         return [*out, note] if note else out

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from time import perf_counter
 from typing import TypedDict, Unpack
 
@@ -16,11 +17,13 @@ from ninedof.design.objective import CONDITION_LIMIT, Objective
 from ninedof.design.region import Region
 from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
+from ninedof.motion.rotations import from_vectors
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate, ProofPose
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.support.arguments import finite, instance, shown, whole
+from ninedof.sheet.pose_words import turn_deg
+from ninedof.support.arguments import finite, instance, shown, vector, whole
 from ninedof.support.arrays import MOST_THREADS as MOST
 from ninedof.support.files import sha256
 from ninedof.support.margins import margin_of
@@ -94,7 +97,8 @@ def certify(
     phase(progress, "proving the limits")
     machine = posed_robot(study, geometry, configurations, characteristic_length, rule, built)
     over_poses = _core.limits_over_poses(machine, study.problem(), slack, threads, max(seconds, FOR_LIMITS))
-    limits = [_limit_proof(limit, only_neutral) for limit in over_poses.limits]
+    named = partial(_proof_pose, home=configurations[0], region=region, rule=rule)
+    limits = [_limit_proof(limit, only_neutral, named) for limit in over_poses.limits]
 
     errors = None
     if built:
@@ -113,10 +117,11 @@ def certify(
         of_neutral = _core.search_condition(at_home, settings([bound]), _core.ConditionState(), None, None)
         if of_neutral.interrupted:
             raise KeyboardInterrupt
-        at_neutral.append(_condition_proof(NEUTRAL_LIMIT, bound, of_neutral, True, slack))
+        at_neutral.append(_condition_proof(NEUTRAL_LIMIT, bound, of_neutral, named(of_neutral.at, True), slack))
 
     def certificate(state: _core.ConditionState, interrupted: bool) -> MachineCertificate:
-        of_condition = [_condition_proof(*bound, state, only_neutral, slack) for bound in limits_of_index.items()]
+        at = named(state.at, only_neutral)
+        of_condition = [_condition_proof(*bound, state, at, slack) for bound in limits_of_index.items()]
         return MachineCertificate(
             where=where,
             unit=study.unit,
@@ -124,7 +129,7 @@ def certify(
             limits=(*limits, *of_condition, *at_neutral),
             lengths=over_poses.lengths,
             condition=(state.low, state.high),
-            condition_at=_proof_pose(state.at, only_neutral),
+            condition_at=at,
             condition_boxes=state.boxes,
             left=tuple(map(tuple, state.left)),
             left_count=state.left_count,
@@ -164,7 +169,7 @@ def open_limits(
         condition_number = finite("condition_number", condition_number, 1.0)
     robot = posed_robot(study, *design, built)
     over_poses = _core.limits_over_poses(robot, study.problem(), slack, threads, seconds)
-    proofs = [_limit_proof(limit, False) for limit in over_poses.limits]
+    proofs = [_limit_proof(limit, False, _proof_pose) for limit in over_poses.limits]
     objective = study.objective
     geometry, configurations, length, _ = design
     alone = posed_robot(replace(study, objective=Objective()), geometry, configurations[[0]], length, None, built)
@@ -178,7 +183,7 @@ def open_limits(
             state = _core.search_condition(machine, how, _core.ConditionState(), None, None)
             if state.interrupted:
                 raise KeyboardInterrupt
-            proofs.append(_condition_proof(name, bound, state, False, slack))
+            proofs.append(_condition_proof(name, bound, state, _proof_pose(state.at, False), slack))
     return [one for one in proofs if one.answer != PROVED]
 
 
@@ -272,26 +277,41 @@ def _rule(
     return rule
 
 
-def _limit_proof(limit: _core.LimitOverPoses, only_neutral: bool) -> LimitProof:
+def _limit_proof(
+    limit: _core.LimitOverPoses, only_neutral: bool, named: Callable[[_core.MetAt, bool], ProofPose]
+) -> LimitProof:
     margin = float(margin_of(limit.kind, limit.side, limit.limit, limit.value[limit.side == "max"]))
-    poses = tuple(_proof_pose(at, only_neutral or limit.at_neutral) for at in limit.at)
+    poses = tuple(named(at, only_neutral or limit.at_neutral) for at in limit.at)
     return from_core(LimitProof, limit, margin=margin, at=poses)
 
 
-def _proof_pose(at: _core.MetAt, neutral: bool) -> ProofPose:
+def _proof_pose(
+    at: _core.MetAt,
+    neutral: bool,
+    home: Configuration | None = None,
+    region: Region | None = None,
+    rule: PointRule | None = None,
+) -> ProofPose:
     """Return the pose of an extreme value; listed ones are counted from 1, and the neutral one alone is 0."""
-    return ProofPose(at.shift, at.tilt, at.yaw, None if at.pose < 0 else 0 if neutral else at.pose + 1)
+    if at.pose >= 0 or home is None or region is None:
+        return ProofPose(at.shift, at.tilt, at.yaw, None if at.pose < 0 else 0 if neutral else at.pose + 1)
+    shift, turn = np.array(at.shift), np.array([at.tilt, (0.0, 0.0, at.yaw)])
+    o = home.internal_point + shift * (region.internal_point == "shifted")
+    if rule is not None:
+        o = rule.at([*at.shift, *at.tilt[:2], at.yaw])
+    tilt, yaw = from_vectors(turn)
+    there = Configuration(home.position + shift, tilt @ yaw @ home.rotation, o)
+    parts = (there.position, there.internal_point, turn_deg(there, home.rotation))
+    p, o, turned = (vector("place", part.tolist()) for part in parts)
+    return ProofPose(at.shift, at.tilt, at.yaw, place=(p, o, turned))
 
 
-def _condition_proof(
-    name: str, limit: float, state: _core.ConditionState, only_neutral: bool, slack: float
-) -> LimitProof:
+def _condition_proof(name: str, limit: float, state: _core.ConditionState, at: ProofPose, slack: float) -> LimitProof:
     low, high = state.low, state.high
     edge = limit * (1.0 + slack)
     answer = PROVED if high <= edge else VIOLATED if low > edge else UNDECIDED
     margin = float(margin_of("ratio", "max", limit, high))
-    at = (_proof_pose(state.at, only_neutral),)
-    return LimitProof(name, "ratio", "max", limit, answer, (low, high), margin, "", at, state.boxes)
+    return LimitProof(name, "ratio", "max", limit, answer, (low, high), margin, "", (at,), state.boxes)
 
 
 def _where(study: Study, only_neutral: bool) -> str:

@@ -10,7 +10,8 @@ from typing import Any
 from ninedof import _core
 from ninedof.design.duty import Tolerances
 from ninedof.proof.point_rule import PointRule
-from ninedof.support.arguments import flag, number, table, text, whole
+from ninedof.sheet.pose_words import words_of_pose
+from ninedof.support.arguments import Vector, flag, number, table, text, whole
 from ninedof.support.structs import made
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount, kind_unit
@@ -27,6 +28,8 @@ class ProofPose:
     tilt: tuple[float, float, float] = (0.0, 0.0, 0.0)
     yaw: float = 0.0
     listed: int | None = None
+    place: tuple[Vector, Vector, Vector] | None = None
+    """p, O, and the rotation vector from the neutral pose in degrees, of one machine; None where it is of many."""
 
     def for_core(self) -> _core.MetAt:
         """Return the pose as the core counts poses."""
@@ -34,9 +37,11 @@ class ProofPose:
         return _core.MetAt(shift=self.shift, tilt=self.tilt, yaw=self.yaw, pose=number)
 
     def worded(self, unit: str = "") -> str:
-        """Return the pose in words, angles in degrees."""
+        """Return the pose in words, angles in degrees: of one machine as the sheet has it."""
         if self.listed is not None:
             return f"pose {self.listed} of the study" if self.listed else "the neutral pose"
+        if self.place is not None:
+            return words_of_pose(*self.place, unit)
         shift = ", ".join(f"{x:.5g}" for x in self.shift)
         words = [f"p shifted by {amount(f'({shift})', unit)}"]
         vectors = [
@@ -198,10 +203,10 @@ class MachineCertificate(Worded):
         met = size[limit.side == "min"]
         if limit.answer == UNDECIDED:
             if math.isinf(limit.value[limit.side == "max"]):
-                return f"Undecided: {name}: the worst value met is {met}, and nothing bounds it."
+                return f"Undecided: {name}: the worst value met is {met}, and nothing bounds it yet."
             return f"Undecided: {name}: the worst value is between {' and '.join(size)}."
         poses = [pose.worded(self.unit) for pose in limit.at]
-        at = f" at {poses[0]}" if len(poses) == 1 else f" between {' and '.join(poses)}" if poses else ""
+        at = f", at {poses[0]}" if len(poses) == 1 else f", between {' and '.join(poses)}" if poses else ""
         return f"Violated{' by the rule' * (self.rule is not None)}: {name}: {met}{at}."
 
     @property

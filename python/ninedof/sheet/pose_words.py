@@ -16,8 +16,13 @@ from ninedof.support.units import amount
 
 def pose_words(c: Configuration, neutral_rotation: Floats, unit: str = "") -> str:
     """Return position, place of O and turn, as --position, --internal-point and --rotation-deg take them."""
-    p, o = (amount(vector_words(point), unit) for point in (c.position, c.internal_point))
-    return f"p = {p}, O = {o}, turned {vector_words(np.round(turn_deg(c, neutral_rotation), 4))}° from neutral"
+    return words_of_pose(c.position, c.internal_point, turn_deg(c, neutral_rotation), unit)
+
+
+def words_of_pose(position: Iterable[float], internal_point: Iterable[float], turn: Iterable[float], unit: str) -> str:
+    """Return the same for points and a rotation vector in degrees."""
+    p, o = (amount(vector_words(point), unit) for point in (position, internal_point))
+    return f"p = {p}, O = {o}, turned {vector_words(round(x, 4) for x in turn)}° from neutral"
 
 
 def outside_words(c: Configuration, tool: Tool, unit: str = "") -> Iterator[str]:
@@ -43,6 +48,11 @@ def vector_words(values: Iterable[float]) -> str:
     numbers = [float(x) for x in values]
     least = 1e-6 * max((abs(x) for x in numbers), default=0.0)
     return "(" + ", ".join(f"{x if abs(x) > least else 0.0:g}" for x in numbers) + ")"
+
+
+def gravity_words(gravity: Iterable[float], force_unit: str) -> str:
+    """Return gravity with the unit that it has where forces are newtons."""
+    return amount(f"gravity {vector_words(gravity)}", "m/s²" * (force_unit == "N"))
 
 
 def decimals_of(*arrays: Floats) -> int:

@@ -58,6 +58,15 @@ def test_a_machine_is_written_for_the_checker(run, tmp_path, capsys):
     assert "minutes" in err  # that a machine may take; the line may be folded
     assert status(run, "--certificate", file, "--tolerance", "0.01") == 2
     words = " ".join(capsys.readouterr().err.split())
+    assert main_status("check", file, "--time", 0) == 3
+    said = " ".join(capsys.readouterr().out.split())
+    assert said == (
+        "Incomplete: not checked to its end, as the time is over: nothing wrong was found, and nothing is proved"
+    )
+    assert main_status("check", run / "certify.json") == 1
+    said = " ".join(capsys.readouterr().out.split())
+    assert "a file of `certify` or `admissible` with --certificate FILE" in said
+    assert said.endswith("certify.json says what is proved of a machine, and not why.")
     assert "tolerance: got 0.01, expected 0: the file that is replayed is of the machine as it is drawn" in words
     assert "`--tolerance 0`" in words
 
@@ -70,6 +79,30 @@ def test_a_run_may_be_called_as_its_certificate(run, tmp_path, capsys):
     assert status(named) == 0
     assert nd.load_certificate(named) == nd.load_certificate(named / "certify.json")
     assert main_status("report", named) == 0
+
+
+def test_what_time_was_too_short_for_has_the_value_met_and_says_so(tmp_path, monkeypatch, capsys):
+    study = replace(nd.Study.load(EXAMPLE), loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -400.0]]})
+    study = replace(study, constraints={"force": {"max": 900.0}})
+    nd.save(nd.optimize(study, starts=1), tmp_path / "run")
+    for module in ("ninedof.proof.machine", "ninedof.cli.commands.certify"):
+        monkeypatch.setattr(import_module(module), "FOR_LIMITS", 0.0)
+    assert status(tmp_path / "run", "--time", 0) == 3
+    out = capsys.readouterr().out
+    (row,) = [line.split() for line in out.splitlines() if "force" in line and "undecided" in line]
+    met = float(row[row.index("met") - 1])
+    assert 0.0 < met <= max(one.value for one in nd.sheet(nd.load(tmp_path / "run")).limits)
+    assert "∞" not in out
+    said = " ".join(out.split())
+    assert "and nothing bounds it yet." in said
+    assert "Each limit had 0 s, and begins anew: a longer --time may decide it." in said
+    at = said.split("The worst condition number met is ")[1].split("° from neutral")[0]
+    found, pose = at.split(", at p = (")
+    p, o, turn = (part.split(")")[0] for part in pose.split("("))
+    place = ["--position", p, "--internal-point", o, "--rotation-deg", turn]  # as the commands of a pose take it
+    place = [word.replace(",", "") for word in place]
+    assert main_status("evaluate", tmp_path / "run", *place, "--json") == 0
+    assert json.loads(capsys.readouterr().out)["condition_number"] == pytest.approx(float(found), rel=1e-5)
 
 
 def test_a_bound_that_does_not_hold_is_said(run, capsys):

@@ -12,9 +12,9 @@ from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.options import THREADS, Options, argument, option, struct, word_or_number
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.proof.admissible_set import as_drawn
-from ninedof.proof.machine import tolerances_of
+from ninedof.proof.machine import FOR_LIMITS, tolerances_of
 from ninedof.proof.machine_file import require_replayable
-from ninedof.proof.machine_record import outward
+from ninedof.proof.machine_record import UNDECIDED, outward
 from ninedof.records.proofs import certificate_file, save_certificate
 from ninedof.robot.geometry import LEGS
 from ninedof.singularity.architecture import architecture_sentences
@@ -106,6 +106,11 @@ def certify(options: _Options) -> Answer:
         sentences.append(_largest(certificate))
     elif tolerance == 0.0:
         sentences += as_drawn(result.study)
+    if any(one.answer == UNDECIDED for one in certificate.limits):
+        sentences.append(
+            f"Each limit had {max(options.time, FOR_LIMITS):g} s, and begins anew: a longer --time may decide it. "
+            f"`ninedof sheet {run}` has the worst values that a search meets, unproved."
+        )
     answer = Answer([certificate_table(certificate), *sentences], data)
     write_job(screen, answer, lambda _: save_certificate(certificate, file))
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
@@ -157,13 +162,14 @@ def certificate_table(certificate: nd.MachineCertificate) -> Table:
         word = "≤" if one.side == "max" else "≥"
         limit = "> 0" if one.limit == 0.0 else f"{word} {one.shown(one.limit):.6g}"
         on_limit = abs(one.margin) <= certificate.slack * (one.limit if one.kind == "sign" else 1.0)
-        bounded = math.isfinite(one.value[one.side == "max"])
-        proved = f"{word} {one.worded(9 if on_limit else 6)}" if bounded else "nothing"
         margin = f"within {certificate.slack:g}" if on_limit else margin_words(one.margin, one.kind)
+        proved = f"{word} {one.worded(9 if on_limit else 6)}"
+        if not math.isfinite(one.value[one.side == "max"]):
+            proved, margin = f"{one.outward(one.value[one.side == 'min'], one.side == 'min', 6)} met", ""
         name = with_unit(one.name.replace("_", " "), one.unit(unit, certificate.force_unit))
         rows.append((name, limit, proved, margin, one.answer))
     high = certificate.condition[1]
     if not any(one.name == "condition_number" for one in certificate.limits):
-        proved = f"≤ {outward(high, True)}" if math.isfinite(high) else "nothing"
+        proved = f"≤ {outward(high, True)}" if math.isfinite(high) else "not yet"
         rows.append(("condition number", "", proved, "", ""))
     return Table("", heads, rows)
