@@ -9,7 +9,7 @@ from ninedof.design.actuators import price_words
 from ninedof.design.study import Study
 from ninedof.design.tables import end_text, limits_table, variables_table
 from ninedof.redundancy.rules import MEANING, WORDS
-from ninedof.sheet.pose_words import vector_words
+from ninedof.sheet.pose_words import gravity_words, vector_words
 from ninedof.sheet.tables import load_words
 from ninedof.support.units import amount, per
 from ninedof.tables.html import Html, html_of, joined, paragraphs
@@ -78,7 +78,7 @@ def duty_sentences(study: Study) -> Iterator[str]:
     if masses:
         centre = amount(vector_words(study.masses.centre), unit)
         at = f", the platform's centre at {centre} in the frame of the plate" * (study.masses.platform > 0.0)
-        yield f"Masses: {', '.join(masses)}{at}; gravity {vector_words(loads.gravity)}."
+        yield f"Masses: {', '.join(masses)}{at}; {gravity_words(loads.gravity, study.force_unit)}."
     for name, linear, angular, time in (
         ("Speed", speeds.linear, speeds.angular, "s"),
         ("Acceleration", speeds.acceleration, speeds.angular_acceleration, "s²"),

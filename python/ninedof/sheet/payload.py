@@ -16,7 +16,7 @@ from ninedof.sheet.region_look import SAMPLES, RegionSearch, look_over, robot_of
 from ninedof.sheet.request import duty_of, load_rows, masses_of
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import inverse_dynamics, masses_for_core
-from ninedof.support.arguments import Vector, shown, vector, whole
+from ninedof.support.arguments import Vector, shown, takes_names, vector, whole
 from ninedof.support.arrays import Floats, one_or_each
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount
@@ -50,6 +50,8 @@ class Payload(NamedTuple):
     poses where others are given."""
     force_unit: str = ""
     """"N" where the study states masses and lengths have a unit: the payload is in kilograms then."""
+    without_loads: float = np.inf
+    """The largest mass if no load acts: those are always there, so that one upward carries a part of the payload."""
 
     @property
     def words(self) -> str:
@@ -73,6 +75,7 @@ class Payload(NamedTuple):
         return {**self._asdict(), "configuration": pose, "region": search, "proved": False}
 
 
+@takes_names
 def largest_payload(
     design: Any,
     force: ArrayLike | None = None,
@@ -136,7 +139,8 @@ def largest_payload(
     push, most_pull = _limit("force", force), _limit("pull", force if pull is None else pull)
     count = whole("samples", samples, 1, MOST_SAMPLES)
     gravity, masses = duty.loads.gravity, masses_of(duty)
-    question = _core.SheetQuestion(g, c[0], loads=list(rows), gravity=gravity)
+    asked = [*rows, np.zeros(6)] if rows.any() else list(rows)
+    question = _core.SheetQuestion(g, c[0], loads=asked, gravity=gravity)
     if masses is not None:
         question.masses = masses_for_core(masses)
     at = duty.tool.seen(vector("centre", centre))
@@ -146,20 +150,28 @@ def largest_payload(
     if look is not None:
         look = look._replace(mean=np.nan, mean_error=np.nan)  # of the condition number, which is not asked for
     numbers = _core.sheet_numbers(question, c)
-    shares = numbers["payload"].reshape(len(c), len(rows), 2, 9)
+    shares = numbers["payload"].reshape(len(c), len(asked), 2, 9)
+    shares, alone = shares[:, : len(rows)], float(shares[:, -1].max())
     most = float(shares.max())
     if most == np.inf:  # a limit is violated without a payload: where it is violated most
-        own = numbers["force"].reshape(len(c), len(rows), 9)
+        own = numbers["force"].reshape(len(c), len(asked), 9)[:, : len(rows)]
         shares = np.stack([own - push, -own - most_pull], axis=2)
     pose, load, side, leg = map(int, np.unravel_index(int(np.argmax(shares)), shares.shape))
-    mass = 0.0 if most == np.inf else 1.0 / most if most > 0.0 else np.inf
+    mass = _mass(most)
     down = np.asarray(gravity) * (mass if np.isfinite(mass) else 0.0)
     wrench = rows[load] + np.concatenate([np.cross(c[pose].rotation @ np.asarray(at), down), down])
     forces = inverse_dynamics(g, c[pose], masses=masses, gravity=gravity, load=wrench).forces
     not_looked_at = tuple(one.label for one in others)
     names = (LEGS[leg], ("push", "pull")[side]) if most > 0.0 else ("", "")
     fits, limits = most < np.inf, (push, most_pull)
-    return Payload(mass, fits, *names, c[pose], forces, load, look, limits, not_looked_at, duty.force_unit)
+    return Payload(
+        mass, fits, *names, c[pose], forces, load, look, limits, not_looked_at, duty.force_unit, _mass(alone)
+    )
+
+
+def _mass(share: float) -> float:
+    """Return the mass of which a unit takes a share of what the legs have left."""
+    return 1.0 / share if share > 0.0 else np.inf
 
 
 def _stated(study: Study) -> Floats:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ninedof.redundancy.rules import WORDS
 from ninedof.robot.idle import NEVER_CARRY, NEVER_MOVE, unloaded_names
-from ninedof.sheet.pose_words import outside_words, pose_words, vector_words
+from ninedof.sheet.pose_words import gravity_words, outside_words, pose_words, vector_words
 from ninedof.sheet.rows import limit_amount
 from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, metres, per, times, watt_note
@@ -223,7 +223,7 @@ def weight_words(weight: Any, tool: Any, legs: bool, force: str = "") -> list[st
         mass = f"{weight.mass:g}{' kg' if force else ''}"
         words.append(
             f"each with the weight of a mass of {mass}, centre {vector_words((x, y, z))} in the frame of the plate, "
-            f"gravity {vector_words(weight.gravity)}"
+            f"{gravity_words(weight.gravity, force)}"
         )
     return [*words, *["each with the weights of the legs and of O"] * legs]
 

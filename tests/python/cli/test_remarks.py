@@ -95,10 +95,13 @@ def test_forces_are_newtons_and_powers_watts_where_masses_are_stated(words, fold
     assert "Forces (N), + pushes" in words("forces ./heavy")
     said = words("payload ./heavy")
     assert " kg: " in said
+    assert "gravity (0, 0, -9.81) m/s²; beside it" in said
     assert "reaches its limit of 700 N (" in said
     assert "Leg forces (N) there, with the payload" in said
     assert "from the study: force at most 700 N" in said
-    assert "moment (N mm) and force (N) for a turn" in words("stiffness ./heavy --leg-stiffness 1e4")
+    stiff = words("stiffness ./heavy --leg-stiffness 1e4")
+    assert "moment (N mm) and force (N) for a turn" in stiff
+    assert "leg stiffness 10000 N/mm, each leg" in stiff
     said = words("failure ./heavy --no-pairs")
     assert "(N)" in said
     assert "force (0, 0, 90) N" in said

@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import ninedof as nd
+from ninedof.sheet import payload as payloads
 
 HEXAGONS = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
 HOME = nd.Configuration.neutral(3.9828, 2.4432)
@@ -83,6 +84,16 @@ def test_no_pose_of_a_region_is_worse(machine):
         for wrench in machine.study.loads.wrenches:
             worst = max(worst, np.abs(forces_under(machine, at, payload.mass, np.array(wrench))).max())
     assert worst <= limit * (1.0 + 1e-6)
+
+
+def test_one_search_has_the_payload_with_and_without_the_loads(machine, monkeypatch):
+    searches, search = [], payloads.look_over
+    monkeypatch.setattr(payloads, "look_over", lambda *given: searches.append(given) or search(*given))
+    both = nd.largest_payload(machine, 60.0, samples=500)
+    assert len(searches) == 1
+    alone = nd.largest_payload(machine, 60.0, loads=[np.zeros(6)], samples=500)
+    assert both.without_loads == pytest.approx(alone.mass, rel=1e-9)
+    assert alone.without_loads == alone.mass != both.mass
 
 
 @pytest.mark.slow(sanitized=True)

@@ -13,7 +13,7 @@ from ninedof.cli.posed import Chosen, named_design
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.robot.geometry import LEGS
 from ninedof.sheet.payload import Payload, largest_payload
-from ninedof.sheet.pose_words import vector_words
+from ninedof.sheet.pose_words import gravity_words, vector_words
 from ninedof.sheet.request import masses_of
 from ninedof.sheet.tables import load_words
 from ninedof.support.arguments import Vector
@@ -49,12 +49,10 @@ def payload(options: _Options) -> Answer:
     centre = options.centre or (0.0, 0.0, 0.0)
     result = largest_payload(chosen.machine, options.force, options.pull, centre, loads)
     parts = [*_parts(result, chosen), _meant(result, chosen, centre, loads)]
-    if loads or chosen.duty.loads.wrenches:
-        alone = largest_payload(chosen.machine, options.force, options.pull, centre, [[0.0] * 6])
-        if result.fits and alone.mass < result.mass:
-            words = "a load counts as always there, so that one upward carries"
-            mass = amount(f"{alone.mass:.6g}", "kg" * bool(result.force_unit))
-            parts.append(f"without these loads {mass}: {words}")
+    if result.fits and result.without_loads < result.mass:
+        words = "a load counts as always there, so that one upward carries"
+        mass = amount(f"{result.without_loads:.6g}", "kg" * bool(result.force_unit))
+        parts.append(f"without these loads {mass}: {words}")
     if options.force is None:
         parts.append(f"from the study: force {_of_kinds(result.limits[0].tolist(), result.force_unit)}")
     if result.not_looked_at:
@@ -91,6 +89,6 @@ def _meant(result: Payload, chosen: Chosen, centre: Vector, loads: list[list[flo
     beside = [load_words(result.load + 1, rows[result.load], chosen.unit, study.force_unit)] if rows else []
     beside += ["the masses of the study"] if masses_of(study) is not None else []
     return (
-        f"the payload is a point mass at {at}; gravity {vector_words(study.loads.gravity)}; "
+        f"the payload is a point mass at {at}; {gravity_words(study.loads.gravity, study.force_unit)}; "
         f"beside it {' and '.join(beside) or 'nothing'}"
     )

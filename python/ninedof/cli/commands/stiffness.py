@@ -43,6 +43,7 @@ def stiffness(options: _Options) -> Answer:
     along, about = per(force, unit) or "force per displacement", times(force, unit) or "moment"
     parts: list[Any] = [_matrix(result[0], unit, force)] if len(at.c) == 1 else []
     parts += [
+        f"leg stiffness {options.leg_stiffness:g} {along}, each leg",
         f"least stiffness: {values[0]} in {along}, the platform free to turn",
         f"least turning stiffness: {values[1]} in {about} per radian, the platform free to shift",
     ]
