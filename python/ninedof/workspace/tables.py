@@ -88,9 +88,27 @@ def workspace_words(workspace: Any) -> Iterator[tuple[str, str]]:
         yield workspace.status, f": {STATUSES[workspace.status]}"
     if not workspace.home_allowed:
         yield "", f"the home pose is not allowed: {workspace.home_limit}"
-    if workspace.box_limits:
-        where, what = ("boundary of the region", "region") if workspace.of_angles else ("faces of the box", "box")
-        yield "", f"the workspace reaches the {where}: it is larger in a larger {what}"
+    if workspace.box_limits and workspace.of_angles:
+        yield "", "the workspace reaches the boundary of the region: it is larger in a larger region"
+
+
+def cut_words(workspace: Any) -> Iterator[tuple[str, str]]:
+    """Yield which faces of its box cut a workspace of positions, and the options for a box half as long again there."""
+    if not workspace.box_limits or workspace.of_angles:
+        return
+    cells, low, high = workspace.cells, workspace.low, workspace.high
+    reach, allowed = 0.5 * (high - low), cells.fraction > 0.0
+    at = [(0.51 * cells.size >= there)[allowed].any(axis=0) for there in (cells.centre - low, high - cells.centre)]
+    faces = [
+        f"{axis} {side}"
+        for k, axis in enumerate("xyz")
+        for side, cut in zip(("low", "high"), at, strict=True)
+        if cut[k]
+    ]
+    ends = zip("xyz", low - at[0] * reach, high + at[1] * reach, at[0] | at[1], strict=True)
+    larger = " ".join(f"--{axis} {a:.5g} {b:.5g}" for axis, a, b, cut in ends if cut)
+    by = f": {', '.join(faces)}; a larger one: {larger}" if faces else "; it is larger in a larger box"
+    yield "the box cuts the workspace", by
 
 
 def share_words(region: Region, workspace: _core.RegionShare, unit: str) -> str:

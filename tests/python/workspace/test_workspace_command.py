@@ -69,6 +69,14 @@ def test_the_command_with_orientations_and_with_an_empty_workspace(run, tmp_path
     assert not (tmp_path / "c").exists()
 
 
+def test_the_first_line_names_the_faces_that_cut_and_the_options_for_more(run, tmp_path):
+    line = "workspace --legs 2 6.5 --tolerance 0.1 --no-figures --x -5 5 --y -5 5"
+    _, out, _ = run(f"{line} --z 4 14 --out {tmp_path / 'a'}")
+    assert out.startswith("the box cuts the workspace: z low; a larger one: --z -1 14\n")
+    _, out, _ = run(f"{line} --z -10 14 --out {tmp_path / 'b'}")
+    assert out.startswith("workspace: positions of the platform at the neutral rotation alone")
+
+
 @pytest.mark.slow(sanitized=True)
 def test_the_command_passes_on_position_length_and_sample(run, tmp_path, published):
     at = "--archetype orientation --angle-deg 40 --position 0.5 0 4 --lc 2 --resolution 8"

@@ -19,7 +19,7 @@ from ninedof.support.store import Store
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap, certified_workspace
 from ninedof.workspace import workspace as find_workspace
 from ninedof.workspace.study_question import region_share
-from ninedof.workspace.tables import asked_lines, share_words, workspace_table, workspace_words
+from ninedof.workspace.tables import asked_lines, cut_words, share_words, workspace_table, workspace_words
 
 PLACE = 6
 S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)
@@ -103,6 +103,7 @@ def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -
 def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
     asked, unit, tool = question.asked, chosen.unit, chosen.tool
     lines = asked_lines(question.keywords, chosen.configuration, asked.own, asked.left, unit, tool)
+    yield from (bold(*words) for words in cut_words(result))
     yield next(lines)
     yield from tool.remark(unit)
     if asked.actuators:
