@@ -154,8 +154,15 @@ std::string sentence(Search& search, const Indices& conflict, bool poses) {
   if (poses) (out += ' ') += in_these_poses;
   if (!enough.empty()) out += "; the nearest found " + std::string(several ? "have " : "has ") + listed(enough, "or");
   if (!enough.empty() && several) out += " instead";
-  if (further) out += "; other limits of the study are in conflict besides";
-  return out;
+  if (!further) return out;
+  Demands others = search.study.all();
+  for (const std::size_t d : conflict) others[d] = false;
+  const std::vector<double> left = search.study.violations(search.nearest(others));
+  std::vector<std::string> broken;
+  for (std::size_t d = 0; d < left.size(); ++d)
+    if (others[d] && left[d] > satisfied) broken.push_back(search.study.demands()[d].words);
+  out += "; other limits of the study are in conflict besides";
+  return broken.empty() ? out : out + ": the nearest found without these violates " + listed(broken, "and");
 }
 
 }  // namespace

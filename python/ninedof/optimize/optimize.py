@@ -24,12 +24,13 @@ from ninedof.optimize.tables import axis_hint
 from ninedof.proof.optimum import prove, relaxed
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.proof.optimum_steps import ways_of
-from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
+from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown, takes_names
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, part_of, phase, progress_argument
 from ninedof.support.store import Store
 from ninedof.support.structs import from_core, options_of, within
 from ninedof.support.text import short_repr
+from ninedof.support.units import kind_unit
 
 LONGEST, LEAST = 600.0, 1.0  # seconds of a proof without a time limit, and where the search took all of one
 
@@ -194,8 +195,12 @@ def _anew(study: Study, settings: _core.Settings, progress: Progress | None) -> 
         problem = (study if report is None else posed(study, report.poses)).problem()
     reason = end.reason
     if end.status == Status.INFEASIBLE:
-        unit = "inches" if study.unit == "in" else study.unit
-        reason += (f" (lengths in {unit})" if unit else "") + axis_hint(study)
+        kinds = {one.kind for one in study.limits}
+        units = {"lengths": "inches" if study.unit == "in" else study.unit}
+        for kind, name in (("rate", "rates"), ("number", "forces"), ("power", "powers")):
+            units[name] = kind_unit(kind, study.unit, study.force_unit) if kind in kinds else ""
+        words = ", ".join(f"{name} in {unit}" for name, unit in units.items() if unit)
+        reason += (f" ({words})" if words else "") + axis_hint(study)
     return from_core(
         Result,
         end,
@@ -254,6 +259,7 @@ class Trace:
     end: Candidate
 
 
+@takes_names
 def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax") -> Trace:
     """Follow a single run from a given start.
 

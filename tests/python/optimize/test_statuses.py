@@ -125,6 +125,22 @@ def test_causes_name_only_what_is_in_conflict():
     assert named in (causes | {"a1"}, causes | {"a2"})  # either side alone makes the base too large
 
 
+def test_what_else_is_in_conflict_is_named_with_its_unit():
+    study = nd.Study(
+        variables={"a1": 0.0, "b2": 0.0},
+        constraints={"leg_ratio": (None, 0.5), "rate": (None, 1e-3)},
+        characteristic_length=1.0,
+        speeds={"linear": 1.0},
+        unit="in",
+    )
+    first, _, besides = nd.optimize(study, starts=4).reason.partition("; other limits of the study are in conflict ")
+    assert {"leg_ratio", "rate"} == {
+        name for words in (first, besides) for name in ("leg_ratio", "rate") if name in words
+    }
+    assert besides.startswith("besides: the nearest found without these violates ")
+    assert besides.endswith(" (lengths in inches, rates in in/s)")
+
+
 def test_internal_point_in_the_base_breaks_9b():
     """zs = 0 is outside 0 < zs < zp, and every such design is singular."""
     result = solve({"zs": 0.0})
