@@ -145,11 +145,11 @@ class _Boxes(ProgressColumn):
 BETWEEN_LOOKS = 1.0  # seconds, at the clock while nothing is reported
 FIRST_LINE, LONGEST_SILENCE = 10.0, 300.0  # seconds: in a log lines at 10, 20, 40 ... s, then every five minutes
 NARROW = partial(BarColumn, bar_width=12)
-VALUE, TO_GO = "{task.fields[value]}", (TimeRemainingColumn, "to go")
+VALUE = "{task.fields[value]}"
 
 
-class _StartsToGo(TimeRemainingColumn):
-    """The time that is left of the starts; nothing before it is known and when they are done: rounds may follow."""
+class _ToGo(TimeRemainingColumn):
+    """The time that is left; nothing before it is known and when all is done: of the starts rounds may follow."""
 
     def render(self, task: Task) -> Text:
         known = not task.finished and task.time_remaining is not None
@@ -158,15 +158,15 @@ class _StartsToGo(TimeRemainingColumn):
 
 # What a bar shows behind its title, the words for the value of a report, and whether it is shown at once.
 BARS: dict[str, tuple[Sequence[Callable[[], ProgressColumn] | str], Callable[[float | None], str], bool]] = {
-    "starts": ((NARROW, MofNCompleteColumn, VALUE, TimeElapsedColumn, _StartsToGo), best_words, True),
+    "starts": ((NARROW, MofNCompleteColumn, VALUE, TimeElapsedColumn, _ToGo), best_words, True),
     "limits": (
-        (NARROW, MofNCompleteColumn, VALUE, *TO_GO),
+        (NARROW, MofNCompleteColumn, VALUE, _ToGo),
         lambda last: "no design" if last is None else f"{last:.6f}",
         True,
     ),
-    "points": ((NARROW, "{task.percentage:>3.0f} %", *TO_GO, TimeElapsedColumn), lambda _: "", False),
+    "points": ((NARROW, "{task.percentage:>3.0f} %", _ToGo, TimeElapsedColumn), lambda _: "", False),
     "poses": (
-        (NARROW, "{task.completed:,.0f} poses" + VALUE, *TO_GO),
+        (NARROW, "{task.completed:,.0f} poses" + VALUE, _ToGo),
         lambda volume: "" if volume is None else f", volume {volume:.4g}",
         False,
     ),
