@@ -41,7 +41,7 @@ LINES = {
         "{run} --condition 50 --gap 0.9 --time 1 --tolerance 0.01 --slack 1e-3 --threads 1",
         "{run} --gap 0.9 --tolerance 0 --certificate {page}",
     ],
-    "check": ["{certificate}"],
+    "check": ["{certificate} --time 5"],
     "export": ["{design} --to mjcf --out {xml} --leg-mass 1 --platform-mass 1 --gravity 1 --unit mm"],
     "failure": ["{design} --condition 10 --load 0,0,0,0,0,1 --no-pairs"],
     "forces": ["{design} --load 0,0,0,0,0,1 --position 0,0,4 --rotation-deg 0,0,0 --internal-point 0,0,2"],

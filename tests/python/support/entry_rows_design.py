@@ -396,7 +396,7 @@ row("admissible_actuators", few=3, words={"vary": ("vary",)})(
 )
 row("AdmissibleSet.state_of", lambda **a: it.admissible_set().state_of(**a))(lambda: {"designs": [[5.0, 3.0]]})
 row("AdmissibleSet.around", lambda **a: it.admissible_set().around(**a), few=3)(
-    lambda: {"design": {"a2": 5.0, "b1": 3.0}, "proportions": {"a2": 2.0, "b1": 1.0}}
+    lambda: {"design": {"a2": 5.0, "b1": 3.0}, "proportions": {"a2": 2.0, "b1": 1.0}, "progress": None}
 )
 row("sweep", dear=("out",), huge=("over",), words={"over": ("x_p",)})(
     lambda: {

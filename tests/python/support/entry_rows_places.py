@@ -21,7 +21,9 @@ at("load", words={"path": ("record.json",)})(lambda: {"path": it.run()})
 at("save")(lambda: {"run": it.design(), "path": it.fresh(".toml")})
 at("save", of="save: a run")(lambda: {"run": it.result(), "path": it.fresh()})
 at("load_certificate", words={"run": ("certify.json",)})(lambda: {"run": it.run()})
-at("check_certificate", words={"path": ("certificate",)})(lambda: {"path": it.proof_file(), "progress": None})
+at("check_certificate", words={"path": ("certificate",)})(
+    lambda: {"path": it.proof_file(), "time_limit": 5.0, "progress": None}
+)
 at("AdmissibleSet.save_certificate", lambda **a: it.admissible_set().save_certificate(**a))(
     lambda: {"path": it.fresh()}
 )
