@@ -8,14 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.support.arguments import takes_names
 from ninedof.support.arrays import Floats, all_finite, as_floats, leading_shape, thread_argument
 
 HEXAGONAL = ("a1", "a2", "b1", "b2", "zp", "zs")
 GATHERED = 2**16  # designs passed to the core at once, so that they stay in the caches
 
 
-@takes_names
 def hexagonal_condition_number(
     a1: ArrayLike,
     a2: ArrayLike,

@@ -18,7 +18,7 @@ from ninedof.proof.bounds import leg_length_bounds
 from ninedof.proof.machine_record import outward
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import instance, takes_names
+from ninedof.support.arguments import instance
 from ninedof.support.text import short_repr
 
 HEXAGONAL_LIMIT = 2.5358420229115416
@@ -130,7 +130,6 @@ def planar_leg_ratio_bound(ratio: float) -> float:
     return c + math.sqrt(1.0 + c * c)
 
 
-@takes_names
 def applicable_bounds(result: Result) -> list[LowerBound]:
     """Return every lower bound that holds for the design of a result, the largest first.
 

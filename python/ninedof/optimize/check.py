@@ -24,7 +24,7 @@ from ninedof.optimize.result import Result, Status
 from ninedof.proof.machine_record import PROVED
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.support.arguments import flag, instance, takes_names, whole
+from ninedof.support.arguments import flag, instance, whole
 from ninedof.support.arrays import Floats
 
 EQUAL = 1e-9  # relative: two ways to one number
@@ -93,7 +93,6 @@ class Check:
         return {"passed": self.passed, "title": self.title, "findings": findings}
 
 
-@takes_names
 def check(result: Result, perturbations: int = 4000, seed: int = 0, *, certify: bool = False) -> Check:
     """Check the best design of a result from its variables, without the run that found it.
 

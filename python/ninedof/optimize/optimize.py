@@ -24,7 +24,7 @@ from ninedof.optimize.tables import axis_hint
 from ninedof.proof.optimum import prove, relaxed
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.proof.optimum_steps import ways_of
-from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown, takes_names
+from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, part_of, phase, progress_argument
 from ninedof.support.store import Store
@@ -259,7 +259,6 @@ class Trace:
     end: Candidate
 
 
-@takes_names
 def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax") -> Trace:
     """Follow a single run from a given start.
 

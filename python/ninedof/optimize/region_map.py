@@ -24,7 +24,7 @@ from ninedof.proof.point_rule import tilt_and_yaw
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.path_limits import limits_at_poses
-from ninedof.support.arguments import instance, takes_names
+from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
 
 NAMES = ("x", "y", "z", "tilt about x", "tilt about y", "yaw")
@@ -82,7 +82,6 @@ class RegionMap:
         return self.axes[0] not in "xyz"
 
 
-@takes_names
 def region_map(result: Result) -> RegionMap | None:
     """Return a map of the worst condition number over the region of a study, of its best design.
 

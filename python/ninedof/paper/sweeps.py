@@ -16,7 +16,7 @@ from ninedof.optimize.result import Status
 from ninedof.paper import published
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.support.arguments import choice, takes_names, whole
+from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays
 from ninedof.support.running import Progress
@@ -37,7 +37,6 @@ SIDES = ("a", "b")
 STARTS = 32
 
 
-@takes_names
 def sweep_figure(
     figure: str,
     points: int | None = None,

@@ -18,7 +18,7 @@ from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import Front, objective_of
 from ninedof.pareto.limits import TOLERANCE, resolve, tightest_first, with_degrees, without_degrees
 from ninedof.pareto.solving import BISECTIONS, FrontSolver, between_indices, of_a_limit, of_tolerances
-from ninedof.support.arguments import finite, instance, items, path_argument, shown, takes_names, whole
+from ninedof.support.arguments import finite, instance, items, path_argument, shown, whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, progress_argument
 from ninedof.support.store import Store
@@ -29,7 +29,6 @@ FIRST = 0.6  # share of the points that is evenly spaced; the others go where th
 SPANS = {CONDITION_LIMIT: between_indices, TOLERANCE: of_tolerances}
 
 
-@takes_names
 def pareto(
     study: Study,
     against: str,

@@ -11,7 +11,7 @@ from typing import Any
 from ninedof.design.actuators import LEG_KINDS, Actuator
 from ninedof.design.study import Study
 from ninedof.proof.design_range import LONGEST, UNDECIDED, design_range, existence
-from ninedof.support.arguments import finite, instance, takes_names, whole
+from ninedof.support.arguments import finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS
 from ninedof.support.running import Progress, part_of, progress_argument
 
@@ -46,7 +46,6 @@ class AdmissibleRows:
     """Ctrl-C: the rows after it are undecided."""
 
 
-@takes_names
 def admissible_actuators(
     study: Study,
     vary: Collection[str] | Mapping[str, tuple[float, float] | None],

@@ -13,7 +13,6 @@ from ninedof.conditioning.characteristic_length import operands_and_length
 from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import takes_names
 from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_leading, thread_argument
 from ninedof.support.text import short, short_repr
 
@@ -136,7 +135,6 @@ def axis_condition_number_bounds(
     return _at_poses("axis_condition_number_bounds", (), geometry, configuration, characteristic_length, threads)
 
 
-@takes_names
 def hexagonal_condition_number_bounds(
     a1: ArrayLike,
     a2: ArrayLike,

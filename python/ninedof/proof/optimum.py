@@ -11,14 +11,13 @@ from ninedof.proof.class_proof import MOST_BOXES, prove_class
 from ninedof.proof.design_range import LONGEST
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.proof.optimum_steps import StepByStep, ways_of
-from ninedof.support.arguments import finite, instance, path_argument, takes_names
+from ninedof.support.arguments import finite, instance, path_argument
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, progress_argument
 from ninedof.support.structs import from_core
 from ninedof.support.text import short_repr
 
 
-@takes_names
 def prove_optimum(
     study: Study,
     condition_number: float,
@@ -143,7 +142,6 @@ class CertificateCheck:
     """Of a proof: the designs that it is about, one line each, as the checker read them; angles in radians."""
 
 
-@takes_names
 def check_certificate(
     path: str | os.PathLike[str], *, time_limit: float | None = None, progress: Progress | None = None
 ) -> CertificateCheck:

@@ -10,7 +10,7 @@ from ninedof.motion import Followed
 from ninedof.optimize.result import Result, with_fixed_design
 from ninedof.pareto import Front
 from ninedof.records.design_file import Design, load_design, save_design
-from ninedof.support.arguments import path_argument, shown, takes_names
+from ninedof.support.arguments import path_argument, shown
 from ninedof.sweep import SweepResult
 from ninedof.workspace import WorkspaceMap
 
@@ -19,7 +19,6 @@ POINT = "#"
 Loaded = Result | Front | WorkspaceMap | SweepResult | Followed | Design
 
 
-@takes_names
 def load(path: str | os.PathLike[str]) -> Loaded:
     """Read what a path names: a run folder, one point of it, or a design file.
 
@@ -73,7 +72,6 @@ def load(path: str | os.PathLike[str]) -> Loaded:
     return _point(run, point, os.fspath(path)) if point else run
 
 
-@takes_names
 def save(run: Loaded, path: str | os.PathLike[str]) -> Path:
     """Write what a run or a design is, so that `load` gives it back.
 

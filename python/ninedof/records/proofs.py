@@ -10,7 +10,7 @@ from ninedof.proof.admissible_set import AdmissibleSet
 from ninedof.proof.design_range import DesignRange
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.records.load import split
-from ninedof.support.arguments import path_argument, takes_names
+from ninedof.support.arguments import path_argument
 from ninedof.support.files import json_bytes, read_json, write_whole
 from ninedof.support.store import folder_of
 
@@ -26,7 +26,6 @@ def save_certificate(certificate: MachineCertificate, file: str | os.PathLike[st
     return write_whole(Path(file), json_bytes("certificate", certificate.to_dict()))
 
 
-@takes_names
 def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
     """Read the certificate of a machine.
 

@@ -8,14 +8,13 @@ from pathlib import Path
 from ninedof.optimize.result import Result
 from ninedof.pareto import Front
 from ninedof.records.load import split
-from ninedof.support.arguments import path_argument, takes_names
+from ninedof.support.arguments import path_argument
 from ninedof.support.files import write_whole
 from ninedof.support.store import folder_of
 
 FILE = "report.html"
 
 
-@takes_names
 def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike[str] | None = None) -> Path:
     """Write a run as one page of HTML: question, answer, machine, sheet, figures, what is proved, how to reproduce it.
 

@@ -9,7 +9,7 @@ from typing import Any, ParamSpec, Protocol, TypeVar, overload
 
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import shown, takes_names
+from ninedof.support.arguments import shown
 
 P = ParamSpec("P")
 R_co = TypeVar("R_co", covariant=True)
@@ -51,7 +51,6 @@ def takes_designs(function: Callable[P, R_co]) -> TakesDesigns[P, R_co]:
     posed = len(names) > 1 and names[1] in ("configuration", "home")
     judged = LENGTH in names or "options" in names
     place = names.index(LENGTH) if LENGTH in names else len(names)
-    function = function if "options" in names else takes_names(function)
 
     @wraps(function)
     def call(geometry: Any, *args: Any, **kwargs: Any) -> R_co:

@@ -9,10 +9,9 @@ from numpy.typing import ArrayLike
 
 from ninedof.design.duty import Tolerances
 from ninedof.sheet.sheet import sheet
-from ninedof.support.arguments import finite, items, shown, takes_names
+from ninedof.support.arguments import finite, items, shown
 
 
-@takes_names
 def tolerances_for(
     design: Any,
     position: float | None = None,

@@ -14,7 +14,7 @@ from ninedof.design.study import LENGTH
 from ninedof.sheet.rows import LimitRow, limit_amount
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.sheet.tables import over, pose_of
-from ninedof.support.arguments import shown, takes_names
+from ninedof.support.arguments import shown
 from ninedof.support.margins import margin_words
 from ninedof.support.structs import plain_fields
 from ninedof.support.units import amount, metres
@@ -113,7 +113,6 @@ class Comparison:
         return notebook(repr(self)[1:-1], *(part for part in self.parts() if isinstance(part, Table)))
 
 
-@takes_names
 def compare(*designs: Any, names: Sequence[str] | None = None) -> Comparison:
     """Return two or three designs beside each other: numbers, limits, variables, what differs in their studies.
 

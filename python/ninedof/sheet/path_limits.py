@@ -20,7 +20,7 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.follow import Followed, LimitBreak
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import LEGS, Geometry
-from ninedof.support.arguments import instance, takes_names
+from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import margin_of, tolerance_of
 
@@ -151,7 +151,6 @@ class PathLimits:
         return f"<PathLimits: {len(self.time)} poses, {'breaks ' + names if names else 'within limits'}>"
 
 
-@takes_names
 def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLimits:
     """Return the margins of the limits of a study along a motion.
 

@@ -16,7 +16,7 @@ from ninedof.sheet.region_look import SAMPLES, RegionSearch, look_over, robot_of
 from ninedof.sheet.request import duty_of, load_rows, masses_of
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import inverse_dynamics, masses_for_core
-from ninedof.support.arguments import Vector, shown, takes_names, vector, whole
+from ninedof.support.arguments import Vector, shown, vector, whole
 from ninedof.support.arrays import Floats, one_or_each
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount
@@ -75,7 +75,6 @@ class Payload(NamedTuple):
         return {**self._asdict(), "configuration": pose, "region": search, "proved": False}
 
 
-@takes_names
 def largest_payload(
     design: Any,
     force: ArrayLike | None = None,

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands_with
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import items, shown, takes_names
+from ninedof.support.arguments import items, shown
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.text import short_repr
 from ninedof.support.units import metres, unit_argument
@@ -67,7 +67,6 @@ class InverseDynamics(NamedTuple):
     """The part that no leg forces balance, as `leg_forces` has it, shape (..., 9). Exactly 0 unless singular."""
 
 
-@takes_names
 def inverse_dynamics(
     geometry: Geometry,
     configuration: Configuration,

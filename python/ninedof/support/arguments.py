@@ -5,11 +5,9 @@ from __future__ import annotations
 import math
 import os
 import unicodedata
-from collections.abc import Callable, Iterable, Mapping
-from functools import wraps
-from inspect import signature
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -22,8 +20,6 @@ LARGEST = 2**63 - 1  # what the core's integers hold
 
 Vector = tuple[float, float, float]
 T = TypeVar("T")
-P = ParamSpec("P")
-R = TypeVar("R")
 
 
 def shown(value: Any) -> str:
@@ -79,19 +75,6 @@ def known_keys(where: str, entries: Any, known: Iterable[str]) -> None:
         if key not in names:
             hint = did_you_mean(key, names)
             raise ValueError(f"{where}: got the entry {shown(key)}, expected only {', '.join(names)}{hint}")
-
-
-def takes_names(function: Callable[P, R]) -> Callable[P, R]:
-    """Let a function raise ValueError for an argument by a name that it does not have, with the nearest that it has."""
-    names = signature(function).parameters
-
-    @wraps(function)
-    def call(*args: P.args, **kwargs: P.kwargs) -> R:
-        if not kwargs.keys() <= names.keys():
-            known_keys(function.__name__, kwargs, names)
-        return function(*args, **kwargs)
-
-    return call
 
 
 def table(name: str, value: Any) -> Mapping[str, Any]:

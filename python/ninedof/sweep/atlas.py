@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ninedof.conditioning.hexagonal import HEXAGONAL
-from ninedof.support.arguments import finite, items, known_keys, shown, takes_names, whole
+from ninedof.support.arguments import finite, items, known_keys, shown, whole
 from ninedof.support.chunks import MOST_CHUNK, chunk_argument, computed
 from ninedof.support.extras import versions
 from ninedof.support.files import Arrays
@@ -39,7 +39,6 @@ BLOCK = 2**14  # designs evaluated together: they fit into the caches; signals a
 MOST = 2**40  # designs: years of work
 
 
-@takes_names
 def atlas(
     designs: int = 1_000_000,
     seed: int = 0,

@@ -6,15 +6,12 @@ import os
 import warnings
 from typing import TYPE_CHECKING, Any
 
-from ninedof.support.arguments import takes_names
-
 if TYPE_CHECKING:
     from ninedof.motion.trajectory import Trajectory
     from ninedof.proof.admissible_set import AdmissibleSet
     from ninedof.viewer.app import Viewer
 
 
-@takes_names
 def view(
     design: Any = None,
     *,

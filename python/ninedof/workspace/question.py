@@ -25,7 +25,6 @@ from ninedof.support.arguments import (
     known_keys,
     number,
     shown,
-    takes_names,
     vector,
     whole,
 )
@@ -60,7 +59,6 @@ DEFAULTS = {"internal_point": 0.5, "characteristic_length": 1.0}
 """Of a robot alone; a design has its own."""
 
 
-@takes_names
 def spread_rotations(count: int, angle: float = math.pi) -> Floats:
     """Return rotations that cover a ball of SO(3) evenly: all of it, or those within an angle of the identity.
 

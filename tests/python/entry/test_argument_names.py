@@ -1,4 +1,4 @@
-"""An argument by a name that nothing has: a ValueError with the nearest name, of functions and of what people make."""
+"""An entry by a name that a study and its tables do not have: a ValueError with the nearest name."""
 
 import inspect
 
@@ -7,10 +7,9 @@ import pytest
 import ninedof as nd
 
 MADE = ("About", "Actuator", "Loads", "Masses", "Objective", "Pose", "Region", "Speeds", "Study", "Tolerances", "Tool")
-FUNCTIONS = [name for name in nd.__all__ if inspect.isfunction(getattr(nd, name))]
 
 
-@pytest.mark.parametrize("name", [*MADE, *FUNCTIONS])
+@pytest.mark.parametrize("name", MADE)
 def test_a_name_that_nothing_has_is_told(name):
     given = {
         one.name: None
@@ -21,11 +20,9 @@ def test_a_name_that_nothing_has_is_told(name):
         getattr(nd, name)(**given, not_a_name=1)
 
 
-def test_the_nearest_name_is_told(published, neutral):
+def test_the_nearest_name_is_told():
     for call, nearest in (
         (lambda: nd.Study(constraint={}), "constraints"),
-        (lambda: nd.failure(published, neutral, pair=True), "pairs"),
-        (lambda: nd.stiffness(published, neutral, stiff=1.0), "leg_stiffness"),
         (lambda: nd.Region(tilts=0.1), "tilt"),
     ):
         with pytest.raises(ValueError, match=rf"got the entry '\w+', expected only .*\(did you mean '{nearest}'\?\)$"):

@@ -21,7 +21,7 @@ from ninedof.sheet.request import duty_of, load_rows, masses_of
 from ninedof.sheet.sheet import Extreme, extreme
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import inverse_dynamics, masses_for_core
-from ninedof.support.arguments import finite, flag, takes_names, whole
+from ninedof.support.arguments import finite, flag, whole
 from ninedof.support.arrays import Floats
 
 LOST = 1e6
@@ -31,7 +31,6 @@ EXTERNAL = LEGS[:3]
 SETS = (*((k, -1) for k in range(9)), *combinations(range(9), 2))
 
 
-@takes_names
 def failure(
     design: Any,
     poses: Configuration | None = None,
