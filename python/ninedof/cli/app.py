@@ -7,9 +7,10 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from ninedof.cli import commands
 from ninedof.cli.answer import command
@@ -18,8 +19,32 @@ from ninedof.support.running import running
 
 PROGRAM = "ninedof"
 OWN = ("-h", "--help", "--version", "--install-completion", "--show-completion")  # options of no command
+DEFAULT = "optimize"  # the command of a line that begins with a study file or an option
+
+
+def _with_command(words: Sequence[str]) -> list[str]:
+    is_own = bool(words) and words[0] in OWN
+    needs_it = not words or words[0].endswith(".toml") or (words[0].startswith("-") and not is_own)
+    return [DEFAULT, *words] if needs_it else list(words)
+
+
+class _Commands(TyperGroup):
+    """The commands; a shell completes a line without one as one of the default command."""
+
+    def make_context(self, info_name: str | None, args: list[str], *more: Any, **extra: Any) -> Any:
+        return super().make_context(info_name, _with_command(args) if args else args, *more, **extra)
+
+    def shell_complete(self, ctx: Any, incomplete: str) -> Any:
+        items = super().shell_complete(ctx, incomplete)
+        if incomplete.startswith("-") and (default := self.get_command(ctx, DEFAULT)) is not None:
+            inner = default.make_context(DEFAULT, [], parent=ctx, resilient_parsing=True)
+            own = {item.value for item in items}
+            items += [item for item in default.shell_complete(inner, incomplete) if item.value not in own]
+        return items
+
 
 app = typer.Typer(
+    cls=_Commands,
     no_args_is_help=False,
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,
@@ -56,11 +81,8 @@ for _name, _module in sorted(MODULES.items(), key=lambda item: int(item[1].PLACE
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and end with its exit status; an error is one line on standard error."""
-    words = list(sys.argv[1:] if arguments is None else arguments)
+    words = _with_command(sys.argv[1:] if arguments is None else arguments)
     if not os.environ.get("COLUMNS", "1").strip("0"):
         del os.environ["COLUMNS"]  # nothing can be written on no columns: as wide as the terminal
-    own_option = bool(words) and words[0] in OWN
-    if not words or words[0].endswith(".toml") or (words[0].startswith("-") and not own_option):
-        words.insert(0, "optimize")
     with interruptible(), running(PROGRAM, words):
         raise SystemExit(finish(lambda: app(words, prog_name=PROGRAM, standalone_mode=False), words))

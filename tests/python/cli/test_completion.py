@@ -26,6 +26,10 @@ def completed(run, monkeypatch):
     ("line", "values"),
     {
         "ninedof adm": ["admissible"],
+        "ninedof study.toml --s": ["--starts", "--seed"],
+        "ninedof --ce": ["--certify"],
+        "ninedof --ver": ["--version"],
+        "ninedof --certify --fig": ["--figures"],
         "ninedof admissible run --ar": ["--around"],
         "ninedof admissible run --vary b": ["b1", "b2", "base_internal_angle_deg", "base_external_height"],
         "ninedof admissible run --set theta": ["theta_z_deg"],
