@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from pkgutil import iter_modules
+from pkgutil import walk_packages
 from typing import Annotated, Any
 
 import typer
@@ -73,8 +73,9 @@ def _root(
     pass
 
 
-MODULES = {one.name: import_module(f"{commands.__name__}.{one.name}") for one in iter_modules(commands.__path__)}
-for _name, _module in sorted(MODULES.items(), key=lambda item: int(item[1].PLACE)):
+_FILES = (one.name for one in walk_packages(commands.__path__, f"{commands.__name__}.") if not one.ispkg)
+MODULES = {file.rpartition(".")[2]: import_module(file) for file in _FILES}
+for _name, _module in sorted(MODULES.items(), key=lambda item: (int(item[1].PLACE), item[0])):
     _examples = _module.EXAMPLES.replace("\n", "\n\n")  # a paragraph each
     app.command(epilog=f"[bold]Examples[/bold]{_examples}")(command(getattr(_module, _name)))
 

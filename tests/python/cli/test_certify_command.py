@@ -12,7 +12,7 @@ from rich.console import Console
 
 import ninedof as nd
 from ninedof.cli.app import main
-from ninedof.cli.commands.certify import certificate_table
+from ninedof.cli.commands.runs.certify import certificate_table
 from ninedof.tables.terminal import terminal
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples" / "18_requirement.toml"

@@ -139,7 +139,7 @@ import os, signal, sys
 from functools import partial
 sys.path[:] = {path}
 from ninedof.cli.app import main
-from ninedof.cli.commands import certify
+from ninedof.cli.commands.runs import certify
 from ninedof import _core
 _core.ConditionSettings = partial(_core.ConditionSettings, slice_seconds=0.01, least_seconds=0.01)
 def save(made, file, write=certify.save_certificate):

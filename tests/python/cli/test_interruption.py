@@ -10,7 +10,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.cli.app import main
-from ninedof.cli.commands import paper as paper_command
+from ninedof.cli.commands.runs import paper as paper_command
 from ninedof.cli.ending import interruptible
 
 LOADING = """
@@ -43,7 +43,7 @@ SIGNALS = [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
     ("name", "number", "status"),
     [
         ("ninedof._core", signal.SIGINT, 130),
-        ("ninedof.cli.commands.optimize", signal.SIGINT, 130),
+        ("ninedof.cli.commands.runs.optimize", signal.SIGINT, 130),
     ],
 )
 def test_an_interruption_while_the_command_is_loaded(name, number, status):

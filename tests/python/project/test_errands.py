@@ -23,7 +23,7 @@ MOST = {
 PATTERNS = {  # of files that are new, one that exists
     "cpp/src/limits/<name>.cpp": "joint_cone",
     "cpp/include/ninedof/families/<name>_family.hpp": "symmetric",
-    "python/ninedof/cli/commands/<name>.py": "modes",
+    "python/ninedof/cli/commands/poses/<name>.py": "modes",
     "python/ninedof/plot/<name>.py": "front",
     "python/ninedof/export/<name>.py": "mjcf",
     "tests/python/export/test_<name>.py": "mjcf",

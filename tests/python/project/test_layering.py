@@ -53,7 +53,7 @@ def test_rooms_of_the_python_tests():
 def test_the_whole_tree_is_read(cpp_files, python_files):
     assert {f"cpp/{LEGS}", "cpp/src/optimize/optimize.cpp", "cpp/bindings/module.cpp"} <= set(cpp_files)
     assert {"tests/cpp/robot/legs.cpp", "bench/cpp/robot/legs.cpp"} <= set(cpp_files)
-    assert {"__init__.py", "kinematics/kinematics.py", "cli/commands/sweep.py"} <= set(python_files)
+    assert {"__init__.py", "kinematics/kinematics.py", "cli/commands/runs/sweep.py"} <= set(python_files)
     assert "ninedof/robot/legs.hpp" in included_headers(cpp_files["cpp/src/kinematics/velocity.cpp"])
 
 

@@ -13,7 +13,7 @@ from sizes import size
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.cli.commands.certify import certificate_table
+from ninedof.cli.commands.runs.certify import certificate_table
 from ninedof.design.limits import ROWS, split_label
 from ninedof.export.latex import _limits as latex_limits
 from ninedof.proof.machine import certify

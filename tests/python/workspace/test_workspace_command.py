@@ -102,7 +102,7 @@ def test_the_command_passes_on_position_length_and_sample(run, tmp_path, publish
 def test_ctrl_c_before_the_first_level_leaves_a_record(run, tmp_path, monkeypatch):
     """All numbers are NaN, and the command ends as after any other interruption."""
     monkeypatch.setattr(
-        importlib.import_module("ninedof.cli.commands.workspace"),
+        importlib.import_module("ninedof.cli.commands.runs.workspace"),
         "find_workspace",
         lambda *arguments, **options: nd.workspace(*arguments, **options | {"resolution": 128}),
     )
@@ -122,7 +122,7 @@ def test_ctrl_c_after_the_search_keeps_the_map(run, tmp_path, monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(importlib.import_module("ninedof.cli.commands.workspace"), "workspace_table", interrupted)
+    monkeypatch.setattr(importlib.import_module("ninedof.cli.commands.runs.workspace"), "workspace_table", interrupted)
     assert run(f"workspace --legs 2.5 6.5 --tolerance 0.1 --out {tmp_path / 'run'}")[0] == 130
     assert nd.load(tmp_path / "run").volume > 0.0
 

@@ -10,7 +10,7 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.commands.compare import compared, plot_argument
+from ninedof.cli.commands.machines.compare import compared, plot_argument
 from ninedof.cli.options import (
     HEXAGON,
     ONE_DESIGN,
