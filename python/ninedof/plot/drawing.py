@@ -232,7 +232,7 @@ class _Panel:
         aside = np.repeat([out, -out], len(share), axis=0)
         for reach in LEADERS:
             spots = on_leg + reach * aside
-            costs = [self.places.cost(rectangle(spot, *size)) for spot in spots]
+            costs = self.places.costs(spots, *size)
             best = int(np.argmin(costs))
             if costs[best] < WORDS or reach == LEADERS[-1]:
                 break

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,9 @@ from ninedof.plot import style
 from ninedof.support.arguments import instance, path_argument, shown
 from ninedof.support.files import write_whole
 from ninedof.support.text import escaped
+
+KINDS: dict[str, Any] = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
+"""Suffixes of files, with metadata that differ from day to day left out."""
 
 
 def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[Path]:
@@ -57,7 +60,8 @@ def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[P
 
 def save_as(figure: Figure, path: Path) -> Path:
     """Write a figure as one file, PNG, SVG or PDF by its suffix."""
-    return write_whole(path, dict(_laid_out(figure))[path.suffix.lower().lstrip(".")])
+    ((_, image),) = _laid_out(figure, [path.suffix.lower().lstrip(".")])
+    return write_whole(path, image)
 
 
 def picture(image: Any) -> bytes:
@@ -67,7 +71,7 @@ def picture(image: Any) -> bytes:
     return stream.getvalue()
 
 
-def _laid_out(figure: Figure) -> Iterator[tuple[str, bytes]]:
+def _laid_out(figure: Figure, kinds: Iterable[str] = KINDS) -> Iterator[tuple[str, bytes]]:
     r"""Yield suffix and content of each file, in the settings of all figures; control characters of names as \x1b."""
     with style.settings():
         for text in figure.findobj(Text):
@@ -75,7 +79,7 @@ def _laid_out(figure: Figure) -> Iterator[tuple[str, bytes]]:
         if (engine := figure.get_layout_engine()) is not None:
             engine.execute(figure)  # once for all files
             figure.set_layout_engine("none")
-        for kind, dates in (("png", {}), ("svg", {"Date": None}), ("pdf", {"CreationDate": None})):
+        for kind in kinds:
             image = io.BytesIO()
-            figure.savefig(image, format=kind, dpi=style.DPI, metadata=dates)
+            figure.savefig(image, format=kind, dpi=style.DPI, metadata=KINDS[kind])
             yield kind, image.getvalue()

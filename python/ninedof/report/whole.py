@@ -90,6 +90,7 @@ def _text(page_: Page, record: Record, folder: Path | None, name: str, run: Any)
 def _drawn(page_: Page, run: Any, study: Study, have: Mapping[str, Path], folder: Path) -> dict[str, Path]:
     """Draw what the page shows and the folder of its run does not have; return the folder of each figure."""
     from ninedof import plot
+    from ninedof.plot.files import save_as
 
     if page_.machine is None:
         return {}
@@ -103,5 +104,6 @@ def _drawn(page_: Page, run: Any, study: Study, have: Mapping[str, Path], folder
     if "region" not in have and isinstance(run, Result) and (of_region := region_map(run)) is not None:
         new["region"] = plot.region_map(of_region)
     for stem, one in new.items():
-        plot.save(one, folder, stem)
+        for suffix in (".png", ".svg"):  # of which the page takes one
+            save_as(one, folder / f"{stem}{suffix}")
     return dict.fromkeys(new, folder)
