@@ -6,6 +6,7 @@ import functools
 import gc
 import shlex
 import signal
+from importlib import import_module
 
 import pytest
 import typer.main
@@ -72,6 +73,12 @@ def neutral():
 def stack():
     """Five configurations around the neutral one, none singular."""
     return nd.Configuration.neutral(zp=3.9828, zs=[1.9, 2.1, 2.3, 2.5, 2.7], theta_z=[0.0, 0.1, -0.2, 0.3, 0.4])
+
+
+@pytest.fixture
+def few_samples(monkeypatch):
+    """Sheets look at few poses of a region: for tests of what is said, which is the same."""
+    monkeypatch.setattr(import_module("ninedof.sheet.sheet"), "SAMPLES", 300)
 
 
 @pytest.fixture

@@ -7,6 +7,8 @@ from tooled import solved_in, tooled
 
 import ninedof as nd
 
+pytestmark = pytest.mark.usefixtures("few_samples")
+
 STUDY = tooled(
     constraints={"leg_length": (1.0, 900.0)},
     loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -90.0]]},
@@ -16,7 +18,7 @@ COMMANDS = {
     "optimize {0}/study.toml --no-figures --no-report --out {0}/again",
     "evaluate {0}/run",
     "path {0}/run --line 0.5 0 0 --points 51 --no-figures --no-report --out {0}/path",
-    "workspace {0}/run --tolerance 0.5 --no-figures --out {0}/space",
+    "workspace {0}/run --tolerance 0.5 --resolution 6 --points 500 --no-figures --out {0}/space",
     "forces {0}/run",
     "accuracy {0}/run",
     "stiffness {0}/run --leg-stiffness 100",
@@ -24,7 +26,7 @@ COMMANDS = {
     "singularity {0}/run",
     "modes {0}/run",
     "modes {0}/run --lengths 500,500,500,300,300,300,300,300,300",
-    "certify {0}/run --time 1",
+    "certify {0}/run --time 0.1",
     "failure {0}/run --no-pairs",
     "sheet {0}/run",
 }
@@ -68,7 +70,7 @@ def test_axes_of_cones_are_in_the_frame_of_the_plate(run, tmp_path):
     cones = {"platform_cone": {"max_deg": 70.0, "axis": [0.0, 0.0, -1.0]}}
     turned = replace(STUDY, constraints=cones, tool={"position": [0.0, 0.0, -10.0], "rotation_deg": [0.0, 15.0, 0.0]})
     folder = solved_in(tmp_path, turned)
-    line = f"workspace {folder}/run --tolerance 0.5 --no-figures"
+    line = f"workspace {folder}/run --tolerance 0.5 --resolution 6 --points 500 --no-figures"
     of_study = run(f"{line} --out {folder}/a")[1]
     assert "limit: platform cone 70 degrees about the axis (0, 0, -1), of the study" in " ".join(of_study.split())
     assert run(f"report {folder}/a")[0] == 0

@@ -34,7 +34,7 @@ HOME |= {"zp": 512.345, "zs": 312.345}
 
 @pytest.mark.parametrize("vary", [RADII, (*RADII, "zp"), (*RADII, "zp", "zs")])
 def test_all_words_are_in_the_page(vary):
-    found = nd.admissible(STUDY, vary, at=HOME, resolution=0.5, time_limit=2.0)
+    found = nd.admissible(STUDY, vary, at=HOME, resolution=0.5, time_limit=0.2)
     figure = plot.admissible(found)
     figure.draw_without_rendering()
     width, height = figure.get_size_inches() * figure.dpi
@@ -66,7 +66,7 @@ def test_lines_near_a_singularity_are_smooth_and_none_is_where_o_is_above_the_pl
         characteristic_length=150.0,
         unit="mm",
     )
-    found = nd.admissible(study, ("zp", "zs"), at={"zp": 483.0, "zs": 319.0}, resolution=0.5, time_limit=2.0)
+    found = nd.admissible(study, ("zp", "zs"), at={"zp": 483.0, "zs": 319.0}, resolution=0.5, time_limit=0.2)
     axes = plot.admissible(found).axes[0]
     (lines,) = [one for one in axes.collections if hasattr(one, "levels")]
     paths = [part for path in lines.get_paths() for part in path.to_polygons(closed_only=False)]

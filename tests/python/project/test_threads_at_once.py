@@ -7,7 +7,7 @@ import numpy as np
 
 import ninedof as nd
 
-THREADS = 8
+THREADS = 4
 BOX, LEGS = ([-1, -1, 3], [1, 1, 5]), {"leg_limits": (2.0, 6.5)}
 
 
@@ -41,7 +41,7 @@ def everything():
     return one
 
 
-def test_eight_threads_at_once_have_the_results_of_one():
+def test_four_threads_at_once_have_the_results_of_one():
     alone, together = everything(), [None] * THREADS
     gate = threading.Barrier(THREADS)
 
@@ -60,7 +60,7 @@ def test_eight_threads_at_once_have_the_results_of_one():
         assert [name for name in alone if found[name] != alone[name]] == []
 
 
-def test_eight_threads_share_one_stack():
+def test_four_threads_share_one_stack():
     """The same arrays, Geometry and Configuration in every thread."""
     alone, found = main_results.batches(1), [None] * THREADS
 

@@ -277,7 +277,7 @@ def test_poses_beyond_the_doubles_are_undecided():
     geometry = asked.problem().geometry(list(VARIABLES.values()))
     far = np.array([[0.0, 0.0, 360.0], [1e99, 0.0, 360.0]])
     poses = nd.Configuration(far, np.repeat(np.eye(3)[None], 2, 0), far - [0.0, 0.0, 100.0])
-    made = certify(asked, geometry, poses, 150.0, time_limit=1.0)
+    made = certify(asked, geometry, poses, 150.0, time_limit=0.1)
     assert "proved" not in {one.answer for one in made.limits}
     assert made.condition[1] == math.inf
 

@@ -10,6 +10,7 @@ import ninedof as nd
 from ninedof.proof.optimum_steps import ways_of
 
 PAPER = nd.Study.paper()
+SMALLER = replace(PAPER, variables=dict(PAPER.variables) | {"a1": 0.0, "b2": 0.0})  # the same optimum, in less time
 FLAT = dict.fromkeys(("base_internal_angle", "platform_internal_angle"), 0.0)
 INTERNAL = {"base_internal_radius": (0.0, 2.0), "platform_internal_radius": (0.0, 2.0)}
 PLATES = nd.Study(
@@ -21,11 +22,11 @@ PLATES = nd.Study(
 )
 STUDIES = {
     "zp from 0": replace(PAPER, variables=dict(PAPER.variables) | {"zp": (0.0, 80.0), "zs": (0.0, 80.0)}),
-    "free": replace(PAPER, characteristic_length=(0.5, 3.0)),
-    "optimal": replace(PAPER, characteristic_length="optimal"),
-    "natural": replace(PAPER, characteristic_length="natural"),
-    "mean_leg": replace(PAPER, characteristic_length="mean_leg"),
-    "platform_radius": replace(PAPER, characteristic_length="platform_radius"),
+    "free": replace(SMALLER, characteristic_length=(0.5, 3.0)),
+    "optimal": replace(SMALLER, characteristic_length="optimal"),
+    "natural": replace(SMALLER, characteristic_length="natural"),
+    "mean_leg": replace(SMALLER, characteristic_length="mean_leg"),
+    "platform_radius": replace(SMALLER, characteristic_length="platform_radius"),
     "internal radii from 0": PLATES,
     "internal radii from 0, natural": replace(PLATES, characteristic_length="natural"),
     "internal radii from 0, mean_leg": replace(PLATES, characteristic_length="mean_leg"),
@@ -88,7 +89,7 @@ def test_nothing_is_proved_above_a_design_that_is_known(seed):
     length = {"characteristic_length": 1.0} if isinstance(kind, tuple) or kind == "optimal" else {}
     kappa = study.evaluate({name: x[name] for name in ends} | length).condition_number
     assert math.isfinite(kappa)
-    proof = nd.prove_optimum(study, kappa * 1.0001, gap=0.0, time_limit=1.0)
+    proof = nd.prove_optimum(study, kappa * 1.0001, gap=0.0, time_limit=0.2)
     assert not proof.complete
     assert proof.lower_bound <= kappa
 

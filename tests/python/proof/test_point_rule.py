@@ -144,7 +144,7 @@ def test_a_bound_below_the_worst_pose_of_a_rule_is_never_proved(shape, degree):
 def test_a_condition_number_met_by_the_rule_is_that_of_the_model():
     region = REGIONS["six"]
     rule = random_rule(region, np.random.default_rng(5), 2)
-    certificate = proved(region, rule, gap=5.0, time_limit=5.0)
+    certificate = proved(region, rule, gap=5.0, time_limit=0.05)
     met = certificate.condition_at
     turn = Rotation.from_rotvec(met.tilt) * Rotation.from_rotvec((0.0, 0.0, met.yaw))
     s = rule.at((*met.shift, *met.tilt[:2], met.yaw))
@@ -156,9 +156,9 @@ def test_a_condition_number_met_by_the_rule_is_that_of_the_model():
 def test_a_rule_that_passes_a_limit_is_said_to():
     region = REGIONS["shift"]
     rule = random_rule(region, np.random.default_rng(5), 1)
-    worst = max(b - a for a, b in proved(region, rule, gap=9.0, time_limit=5.0).lengths)
+    worst = max(b - a for a, b in proved(region, rule, gap=9.0, time_limit=0.01).lengths)
     limits = {"stroke": (None, 0.99 * worst)}
-    found = certify(study(region, limits), GEOMETRY, NEUTRAL, 150.0, rule=rule, gap=9.0, time_limit=5.0)
+    found = certify(study(region, limits), GEOMETRY, NEUTRAL, 150.0, rule=rule, gap=9.0, time_limit=0.01)
     assert found.limits[1].answer == "violated"
     assert "Violated by the rule: stroke" in str(found)
     assert str(found).startswith("O follows the rule stored in the certificate: a polynomial of degree 1 with 4 terms")
@@ -167,7 +167,7 @@ def test_a_rule_that_passes_a_limit_is_said_to():
 def test_the_rule_comes_back_from_the_file():
     region = REGIONS["path"]
     rule = random_rule(region, np.random.default_rng(5), 3)
-    certificate = proved(region, rule, gap=5.0, time_limit=5.0)
+    certificate = proved(region, rule, gap=5.0, time_limit=0.05)
     data = json.loads(json.dumps(certificate.to_dict()))
     again = MachineCertificate.from_dict(data)
     assert again == certificate
@@ -180,9 +180,9 @@ def test_a_proof_goes_on_with_its_own_rule_alone():
     region = REGIONS["box"]
     rng = np.random.default_rng(5)
     rule, other = (random_rule(region, rng, 2) for _ in range(2))
-    part = proved(region, rule, gap=1e-4, time_limit=0.2)
+    part = proved(region, rule, gap=1e-4, time_limit=0.05)
     assert part.left_count
-    again = certify(study(region), GEOMETRY, NEUTRAL, 150.0, resume=part, gap=1.0, time_limit=0.2)
+    again = certify(study(region), GEOMETRY, NEUTRAL, 150.0, resume=part, gap=1.0, time_limit=0.05)
     assert again.rule == rule
     assert again.condition[1] <= part.condition[1]
     with pytest.raises(ValueError, match=r"^rule: got another one than that of the certificate"):
@@ -221,10 +221,10 @@ def test_a_rule_is_asked_for_only_where_all_else_fits():
 
     with pytest.raises(ValueError, match=r"^gap: got 0.0"):
         proved(region, give, gap=0.0)
-    part = proved(region, rule, gap=1e-4, time_limit=0.1)
-    proved(region, give, resume=part, time_limit=0.1)
+    part = proved(region, rule, gap=1e-4, time_limit=0.02)
+    proved(region, give, resume=part, time_limit=0.02)
     assert not asked
-    assert proved(region, give, gap=9.0, time_limit=0.1).rule == rule
+    assert proved(region, give, gap=9.0, time_limit=0.02).rule == rule
     assert asked
     with pytest.raises(ValueError, match=r"^rule: got 3, expected a PointRule"):
         proved(region, 3)

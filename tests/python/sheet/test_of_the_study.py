@@ -37,7 +37,7 @@ def machine(objective, constraints=None):
 )
 def test_speeds_of_the_sheet_are_those_that_the_limits_of_the_study_have(objective):
     result = machine(objective, {"upper_rate": (None, 1e4), "lower_rate": (None, 1e4)})
-    sheet = result.sheet()
+    sheet = result.sheet(samples=1000)
     assert sheet.motion.internal == result.study.leg_duty.internal
     for name, kind in (("upper_rate", "q"), ("lower_rate", "r")):
         (row,) = [row for row in sheet.limits if row.name == name]

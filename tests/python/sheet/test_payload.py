@@ -111,7 +111,7 @@ def test_each_kind_of_legs_keeps_its_own_limit_of_the_study(machine):
 
 
 def test_a_machine_that_holds_nothing_and_one_that_holds_all(machine):
-    none = nd.largest_payload(machine, 1.0)
+    none = nd.largest_payload(machine, 1.0, samples=500)
     assert (none.mass, none.fits) == (0.0, False)
     assert np.abs(none.forces).max() > 1.0
     everything = nd.largest_payload(nd.Design(HEXAGONS, HOME), np.inf)
