@@ -52,6 +52,10 @@ def test_values_are_completed(completed, line, values):
     assert all(word.startswith(typed) for word in words)
 
 
+def test_options_of_no_command_are_not_those_of_a_line_with_a_study_file(completed):
+    assert completed("ninedof study.toml --ver") == []
+
+
 def test_the_script_of_the_shell_is_printed(run, monkeypatch):
     monkeypatch.setattr("shellingham.detect_shell", lambda: ("bash", "/bin/bash"))
     status, out, err = run("--show-completion")
