@@ -48,8 +48,9 @@ def test_no_pose_of_the_region_errs_by_more(result):
     assert worst.max() > 0.8
 
 
-def test_a_design_of_a_file_has_its_neutral_pose(result):
-    design = nd.Design(result.geometry, result.configuration, 1.0)
+def test_a_design_of_a_file_has_its_neutral_pose():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    design = nd.Design(g, nd.Configuration.neutral(3.9828, 2.4432), 1.0)
     kept = nd.tolerances_for(design, position=0.01)
     assert nd.error_bounds(design, kept.legs, 0.0).position == pytest.approx(0.005, rel=1e-9)
     assert nd.error_bounds(design, 0.0, kept.joints).position == pytest.approx(0.005, rel=1e-9)

@@ -301,7 +301,7 @@ def test_sets_of_rotations(published, archetype):
 
 
 def test_threads_change_nothing(published):
-    options = {"criteria": LEGS | {"condition_number": 5.0}, "gap": 0.1}
+    options = {"criteria": LEGS | {"condition_number": 5.0}, "gap": 0.2}
     one, two = (nd.certified_workspace(published, BOX, threads=threads, **options) for threads in (1, 3))
     assert one.volume == two.volume
     assert np.array_equal(one.open_low, two.open_low)
