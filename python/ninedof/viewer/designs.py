@@ -9,7 +9,6 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from ninedof.design.study import Study
 from ninedof.motion.rotations import to_quaternions
@@ -25,7 +24,6 @@ HEIGHT, WIDTH = 2.6, 5.0  # at most, of the picture in the scene
 BEHIND, ABOVE, BELOW = 2.2, 1.1, 0.5  # the machine; its lower side above the ground, at most so far below the platform
 RIGHT, UP = np.array([0.885, 0.465, 0.0]) / np.hypot(0.885, 0.465), np.array([0.0, 0.0, 1.0])  # of the first camera
 NORMAL = np.cross(RIGHT, UP)  # towards that camera
-DPI = 200
 HINT = "A click in the picture shows the design there."
 
 
@@ -37,10 +35,9 @@ class DesignPicture:
 
     def __init__(self, designs: AdmissibleSet, top: float = 0.0) -> None:
         self.designs = designs
+        figure = figure_of(designs)
+        canvas: Any = figure.canvas
         with style.settings():
-            figure = figure_of(designs)
-            figure.set_dpi(DPI)
-            canvas: Any = FigureCanvasAgg(figure)
             canvas.draw()
         self.pixels = np.array(canvas.buffer_rgba())[..., :3]
         self._planes = list(zip(figure.axes, combinations(range(len(designs.vary)), 2), strict=False))
