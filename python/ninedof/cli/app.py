@@ -23,8 +23,7 @@ DEFAULT = "optimize"  # the command of a line that begins with a study file or a
 
 
 def _with_command(words: Sequence[str]) -> list[str]:
-    is_own = bool(words) and words[0] in OWN
-    needs_it = not words or words[0].endswith(".toml") or (words[0].startswith("-") and not is_own)
+    needs_it = not words or words[0].endswith(".toml") or (words[0].startswith("-") and words[0] not in OWN)
     return [DEFAULT, *words] if needs_it else list(words)
 
 

@@ -177,7 +177,7 @@ def test_the_rule_comes_back_from_the_file():
 
 
 def test_a_proof_goes_on_with_its_own_rule_alone():
-    region = REGIONS["box"]
+    region = REGIONS["turns"]
     rng = np.random.default_rng(5)
     rule, other = (random_rule(region, rng, 2) for _ in range(2))
     part = proved(region, rule, gap=1e-4, time_limit=0.05)
@@ -211,7 +211,7 @@ def test_a_rule_that_does_not_fit_is_named():
 
 
 def test_a_rule_is_asked_for_only_where_all_else_fits():
-    region = REGIONS["box"]
+    region = REGIONS["turns"]
     rule = random_rule(region, np.random.default_rng(5), 1)
     asked = []
 
