@@ -193,6 +193,45 @@ TEST_SUITE("limits") {
     CHECK(error_over_poses(exact, {}).position.hi == 0.0);
   }
 
+  TEST_CASE("a pose that is listed beside a region does not hide a worse one in it") {
+    PosedRobot machine{Geometry::hexagonal(0.0, 6.0, 3.0, 0.0), neutral(5.0, 3.0), 1.0, {}, {}, {}};
+    machine.tolerances.legs.setConstant(1e-5);
+    Region region;
+    region.shape = Region::Shape::ball;
+    region.size = {1.0, 0.0, 0.0};
+    machine.region.push_back(region);
+    machine.poses.resize(1, machine.neutral);
+    double there = 0.0;
+    Random random(6);
+    for (int n = 0; n < 1000; ++n) {
+      Configuration inside = machine.neutral;
+      const Vec3 shift = 0.999 * random.matrix<Vec3>().normalized();
+      inside.position += shift;
+      inside.internal_point += shift;
+      const double here = error_bounds(machine.geometry, inside, machine.tolerances).position;
+      if (here > there) machine.poses.front() = inside;
+      there = std::max(there, here);
+    }
+    CHECK(error_over_poses(machine, {.gap = 0.5}).position.lo > 1.00002 * there);
+  }
+
+  TEST_CASE("boxes are not divided for a limit on which tolerances alone decide") {
+    PosedRobot machine{Geometry::hexagonal(0.0, 6.0, 3.0, 0.0), neutral(5.0, 3.0), 1.0, {}, {}, {}};
+    Region region;
+    region.size = {0.6, 0.6, 0.4};
+    region.tilt = 0.15;
+    machine.region.push_back(region);
+    PoseQuantity angle{.limit_name = "base_cone", .relative = 1e-4};
+    const double drawn = pose_extremes(machine, {angle}, {}).front().high;
+    machine.tolerances.joints.fill(5e-4);
+    const Extreme far = pose_extremes(machine, {angle}, {}).front();
+    angle.limit = drawn;
+    const Extreme near = pose_extremes(machine, {angle}, {}).front();
+    CHECK(drawn < far.high);
+    CHECK(near.boxes == far.boxes);
+    CHECK(near.high == far.high);
+  }
+
   TEST_CASE("a leg that vanishes in a region: its ratio has no upper end, and is named") {
     // The lower internal joints are in the way of O, which moves with the platform.
     const Geometry g = Geometry::hexagonal(0.5, 3.0, 1.5, 0.2);

@@ -133,7 +133,7 @@ class Climb : public BoxSearch {
   OpenHeap<Open> open;
   bool enough() const {
     const double most = open.top().bound;
-    const bool near = contains(sought_.number({met_, most}), wanted_.limit);
+    const bool near = contains(sought_.number({reached_, most}), wanted_.limit);  // no box decides below reached_
     const double size = std::max(std::abs(met_), near ? 0.0 : wanted_.scale);
     return most <= reached_ + (near ? settings_.relative : wanted_.relative) * size || looked >= most_boxes_;
   }
@@ -155,12 +155,16 @@ class Climb : public BoxSearch {
     if (!(bound > reached_)) return;
     const Box point = domain_.towards(slope, box);
     const double value = sought_.attained(domain_.machine().geometry, point);
+    // A bound at a point takes as long as that of a box: where the drawing is far below what it met elsewhere, all
+    // machines are, as a rule.
+    const bool near_most = value > met_ - (reached_ - met_) || looked % 16 == 0;
     if (value > met_) {
       met_ = value;
       at_ = point;
     }
     Moves unused;
-    reached_ = std::max(reached_, sought_.loose() ? sought_.bound(point, slope, unused) : value);
+    if (!sought_.loose()) reached_ = met_;
+    else if (near_most) reached_ = std::max(reached_, sought_.bound(point, slope, unused));
     open.push({bound, box, divided_coordinate(box, moves.along)});
   }
 

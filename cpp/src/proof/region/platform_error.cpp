@@ -133,7 +133,7 @@ ErrorOverPoses error_over_poses(const PosedRobot& machine, const ProofSettings& 
     Errors of{infinity, infinity, infinity};
     of[k] = 1.0;
     const ErrorShare index(domain, of);
-    at = searched(index, settings.threads, control.stop);
+    at = searched(index, settings.threads, control.stop, true);
     const ErrorBounds e = error_bounds(machine.geometry, domain.configuration(at.at), machine.tolerances);
     met[k] = std::max({at.value, k == 0 ? e.rotation : k == 1 ? e.position : e.internal_point, forms::tiny});
   }

@@ -54,7 +54,7 @@ Met climbed(const IndexOverPoses& index, const Box& root, Met met, double first_
 
 }  // namespace
 
-Met searched(const IndexOverPoses& index, int threads, const std::stop_token& stop) {
+Met searched(const IndexOverPoses& index, int threads, const std::stop_token& stop, bool roughly) {
   constexpr std::size_t samples = 64;
   struct Start {
     Met met;
@@ -62,10 +62,12 @@ Met searched(const IndexOverPoses& index, int threads, const std::stop_token& st
   };
   const Domain& domain = index.domain();
   const std::vector<Box>& roots = domain.roots();
-  std::vector<Start> starts(roots.size() * samples);
+  std::vector<Start> starts;
+  for (std::size_t from = 0; from < roots.size(); ++from)
+    starts.insert(starts.end(), roots[from].low < roots[from].high ? samples : 1, Start{{}, from});
   parallel_for(static_cast<long>(starts.size()), 16, threads, [&](long first, long last) {
     for (long n = first; n < last; ++n) {
-      const std::size_t sample = static_cast<std::size_t>(n) % samples, from = static_cast<std::size_t>(n) / samples;
+      const std::size_t sample = static_cast<std::size_t>(n) % samples, from = starts[static_cast<std::size_t>(n)].root;
       const Box& root = roots[from];
       Box at = root;
       for (std::size_t k = 0; k < PoseForm::size; ++k) {
@@ -81,7 +83,9 @@ Met searched(const IndexOverPoses& index, int threads, const std::stop_token& st
     std::size_t starts;
     double first_step, last_step;
   };
-  for (const Climb& climb : {Climb{24, 0x1p-2, 0x1p-7}, Climb{6, 0x1p-7, 0x1p-20}}) {  // few are worth the last digits
+  const Climb coarse{roughly ? 8U : 24U, 0x1p-2, 0x1p-7};
+  const Climb fine = roughly ? Climb{3, 0x1p-7, 0x1p-14} : Climb{6, 0x1p-7, 0x1p-20};  // few are worth the last digits
+  for (const Climb& climb : {coarse, fine}) {
     std::ranges::stable_sort(starts, [](const Start& a, const Start& b) { return a.met.value > b.met.value; });
     starts.resize(std::min(starts.size(), climb.starts));
     parallel_for(static_cast<long>(starts.size()), 1, threads, [&](long n, long) {

@@ -27,8 +27,8 @@ struct Met {
   Box at;
 };
 /// Where the index is large: local maxima are many, one about each corner of a region. The value is of a machine within
-/// tolerances.
-Met searched(const IndexOverPoses& index, int threads, const std::stop_token& stop);
+/// tolerances. `roughly`: from fewer starts and without the last digits.
+Met searched(const IndexOverPoses& index, int threads, const std::stop_token& stop, bool roughly = false);
 
 /// The whole domain: a search from it has one bound, another one comes to it by wider ones.
 PoseBoxes all_boxes(const Domain& domain);
