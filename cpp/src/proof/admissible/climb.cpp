@@ -12,6 +12,7 @@ namespace ninedof::admissible {
 namespace {
 
 constexpr double most_boxes_of_item = 4000.0, most_boxes_of_condition = 40'000.0, boxes_of_whole = 500.0;
+constexpr long boxes_for_losses = 50;  ///< where another item is not known to be kept: no box is proved then
 constexpr std::size_t most_cuts = 400;
 constexpr double part_around_middle = 1.0 / 16.0;
 /// Errors grow with the square of both: at this ratio the boxes of five coordinates of poses and two of designs are
@@ -111,7 +112,7 @@ struct PlaneSearch : BoxSearch {
       most = std::min(most, static_cast<long>(std::min(quick, 1e9)) + begun);
     } else if (here.known && !near && moves_of(one.seen) < times_designs * designs.moves()) {
       end = Found::Status::unknown;  // all designs may keep it, and smaller ones need fewer poses
-      return;
+      return closed.push_back(one.box);
     }
     if (here.known && !near && divide(one)) return;
     closed.push_back(one.box);
@@ -164,21 +165,22 @@ struct PlaneSearch : BoxSearch {
 
 }  // namespace
 
-Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width,
+Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width, bool may_be_inside,
             const std::stop_token& stop) {
-  const bool keeps_open = item.kind == Item::Kind::condition;
-  const double most = keeps_open ? most_boxes_of_condition : most_boxes_of_item;
+  const bool of_condition = item.kind == Item::Kind::condition;
+  const double most = of_condition ? most_boxes_of_condition : most_boxes_of_item;
   const bool patient = item.row != nullptr && item.row->design_forms != nullptr;
   PlaneSearch search(designs, item, roots, patient ? most : std::min(most, boxes_of_whole / width));
   search.patient = patient;
   search.quick = boxes_of_whole / width;
+  if ((patient || of_condition) && !may_be_inside) search.most = boxes_for_losses + search.begun;
   search.most_planes = most_cuts;
   search.until = 0.0;
   bound(search, {stop, {}});
   if (!search.end && !search.over()) search.end = Found::Status::unknown;
   const Found::Status proved = search.planes.empty() ? Found::Status::kept : Found::Status::cut;
   Found out{search.end.value_or(proved), std::move(search.planes), std::move(search.losses), {}, search.looked};
-  if (!keeps_open) return out;
+  if (!of_condition && !patient) return out;
   out.open = std::move(search.closed);
   while (!search.over()) out.open.push_back(search.open.pop().box);
   return out;

@@ -33,8 +33,8 @@ struct Found {
 };
 
 /// On a stop it ends with what is known. `width`: of the box of designs, as a part of all: large boxes are hardly ever
-/// proved, and searched for less long.
-Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width,
+/// proved, and searched for less long. `may_be_inside`: of the other items nothing is unknown.
+Found climb(const DesignsAt& designs, const Item& item, const std::vector<Box>& roots, double width, bool may_be_inside,
             const std::stop_token& stop);
 
 /// Planes none of whose least is above the length, or less the length, and the poses that they were found at.

@@ -1,6 +1,8 @@
 #include "proof/admissible/examine.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 namespace ninedof::admissible {
 namespace {
@@ -149,11 +151,19 @@ Examined Examiner::examine(const ToExamine& asked, const std::stop_token& stop) 
       if (kept[n] == 0 && took(n, spreads.look_at(spread))) return;
       ++n;
     }
-    for (const Item& item : demands_.items) {
-      const auto left = asked.open.find(n);
+    // First those of which most was left open: where one is not known, the others are looked at less long.
+    const auto left_open = [&](std::size_t k) {
+      const auto left = asked.open.find(n + k);
+      return left == asked.open.end() ? std::size_t{0} : left->second->size();
+    };
+    std::vector<std::size_t> order(demands_.items.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater(), left_open);
+    for (const std::size_t k : order) {
+      const auto left = asked.open.find(n + k);
+      const Item& item = demands_.items[k];
       const std::vector<Box> roots = left != asked.open.end() ? *left->second : roots_of(item);
-      if (kept[n] == 0 && took(n, climb(designs, item, roots, width, stop))) return;
-      ++n;
+      if (kept[n + k] == 0 && took(n + k, climb(designs, item, roots, width, complete, stop))) return;
     }
     all_looked_at = true;
   };
