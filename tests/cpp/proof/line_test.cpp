@@ -266,7 +266,7 @@ TEST_SUITE("line_test") {
         study.length[k] = range(limits.length[k]);
         study.length_in_zp[k] = range(limits.length_in_zp[k]);
       }
-      study.zp = range(limits.zp), study.zs = range(limits.zs), study.share = range(limits.share);
+      study.zp = range(limits.zp), study.zs = range(limits.zs), study.fraction = range(limits.share);
       study.radius_ratio = range(limits.radius_ratio), study.leg_ratio = limits.leg_ratio;
       study.joint_height = limits.joint_height, study.joint_height_in_radius = limits.joint_height_in_radius;
       checker::lines::Box whole;

@@ -60,6 +60,14 @@ std::string limit(const std::string& text) {
 
 }  // namespace
 
+bool RatioLimits::take(const Bound& limit) {
+  if (limit.name == "zs_fraction") fraction = meet(fraction, limit.range);
+  else if (limit.name == "radius_ratio") radius_ratio = meet(radius_ratio, limit.range);
+  else if (limit.name == "leg_ratio") leg_ratio = std::min(leg_ratio, limit.range.b);
+  else return false;
+  return true;
+}
+
 Certificate read(Stream& file) {
   Certificate out;
   std::string lines, text, key;

@@ -28,6 +28,14 @@ struct Certificate {
   std::size_t tree = 0;             ///< bytes that follow the lines
 };
 
+/// The limits that every kind of optimum knows.
+struct RatioLimits {
+  Range fraction{0.0, 1.0}, radius_ratio{0.0, inf};  ///< fraction: zs / zp
+  double leg_ratio = inf;
+  /// False for another limit.
+  bool take(const Bound& limit);
+};
+
 /// Accepts one spelling of each certificate: that in which its lines are written anew from what was read.
 Certificate read(Stream& file);
 

@@ -150,12 +150,8 @@ Domain domain_of(const Certificate& c) {
   }
   if (!(d.zs.a >= 0.0)) refuse("the bounds of zs are negative");
   d.zs = size_of(d.zs);
-  for (const auto& [name, range, of] : c.limits) {
-    if (name == "zs_fraction") d.fraction = meet(d.fraction, range);
-    else if (name == "radius_ratio") d.radius_ratio = meet(d.radius_ratio, range);
-    else if (name == "leg_ratio") d.leg_ratio = std::min(d.leg_ratio, range.b);
-    else refuse("the proof knows no limit " + name);
-  }
+  for (const Bound& limit : c.limits)
+    if (!d.take(limit)) refuse("the proof knows no limit " + limit.name);
 
   if (!(d.zp.a > 0.0)) d.zp.a = least_height(d);
   // Below the target: R U sin(theta) / l_c >= zp / target, and 1/q and y/t at most target * sqrt(N).

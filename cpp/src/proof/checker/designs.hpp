@@ -15,14 +15,14 @@ using Box = std::array<Range, coordinates>;
 /// What U / l_c is: a coordinate, or what the others make of it.
 enum class Length { free, mean_leg, platform_radius, natural };
 
-struct Domain {
+struct Domain : RatioLimits {
   int dimension = 5;
   bool slopes = false;
   Length length = Length::free;
   Range scale{1.0};  ///< l_c, in the unit of the lengths
   Box box;
-  Range R, R_internal, U, U_internal, zp, zs, fraction{0.0, 1.0}, radius_ratio{0.0, inf};
-  double target = 0.0, leg_ratio = inf;
+  Range R, R_internal, U, U_internal, zp, zs;
+  double target = 0.0;
 };
 
 Domain domain_of(const Certificate& c);

@@ -13,10 +13,8 @@ void read_limit(const Bound& limit, double length, Study& out) {
   const std::array legs{"external_length", "upper_length", "lower_length"};
   if (of == "zp" ? !name.ends_with("_length") : of == "radius" ? name != "joint_height" : !plain)
     refuse("the limit " + name + " has no unit " + quoted(of));
-  if (name == "zs_fraction") out.share = meet(out.share, low_high);
-  else if (name == "radius_ratio") out.radius_ratio = meet(out.radius_ratio, low_high);
-  else if (name == "leg_ratio") out.leg_ratio = std::min(out.leg_ratio, range.b);
-  else if (name == "height") out.zp = meet(out.zp, lengths);
+  if (out.take(limit)) return;
+  if (name == "height") out.zp = meet(out.zp, lengths);
   else if (name == "footprint") {
     for (const std::size_t k : {0, 1}) out.radius[k].b = std::min(out.radius[k].b, lengths.b);
   } else if (name == "joint_height") {
@@ -44,7 +42,7 @@ Box first_box(const Study& s) {
   const double cosine = std::clamp((Range(arm) / box[delta].b).a, 0.0, 1.0);
   box[epsilon] = {0.0, angle_of(cosine, root(1.0 - square(cosine))).b};
   box[zp] = s.zp;
-  box[drop] = meet(meet(s.zp - s.zs, s.zp * (1.0 - s.share)), {0.0, inf});
+  box[drop] = meet(meet(s.zp - s.zs, s.zp * (1.0 - s.fraction)), {0.0, inf});
   const Range slopes{(1.0 / (K * root(1.5 * (1.0 + square(Range(box[drop].b)))))).a, steepest.b};
   box[upper] = box[lower] = slopes;
   box[x_a] = {-s.radius[0].b, s.radius[0].b};

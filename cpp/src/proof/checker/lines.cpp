@@ -115,7 +115,7 @@ std::vector<Linear> limits_of(const Study& s, const Forms& f, Sides sides) {
 
   const Linear zs = x[zp] - x[drop];
   within(zs, s.zs, 1.0);
-  within(zs, s.share, x[zp]);
+  within(zs, s.fraction, x[zp]);
   const Linear widest = larger(base, platform), tilted = f.c * widest;
   const std::array<Linear, 4> height{f.c * x[zp] + x[eta] + x[x_a] * f.s, zs - sides.lower * x[lower_up],
                                      x[eta] + x[x_b] * f.s, sides.upper * x[upper_up] - x[drop]};

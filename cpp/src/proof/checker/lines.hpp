@@ -19,12 +19,12 @@ inline bool empty(const Box& box) {
 
 /// Bounds in characteristic lengths; triples are external and internal of the base, then of the platform; legs
 /// external, upper, lower.
-struct Study {
+struct Study : RatioLimits {
   double target = 0.0;
   std::array<Range, 4> radius, height;
-  Range zp, zs, share{0.0, 1.0}, radius_ratio{0.0, inf};
+  Range zp, zs;
   std::array<Range, 3> length, length_in_zp;
-  double leg_ratio = inf, joint_height = inf, joint_height_in_radius = inf;
+  double joint_height = inf, joint_height_in_radius = inf;
   Box box;  ///< holds every design below the target; where an end exceeds the other there is none
 };
 Study study_of_lines(const Certificate& c);
