@@ -1,7 +1,6 @@
 #include "workspace/certified/search.hpp"
 
 #include <algorithm>
-#include <queue>
 
 #include "domains/bound.hpp"
 
@@ -91,6 +90,40 @@ class GapSearch : public BoxSearch {
   bool stuck_ = false;
 };
 
+/// Parts of a box, the largest next, until one holds allowed poses.
+class BeyondSearch : public BoxSearch {
+ public:
+  using Beyond = CertifiedWorkspace::Beyond;
+  struct Part {
+    long number;  ///< in the order in which they were opened
+    PositionBox box;
+    std::vector<Seen::Left> left;
+    bool operator<(const Part& other) const { return number > other.number; }
+  };
+  BeyondSearch(const LimitsOverBox& cuts, bool some, long looks) : cuts_(cuts), some_(some), looks_(looks) {}
+  Beyond end() const { return met_ == Beyond::nothing && !open.empty() ? Beyond::unknown : met_; }
+
+  OpenHeap<Part> open;
+  bool enough() const { return met_ != Beyond::nothing || looked >= looks_; }
+  std::optional<Seen> look(const Part& part, const std::stop_token&) const {
+    return seen_of(cuts_, part.box, part.left, some_);
+  }
+  void merge(const Part& part, const Seen& seen) {
+    ++looked;
+    if (seen.outer()) return;
+    const std::vector<PositionBox> halves = halves_of(part.box);
+    if (seen.low > 0.0) met_ = Beyond::something;
+    else if (halves.empty()) met_ = Beyond::unknown;
+    for (const PositionBox& half : halves) open.push({++opened_, half, seen.left});
+  }
+
+ private:
+  const LimitsOverBox& cuts_;
+  bool some_;
+  long looks_, opened_ = 0;
+  Beyond met_ = Beyond::nothing;
+};
+
 std::vector<Seen::Left> everything(const LimitsOverBox& cuts) {
   std::vector<Seen::Left> out;
   for (std::size_t r = 0; r < cuts.rotations(); ++r) out.push_back({static_cast<std::uint32_t>(r), cuts.all()});
@@ -127,24 +160,10 @@ void grow(Grown& out, const LimitsOverBox& cuts, bool some, const CertifySetting
 
 CertifiedWorkspace::Beyond anything_in(const LimitsOverBox& cuts, const PositionBox& box, bool some, long looks,
                                        const std::stop_token& stop) {
-  using Beyond = CertifiedWorkspace::Beyond;
-  struct Part {
-    PositionBox box;
-    std::vector<Seen::Left> left;
-  };
-  std::queue<Part> ahead;  // the largest first
-  ahead.push({box, everything(cuts)});
-  for (; !ahead.empty() && looks > 0 && !stop.stop_requested(); --looks) {
-    const Part part = std::move(ahead.front());
-    ahead.pop();
-    const Seen seen = seen_of(cuts, part.box, part.left, some);
-    if (seen.outer()) continue;
-    if (seen.low > 0.0) return Beyond::something;
-    const std::vector<PositionBox> halves = halves_of(part.box);
-    if (halves.empty()) return Beyond::unknown;
-    for (const PositionBox& half : halves) ahead.push({half, seen.left});
-  }
-  return ahead.empty() ? Beyond::nothing : Beyond::unknown;
+  BeyondSearch search(cuts, some, looks);
+  search.open.push({0, box, everything(cuts)});
+  bound(search, {stop, {}});
+  return search.end();
 }
 
 }  // namespace ninedof::certified
