@@ -28,8 +28,7 @@ class Front:
     study: Study
     """The given study, with the index that was minimized; the limit takes the values of `limits`."""
     against: str
-    """The limit: a constraint ("base_cone_deg", "base_cone at neutral"), whose max moves, "condition_limit", or
-    "tolerance"."""
+    """The limit that moves, by its name in `pareto`."""
     limits: tuple[float, ...]
     """Radians for an angle, or degrees where the name in `against` ends in _deg."""
     results: tuple[Result, ...]
