@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "ninedof/math/parallel.hpp"
 #include "ninedof/redundancy/redundancy_map.hpp"
 #include "ninedof/redundancy/redundancy_path.hpp"
 #include "support/interruptible.hpp"

@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -121,9 +122,8 @@ inline Array result_rows(long count, py::ssize_t columns, const py::object& out)
 
 /// Calls block(first, last, output row first) for blocks of rows, none longer than `most`, as in_slices does: on
 /// `threads` threads and without the GIL, so that nothing in it may touch Python.
-template <class Work>
-Array for_each_block(long count, py::ssize_t columns, long most, int threads, const py::object& out,
-                     const Work& block) {
+inline Array for_each_block(long count, py::ssize_t columns, long most, int threads, const py::object& out,
+                            const std::function<void(long, long, double*)>& block) {
   Array result = result_rows(count, columns, out);
   double* data = result.mutable_data();
   in_slices(count, most, threads, [&](long first, long last) { block(first, last, data + first * columns); });
