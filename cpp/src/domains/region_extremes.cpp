@@ -7,6 +7,7 @@
 
 #include "domains/region_descent.hpp"
 #include "math/numbers.hpp"
+#include "math/sort_by.hpp"
 #include "ninedof/domains/region_sample.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
@@ -48,7 +49,7 @@ class Lowest {
     std::vector<MetNumber> out;
     for (std::size_t part = 0; part < parts; ++part)
       if (at(part, number).value < infinity) out.push_back(at(part, number));
-    std::ranges::stable_sort(out, {}, &MetNumber::value);
+    sort_by(out, &MetNumber::value);
     out.resize(std::min(out.size(), count));
     return out;
   }

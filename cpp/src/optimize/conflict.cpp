@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "math/sort_by.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "optimize/minimax/relaxation.hpp"
 
@@ -188,7 +189,7 @@ Conflict find_conflict(const Problem& problem, const std::vector<Eigen::VectorXd
       const double y = nearest[demand.coordinate];
       return y - demand.low <= same_violation || demand.high - y <= same_violation;
     };
-    std::ranges::stable_sort(order, {}, [&](std::size_t d) { return 2 * demands[d].is_bound() + !touched(d); });
+    sort_by(order, [&](std::size_t d) { return 2 * demands[d].is_bound() + !touched(d); });
     Indices likely;
     std::ranges::copy_if(order, std::back_inserter(likely), touched);
     if (likely.empty() || search.possible(search.of(likely))) likely = order;

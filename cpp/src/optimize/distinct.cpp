@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "math/sort_by.hpp"
 #include "optimize/search_round.hpp"
 
 namespace ninedof {
@@ -118,8 +119,7 @@ std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const Searc
     ends.push_back(round.runs[k]->end);
     if (round.from_start[k]) from_starts.push_back(ends.back().objective);
   }
-  std::stable_sort(ends.begin(), ends.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.objective < b.objective; });
+  sort_by(ends, &Candidate::objective);
   std::vector<Candidate> out;
   std::vector<Eigen::VectorXd> signatures, shapes;
   int alike = 0;

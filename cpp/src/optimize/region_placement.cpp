@@ -7,6 +7,7 @@
 #include "domains/region_descent.hpp"
 #include "math/linear/least_squares.hpp"
 #include "math/numbers.hpp"
+#include "math/sort_by.hpp"
 #include "ninedof/domains/region_sample.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
@@ -32,6 +33,9 @@ struct Hot {
   Placed placed;
   double excess;
 };
+double less_excess(const Hot& hot) {
+  return -hot.excess;
+}
 
 /// Minus the excess of a pose with O placed, which follows from pose to pose; its slopes by the envelope theorem.
 class PlacedNumber : public PoseNumbers {
@@ -111,7 +115,7 @@ class Placing {
     std::vector<const Placed*> out;
     for (const Placed& other : known_) out.push_back(&other);
     if (!located_) return out;
-    std::ranges::stable_sort(out, {}, [&](const Placed* other) { return distance_in(region_, at, other->at); });
+    sort_by(out, [&](const Placed* other) { return distance_in(region_, at, other->at); });
     out.resize(std::min(out.size(), most_tried));
     return out;
   }
@@ -174,7 +178,7 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
   stop_here();
   std::vector<Hot> hot;
   for (const std::vector<Hot>& some : of_block) hot.insert(hot.end(), some.begin(), some.end());
-  std::ranges::stable_sort(hot, std::ranges::greater(), &Hot::excess);
+  sort_by(hot, less_excess);
   // What passes from the nearest start may not from others. Of a poor design most samples pass: some are enough.
   std::size_t done = 0;
   while (done < hot.size() && hot[done].excess > no_longer_held) {
@@ -191,7 +195,7 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
                                     [](const Hot& sample) { return sample.excess > no_longer_held; });
     if (at_index(pass) >= ascents) hot.resize(done);
   }
-  std::ranges::stable_sort(hot, std::ranges::greater(), &Hot::excess);
+  sort_by(hot, less_excess);
 
   std::vector<Hot> starts;
   for (const Placed& placed : known) starts.push_back({placed, 0.0});

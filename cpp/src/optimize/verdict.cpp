@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "limits/rows.hpp"
+#include "math/sort_by.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/robot/architecture_singularity.hpp"
 #include "optimize/conflict.hpp"
@@ -32,7 +33,7 @@ std::vector<Eigen::VectorXd> nearest_ends(const SearchRound& round) {
   std::vector<const Candidate*> ends;
   for (const auto& run : round.runs)
     if (run) ends.push_back(&run->end);
-  std::ranges::stable_sort(ends, {}, [](const Candidate* c) { return c->constraint_violation; });
+  sort_by(ends, &Candidate::constraint_violation);
   std::vector<Eigen::VectorXd> out;
   for (std::size_t k = 0; k < std::min(few, ends.size()); ++k) out.push_back(ends[k]->variables);
   return out;

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "math/numbers.hpp"
+#include "math/sort_by.hpp"
 #include "ninedof/math/error.hpp"
 #include "redundancy/map/continuation.hpp"
 #include "redundancy/search/pose_search.hpp"
@@ -97,7 +98,7 @@ void add_continued(const PathPose& from, PathPose& to) {
     for (const LocalMinimum& m : warm_minimum(*to.objective, x).found)
       if (m.ending == Ending::minimum && reach.reaches(m.x)) minima.add(m);
   }
-  std::ranges::stable_sort(minima.found, {}, &LocalMinimum::value);
+  sort_by(minima.found, &LocalMinimum::value);
   minima.found.resize(std::min(minima.found.size(), most_choices), minima.found.front());
   to.choices = std::move(minima.found);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "math/sort_by.hpp"
 #include "optimize/minimax/design_evaluation.hpp"
 #include "problem/constraints/length_joint.hpp"
 
@@ -225,7 +226,7 @@ std::vector<int> PreparedProblem::pieces(const Eigen::VectorXd& y) const {
   DesignState state;
   set_state(y, state);
   std::vector<int> out = length_joints;
-  std::ranges::stable_sort(out, std::greater(), [&](int joint) { return state.joint_distance(joint); });
+  sort_by(out, [&](int joint) { return -state.joint_distance(joint); });
   const double least = state.joint_distance(out.front()) * (1.0 - same_distance);
   std::erase_if(out, [&](int joint) { return state.joint_distance(joint) < least; });
   return out;

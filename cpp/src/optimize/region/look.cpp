@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "math/numbers.hpp"
+#include "math/sort_by.hpp"
 #include "ninedof/optimize/evaluate.hpp"
 #include "ninedof/optimize/leg_range.hpp"
 #include "ninedof/robot/legs.hpp"
@@ -140,7 +141,7 @@ Look look_over(const Problem& problem, const Region& region, const Imposed& impo
     for (const Evaluation::Margin& margin : evaluate(there, x).margins)
       if (is_of_spread(margin.name)) take_margin(margin.value, margin.name);
   }
-  std::ranges::stable_sort(worse, std::ranges::greater(), &Worse::by);
+  sort_by(worse, [](const Worse& one) { return -one.by; });
   for (const Worse& w : worse)
     if (std::ranges::none_of(out.worst,
                              [&](const Look::Worst& o) { return distance_in(region, o.at, w.at) <= one_pose; }))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/sort_by.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "problem/full_variables.hpp"
 
@@ -92,7 +93,7 @@ PlacedLook PlacedPoses::look(const PlacedState& state, const RegionSettings& set
     out.margin = end.margin;
     out.limit = end.limit;
   }
-  std::ranges::stable_sort(out.worse, std::ranges::greater(), &PlacedEnd::excess);
+  sort_by(out.worse, [](const PlacedEnd& end) { return -end.excess; });
   return out;
 }
 
@@ -115,11 +116,11 @@ std::vector<Placed> PlacedPoses::kept(const PlacedState& state, const PlacedLook
 
 std::vector<Placed> PlacedPoses::deciding(const PlacedState& state, const PlacedLook& look) const {
   std::vector<Placed> chosen = kept(state, look, decides), out;
-  const auto excess = [&](const Placed& placed) {
+  const auto less_excess = [&](const Placed& placed) {
     const auto at = std::ranges::find(state.ruling, placed.at, &Placed::at);
-    return look.excess[static_cast<std::size_t>(at - state.ruling.begin())];
+    return -look.excess[static_cast<std::size_t>(at - state.ruling.begin())];
   };
-  std::ranges::stable_sort(chosen, std::ranges::greater(), excess);
+  sort_by(chosen, less_excess);
   for (const Placed& placed : chosen)
     if (!beside(placed, out)) out.push_back(placed);
   return out;

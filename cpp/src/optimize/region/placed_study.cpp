@@ -8,6 +8,7 @@
 
 #include "limits/table.hpp"
 #include "math/numbers.hpp"
+#include "math/sort_by.hpp"
 #include "optimize/minimax/local_run.hpp"
 #include "optimize/polish/active_set.hpp"
 #include "optimize/region/conflict_poses.hpp"
@@ -126,7 +127,7 @@ class PlacedStudy {
         optimize_placed(there, given, {starts, settings_.seed, settings_.threads}, control_);
     std::erase_if(ends, [](const PlacedDesign& end) { return !(end.violation <= nearly); });
     if (ends.empty()) return false;
-    std::ranges::stable_sort(ends, {}, &PlacedDesign::log_objective);
+    sort_by(ends, &PlacedDesign::log_objective);
     if (starts > 0) {
       tried_ = static_cast<int>(given.size()) + starts;
       reached_ = static_cast<int>(std::ranges::count_if(

@@ -83,8 +83,8 @@ std::shared_ptr<const FollowingPose> PoseFollower::following(const Look::Worst& 
   const double least = std::max(any_curvature, least_curvature * values.maxCoeff());
   const Eigen::VectorXd inverse = values.unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
   if (inverse.isZero(0.0)) return nullptr;
-  return std::make_shared<const FollowingPose>(
-      FollowingPose{region_, worst.at, variables_, -ways * axes * inverse.asDiagonal() * axes.transpose() * mixed});
+  const Ways turned = ways.lazyProduct(axes), moves = (turned * inverse.asDiagonal()).lazyProduct(axes.transpose());
+  return std::make_shared<const FollowingPose>(FollowingPose{region_, worst.at, variables_, -moves * mixed});
 }
 
 }  // namespace ninedof

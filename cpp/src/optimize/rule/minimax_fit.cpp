@@ -6,6 +6,7 @@
 
 #include "math/linear/least_squares.hpp"
 #include "math/numbers.hpp"
+#include "math/sort_by.hpp"
 #include "optimize/rule/rule_samples.hpp"
 
 namespace ninedof {
@@ -84,7 +85,7 @@ void MinimaxFit::join(const std::vector<Vec6>& poses) {
     for (std::size_t k = 0; k < places.size(); ++k)
       if (const double value = worst_of(values[k]); value > most) worse.emplace_back(value, places[k].at);
   }
-  std::ranges::stable_sort(worse, std::ranges::greater(), &std::pair<double, Vec6>::first);
+  sort_by(worse, [](const auto& one) { return -one.first; });
   std::vector<Vec6> all = poses;
   for (std::size_t k = 0; k < std::min(worse.size(), most_joined); ++k) all.push_back(worse[k].second);
   take(all);

@@ -6,6 +6,7 @@
 
 #include "domains/bound.hpp"
 #include "math/numbers.hpp"
+#include "math/sort_by.hpp"
 #include "math/splitmix.hpp"
 #include "math/time_limit.hpp"
 #include "ninedof/math/error.hpp"
@@ -86,7 +87,7 @@ Met searched(const IndexOverPoses& index, int threads, const std::stop_token& st
   const Climb coarse{roughly ? 8U : 24U, 0x1p-2, 0x1p-7};
   const Climb fine = roughly ? Climb{3, 0x1p-7, 0x1p-14} : Climb{6, 0x1p-7, 0x1p-20};  // few are worth the last digits
   for (const Climb& climb : {coarse, fine}) {
-    std::ranges::stable_sort(starts, [](const Start& a, const Start& b) { return a.met.value > b.met.value; });
+    sort_by(starts, [](const Start& start) { return -start.met.value; });
     starts.resize(std::min(starts.size(), climb.starts));
     parallel_for(static_cast<long>(starts.size()), 1, threads, [&](long n, long) {
       Start& start = starts[static_cast<std::size_t>(n)];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "math/sort_by.hpp"
+
 namespace ninedof {
 
 bool replaces(Criterion criterion, const PoseResult& a, const PoseResult& b) {
@@ -63,7 +65,7 @@ Continuation scanned_from(const Geometry& g, const PlatformPose& pose, const Int
     add_valleys(objective, points, reach, minima);
     out.examined &= minima.examined;
     minima.found.erase(minima.found.begin(), minima.found.begin() + static_cast<std::ptrdiff_t>(known));
-    std::ranges::stable_sort(minima.found, {}, &LocalMinimum::value);
+    sort_by(minima.found, &LocalMinimum::value);
     for (const LocalMinimum& m : minima.found) {
       ++out.count;
       const PoseResult found = pose_result(objective, {{m}, 0.0, x});

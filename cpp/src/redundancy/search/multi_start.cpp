@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
+#include "math/sort_by.hpp"
 
 namespace ninedof {
 namespace {
@@ -35,7 +36,7 @@ struct End {
 
 /// The best samples at least `apart` from each other, at most `count`.
 std::vector<Vec3> best_apart(std::vector<Sample>& samples, std::size_t count) {
-  std::ranges::stable_sort(samples, {}, &Sample::value);
+  sort_by(samples, &Sample::value);
   std::vector<Vec3> out;
   for (const Sample& s : samples) {
     if (out.size() == count) break;
@@ -82,7 +83,7 @@ class Search {
       const auto known = [&](const End& end) { return (end.x - d.x).norm() <= same; };
       if (std::ranges::none_of(rough_, known)) rough_.push_back({start, d.x, d.at.value});
     }
-    std::ranges::stable_sort(rough_, {}, &End::value);
+    sort_by(rough_, &End::value);
   }
 
   /// Refines the coarse ends to minima.
@@ -138,7 +139,7 @@ class Search {
 
   /// The minima, best first.
   Minima finish() {
-    std::ranges::stable_sort(minima_.found, {}, &LocalMinimum::value);
+    sort_by(minima_.found, &LocalMinimum::value);
     return std::move(minima_);
   }
 

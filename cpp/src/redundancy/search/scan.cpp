@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <unordered_set>
 
+#include "math/sort_by.hpp"
 #include "ninedof/batch/batch.hpp"
 
 namespace ninedof {
@@ -109,7 +110,7 @@ void Scan::divide(double best) {
   std::erase_if(cells_, [&](const ScanCell& cell) { return !cell.may_hold(best); });
   if (cells_.size() > most_divided) {
     const auto lowest = [](const ScanCell& cell) { return cell.value < infinity ? cell.value - cell.drop : infinity; };
-    std::ranges::stable_sort(cells_, {}, lowest);  // not nth_element: cells of a symmetric robot tie
+    sort_by(cells_, lowest);  // not nth_element: cells of a symmetric robot tie
     cells_.resize(most_divided);
     complete_ = false;
   }

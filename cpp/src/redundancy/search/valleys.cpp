@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/sort_by.hpp"
 #include "redundancy/search/multi_start.hpp"
 #include "redundancy/search/scan.hpp"
 
@@ -18,7 +19,7 @@ void descend_from_lowest(const PoseObjective& objective, const Scan& scan, Reach
   std::vector<const ScanCell*> lower;
   for (const ScanCell& cell : scan.cells())
     if (cell.value < minima.best() - least_gain) lower.push_back(&cell);
-  std::ranges::stable_sort(lower, {}, &ScanCell::value);
+  sort_by(lower, &ScanCell::value);
   for (const ScanCell* cell : lower) {
     if (!(cell->value < minima.best() - least_gain)) return;
     if (objective.allows(cell->x) && reach.reaches(cell->x)) minima.add(minimum_from(objective, cell->x));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "math/sort_by.hpp"
 #include "math/stop_at_times.hpp"
 #include "workspace/cells/leaf.hpp"
 
@@ -96,7 +97,7 @@ std::vector<double> find_pieces(std::vector<Leaf>& leaves, int resolution, const
     volume[sets.of(n)] += leaves[n].fraction * leaves[n].measure;
     if (sets.of(n) == n) leaders.push_back(n);
   }
-  std::stable_sort(leaders.begin(), leaders.end(), [&](auto a, auto b) { return volume[a] > volume[b]; });
+  sort_by(leaders, [&](std::size_t leader) { return -volume[leader]; });
   std::vector<double> out;
   if (home) {
     const Vec3 unit = (*home - chart.low()).cwiseQuotient(chart.high() - chart.low());

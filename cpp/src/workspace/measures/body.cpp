@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
+#include "math/sort_by.hpp"
 
 namespace ninedof {
 namespace {
@@ -90,7 +91,7 @@ class Sampler {
   /// Rays of locally least margin on the surface.
   std::vector<Ray> lowest(double scale) const {
     std::vector<Ray> all = at(ways_, scale), out;
-    std::stable_sort(all.begin(), all.end(), [](const Ray& a, const Ray& b) { return a.margin < b.margin; });
+    sort_by(all, &Ray::margin);
     for (const Ray& ray : all) {
       const auto near = [&](const Ray& other) { return other.way.dot(ray.way) > 0.95; };
       if (out.size() < starts && std::ranges::none_of(out, near)) out.push_back(ray);
