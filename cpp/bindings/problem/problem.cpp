@@ -94,20 +94,9 @@ void bind_evaluation(py::module_& m) {
       .def_readonly("margins", &Evaluation::margins, "One for each constraint.");
 }
 
-/// Stacks (n, 3), (n, 3, 3), (n, 3): the neutral configuration, then the poses of the objective.
+/// The neutral configuration, then the poses of the objective.
 py::tuple configurations_at(const Problem& problem, const std::vector<double>& x) {
-  const std::vector<Configuration> all = configurations(problem, vector_from(x));
-  const auto n = static_cast<py::ssize_t>(all.size());
-  Array p(std::vector<py::ssize_t>{n, 3}), q(std::vector<py::ssize_t>{n, 3, 3}), s(std::vector<py::ssize_t>{n, 3});
-  for (py::ssize_t k = 0; k < n; ++k) {
-    const Configuration& c = all[static_cast<std::size_t>(k)];
-    for (py::ssize_t i = 0; i < 3; ++i) {
-      p.mutable_at(k, i) = c.position[i];
-      s.mutable_at(k, i) = c.internal_point[i];
-      for (py::ssize_t j = 0; j < 3; ++j) q.mutable_at(k, i, j) = c.rotation(i, j);
-    }
-  }
-  return py::make_tuple(p, q, s);
+  return arrays_of(configurations(problem, vector_from(x)));
 }
 
 }  // namespace

@@ -46,8 +46,8 @@ inline ConfigurationStack stack_from(const py::handle& c) {
   return {part("position"), part("rotation"), part("internal_point")};
 }
 
-/// Configurations as Python's: a stack (n,).
-inline py::object stack_of(const std::vector<Configuration>& all) {
+/// Stacks (n, 3), (n, 3, 3), (n, 3) of positions, rotations and internal points.
+inline py::tuple arrays_of(const std::vector<Configuration>& all) {
   const py::ssize_t n = std::ssize(all);
   Array p(std::vector<py::ssize_t>{n, 3}), q(std::vector<py::ssize_t>{n, 3, 3}), s(std::vector<py::ssize_t>{n, 3});
   double *to_p = p.mutable_data(), *to_q = q.mutable_data(), *to_s = s.mutable_data();
@@ -56,7 +56,12 @@ inline py::object stack_of(const std::vector<Configuration>& all) {
     to_q = write(c.rotation, to_q);
     to_s = write(c.internal_point, to_s);
   }
-  return py::module_::import("ninedof.robot.configuration").attr("Configuration").attr("_of")(p, q, s);
+  return py::make_tuple(p, q, s);
+}
+
+/// Configurations as Python's: a stack (n,).
+inline py::object stack_of(const std::vector<Configuration>& all) {
+  return py::module_::import("ninedof.robot.configuration").attr("Configuration").attr("_of")(*arrays_of(all));
 }
 
 }  // namespace ninedof::python

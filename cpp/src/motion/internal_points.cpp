@@ -5,6 +5,7 @@
 
 #include "motion/cubic_spline.hpp"
 #include "ninedof/math/error.hpp"
+#include "robot/triangle.hpp"
 
 namespace ninedof {
 namespace {
@@ -12,10 +13,6 @@ namespace {
 using Kind = TrajectoryRule::Kind;
 
 constexpr double smoothness = 0.1;  // of the best path
-
-Vec3 centroid(const Triple& joints) {
-  return (joints[0] + joints[1] + joints[2]) / 3.0;
-}
 
 /// O at a pose, for each rule but `best`.
 Vec3 placed(const Geometry& g, const PlatformPose& pose, const Configuration& home, const TrajectoryRule& rule) {

@@ -13,4 +13,8 @@ inline double relative_height(const Triple& t, double longest) {
   return ((t[1] - t[0]) / longest).cross((t[2] - t[0]) / longest).norm();
 }
 
+inline Vec3 centroid(const Triple& t) {
+  return (t[0] + t[1] + t[2]) / 3.0;
+}
+
 }  // namespace ninedof

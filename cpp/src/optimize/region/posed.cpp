@@ -28,25 +28,26 @@ std::vector<Vec6> distinct(const std::vector<Vec6>& all) {
   return out;
 }
 
+/// Home and the corners of a region, those of a path all along it.
+std::vector<Vec6> home_and_corners(const Region& region, int turns) {
+  std::vector<Vec6> out{Vec6::Zero()};
+  for (const Vec6& corner : region_corners(region, turns)) {
+    if (region.shape == Region::Shape::path) std::ranges::copy(at_corners(region, corner), std::back_inserter(out));
+    else out.push_back(corner);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Vec6> cover(const Region& region) {
-  std::vector<Vec6> out{Vec6::Zero()};
-  for (const Vec6& corner : region_corners(region, first_turns)) {
-    if (region.shape == Region::Shape::path) std::ranges::copy(at_corners(region, corner), std::back_inserter(out));
-    else out.push_back(corner);
-  }
-  return distinct(out);
+  return distinct(home_and_corners(region, first_turns));
 }
 
 std::vector<Vec6> coarse_cover(const Region& region) {
-  std::vector<Vec6> out{Vec6::Zero()};
   Region unturned = region;
   unturned.tilt = unturned.yaw = 0.0;
-  for (const Vec6& corner : region_corners(unturned, 1)) {
-    if (region.shape == Region::Shape::path) std::ranges::copy(at_corners(region, corner), std::back_inserter(out));
-    else out.push_back(corner);
-  }
+  std::vector<Vec6> out = home_and_corners(unturned, 1);
   const Vec6 reach = region.reach();
   for (Eigen::Index k = 3; k < 6; ++k)
     for (const double sign : {1.0, -1.0})

@@ -1,15 +1,12 @@
 #include "workspace/criteria/placement.hpp"
 
 #include "ninedof/conditioning/conditioning.hpp"
+#include "robot/triangle.hpp"
 
 namespace ninedof {
 namespace {
 
 using Kind = InternalPointRule::Kind;
-
-Vec3 centroid(const Triple& t) {
-  return (t[0] + t[1] + t[2]) / 3.0;
-}
 
 }  // namespace
 
