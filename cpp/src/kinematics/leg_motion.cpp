@@ -6,7 +6,6 @@
 
 #include "math/linear/jacobi_svd.hpp"
 #include "math/linear/least_squares.hpp"
-#include "ninedof/math/error.hpp"
 
 namespace ninedof {
 namespace {
@@ -52,14 +51,6 @@ Vec9 accelerations_of(const Geometry& g, const Configuration& c, InternalMotion 
 }
 
 }  // namespace
-
-InternalMotion internal_motion_from(const std::string& word) {
-  if (word == "least") return InternalMotion::least;
-  if (word == "held") return InternalMotion::held;
-  if (word == "shifted") return InternalMotion::shifted;
-  if (word == "carried") return InternalMotion::carried;
-  throw InvalidArgument("internal", "\"" + word + "\"", "\"least\", \"held\", \"shifted\" or \"carried\"");
-}
 
 Vec9 leg_rates(const Geometry& g, const Configuration& c, InternalMotion internal, const Vec6& twist) {
   return inverse_velocity(g, c, velocity_of(g, c, internal, twist));

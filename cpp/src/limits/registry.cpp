@@ -128,16 +128,4 @@ const char* to_string(Unit unit) {
   return "";
 }
 
-Unit unit_from(const std::string& word) {
-  for (const Unit unit : {Unit::length, Unit::zp, Unit::radius})
-    if (word == to_string(unit)) return unit;
-  throw InvalidArgument("of", "\"" + word + "\"", "\"length\", \"zp\" or \"radius\"");
-}
-
-LimitAt limit_at_from(const std::string& word) {
-  if (word == "poses") return LimitAt::poses;
-  if (word == "neutral") return LimitAt::neutral;
-  throw InvalidArgument("at", "\"" + word + "\"", "\"poses\" or \"neutral\"");
-}
-
 }  // namespace ninedof

@@ -7,22 +7,6 @@
 
 namespace ninedof {
 
-Index index_from(const std::string& word) {
-  if (word == "condition_number") return Index::condition_number;
-  if (word == "frobenius") return Index::frobenius;
-  if (word == "speed") return Index::speed;
-  if (word == "six_legged") return Index::six_legged;
-  throw InvalidArgument("objective.index", "\"" + word + "\"",
-                        "\"condition_number\", \"frobenius\", \"speed\" or \"six_legged\"");
-}
-
-Aggregate aggregate_from(const std::string& word) {
-  if (word == "worst") return Aggregate::worst;
-  if (word == "mean_inverse") return Aggregate::mean_inverse;
-  if (word == "weighted") return Aggregate::weighted;
-  throw InvalidArgument("objective.aggregate", "\"" + word + "\"", "\"worst\", \"mean_inverse\" or \"weighted\"");
-}
-
 void Objective::validate() const {
   if (!(weight >= 0.0 && weight <= 1.0))
     throw InvalidArgument("objective.weight", format_number(weight), "a number from 0 to 1");

@@ -281,9 +281,6 @@ TEST_SUITE("constraints") {
         CHECK(e.margins[k].value == doctest::Approx(hand::margin(p, p.limits[k], x)).epsilon(1e-9));
       }
     }
-    CHECK(refuses("at", [] { limit_at_from("home"); }));
-    CHECK(limit_at_from("poses") == LimitAt::poses);
-    CHECK(limit_at_from("neutral") == LimitAt::neutral);
   }
 
   TEST_CASE("invalid limits throw, naming the argument") {
@@ -319,9 +316,5 @@ TEST_SUITE("constraints") {
     const std::string known = message_of([] { Limit{.name = "?", .high = 2.0}.validate(); });
     for (const ConstraintInfo& row : constraint_table())
       CHECK(known.find(std::string("\"").append(row.name).append("\"")) != std::string::npos);
-    CHECK(refuses("of", [] { unit_from("metre"); }));
-    CHECK(unit_from("length") == Unit::length);
-    CHECK(unit_from("zp") == Unit::zp);
-    CHECK(unit_from("radius") == Unit::radius);
   }
 }

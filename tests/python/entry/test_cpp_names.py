@@ -12,8 +12,8 @@ TESTS = ROOT / "tests/cpp"
 # Called through what is tested, and by the Python tests through their bindings.
 ELSEWHERE = set(
     """
-    aggregate_from axis_condition_number_bounds format_interval from_sums
-    hull index_from leg_ends leg_row optimize_placed place_in_region placer require_sound_arithmetic
+    axis_condition_number_bounds format_interval from_sums
+    hull leg_ends leg_row optimize_placed place_in_region placer require_sound_arithmetic
     search_region_placed singular_value_bounds slope_of_abs slope_of_root solver_version triangular_block
     vec3
     """.split()

@@ -3,7 +3,6 @@
 /// a rule.
 
 #include <optional>
-#include <string>
 
 #include "ninedof/kinematics/acceleration.hpp"
 
@@ -16,9 +15,6 @@ enum class InternalMotion {
   shifted,  ///< with p: s - p is constant in base axes
   carried,  ///< as a point of the platform
 };
-
-/// "least", "held", "shifted" or "carried"; throws InvalidArgument for another word.
-InternalMotion internal_motion_from(const std::string& word);
 
 /// A twist of the platform and its time derivative, (omega, pdot), base axes.
 struct TwistMotion {

@@ -120,10 +120,4 @@ LimitKind limit_kind_from(const std::string& word);
 /// "length", "zp" or "radius".
 const char* to_string(Unit unit);
 
-/// "length", "zp" or "radius"; throws InvalidArgument for another word.
-Unit unit_from(const std::string& word);
-
-/// "poses" or "neutral"; throws InvalidArgument for another word.
-LimitAt limit_at_from(const std::string& word);
-
 }  // namespace ninedof

@@ -2,7 +2,6 @@
 /// What is minimized, and at which poses.
 
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "ninedof/domains/pose.hpp"
@@ -23,10 +22,6 @@ enum class Aggregate {
   mean_inverse,  ///< 1 / mean(1 / index): the global conditioning index, as a number to be minimized
   weighted,      ///< worst^weight * (that)^(1 - weight)
 };
-
-/// From the words of study files. Throw InvalidArgument for another word.
-Index index_from(const std::string& word);
-Aggregate aggregate_from(const std::string& word);
 
 struct Objective {
   Index index = Index::condition_number;
