@@ -94,12 +94,12 @@ class Limit:
         sides = {"min": self.low} if self.low != 0.0 else {}
         return sides | ({"max": self.high} if self.high != math.inf else {})
 
-    def unit(self, of_lengths: str = "", force: str = "") -> str:
+    def unit(self, of_lengths: str = "", force_unit: str = "") -> str:
         """Return the unit in which it is shown, as `kind_unit`: "deg" for an angle, that of lengths or forces, or "".
 
-        `force` is the unit of forces, `Study.force_unit`.
+        `force_unit` is the unit of forces, `Study.force_unit`.
         """
-        return kind_unit(self.kind, of_lengths, force)
+        return kind_unit(self.kind, of_lengths, force_unit)
 
     @property
     def options(self) -> dict[str, Any]:

@@ -89,19 +89,21 @@ def _legs(model: Model) -> str:
     return _tabular("Legs: lengths", "lll" + "r" * (len(heads) - 3), heads, rows)
 
 
-def _limits(limits: Sequence[LimitRow], unit: str, force: str = "") -> str:
+def _limits(limits: Sequence[LimitRow], unit: str, force_unit: str = "") -> str:
     rows, percent = [], r"\,\%"
     for one in limits:
         margin = f"${margin_words(one.margin, one.unit).replace(' %', percent)}$"
         sign = r"$\geq$" if one.side == "min" else r"$\leq$"
-        rows.append([escape(one.name), sign, *(_measure(one, x, unit, force) for x in (one.limit, one.value)), margin])
+        rows.append(
+            [escape(one.name), sign, *(_measure(one, x, unit, force_unit) for x in (one.limit, one.value)), margin]
+        )
     return _tabular("Limits of the study", "lcrrr", ["limit", "", "allowed", "here", "margin"], rows, len(rows))
 
 
-def _measure(row: LimitRow, value: float, unit: str, force: str) -> str:
+def _measure(row: LimitRow, value: float, unit: str, force_unit: str) -> str:
     if row.unit == "angle":
         return rf"${math.degrees(value):.2f}^\circ$"
-    return amount(f"${value:.{DIGITS}g}$", kind_unit(row.unit, unit, force))
+    return amount(f"${value:.{DIGITS}g}$", kind_unit(row.unit, unit, force_unit))
 
 
 def _columns(rows: Sequence[Iterable[float]]) -> list[list[str]]:

@@ -90,12 +90,12 @@ class LimitRow(NamedTuple):
         return is_violated(self.margin, self.unit, self.limit)
 
 
-def limit_amount(row: LimitRow, value: float, unit: str, force: str = "") -> str:
+def limit_amount(row: LimitRow, value: float, unit: str, force_unit: str = "") -> str:
     """Return a value of a limit with its unit; an angle in degrees, forces, rates and powers as their tables do."""
     if row.unit == "angle":
         return f"{math.degrees(value):.2f}°"
     number = load_text if row.unit in ("number", "rate", "power") else short
-    return amount(number(value), kind_unit(row.unit, unit, force))
+    return amount(number(value), kind_unit(row.unit, unit, force_unit))
 
 
 def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, ...]:

@@ -74,14 +74,14 @@ def times(above: str, unit: str) -> str:
     return f"{above} {unit}" if above and unit else ""
 
 
-def kind_unit(kind: str, of_lengths: str, force: str = "") -> str:
+def kind_unit(kind: str, of_lengths: str, force_unit: str = "") -> str:
     """Return the unit of values of a kind: "deg", that of lengths, a rate or a power, "" for others.
 
-    `force` is the unit of forces, the kind "number": "N", or "" for one without a name.
+    `force_unit` is the unit of forces, the kind "number": "N", or "" for one without a name.
     """
     rate = per(of_lengths, "s")
-    units = {"angle": "deg", "length": of_lengths, "number": force, "rate": rate}
-    return (units | {"power": times(force or "force", rate)}).get(kind, "")
+    units = {"angle": "deg", "length": of_lengths, "number": force_unit, "rate": rate}
+    return (units | {"power": times(force_unit or "force", rate)}).get(kind, "")
 
 
 def unit_of_forces(of_lengths: str, masses: object) -> str:

@@ -48,12 +48,12 @@ def legend_html(lines: Mapping[str, str]) -> str:
     return _wrapped(f'<div style="overflow-wrap:anywhere">{"".join(keys)}</div>') if lines else ""
 
 
-def limits_html(numbers: Numbers, unit: str, force: str = "") -> str:
+def limits_html(numbers: Numbers, unit: str, force_unit: str = "") -> str:
     """Return a row for each limit: its value, the limit and the margin; those violated in red."""
     if not numbers.limits:
         return _wrapped(f'<span style="{_FAINT}">A design file has no limits; a run has those of its study.</span>')
     head = "".join(f'<th style="text-align:{at};font-weight:500;{_FAINT}">{name}</th>' for name, at in _COLUMNS)
-    return _wrapped(f"{_TABLE}<tr>{head}</tr>", *(_limit(row, unit, force) for row in numbers.limits), "</table>")
+    return _wrapped(f"{_TABLE}<tr>{head}</tr>", *(_limit(row, unit, force_unit) for row in numbers.limits), "</table>")
 
 
 def number(value: float, digits: int = 4) -> str:
@@ -112,9 +112,9 @@ def _leg(numbers: Numbers, k: int) -> str:
     return f'<td style="{red}vertical-align:top"><span style="white-space:nowrap">{head} {length}</span>{beside}</td>'
 
 
-def _limit(row: LimitRow, unit: str, force: str) -> str:
+def _limit(row: LimitRow, unit: str, force_unit: str) -> str:
     red = f"color:{RED};font-weight:650;" if row.violated else ""
-    name = kind_unit(row.unit, unit, force)
+    name = kind_unit(row.unit, unit, force_unit)
     of = "°" if row.unit == "angle" else f" {name}" if name else ""
     here, end = "", "of the design"
     if row.side:
