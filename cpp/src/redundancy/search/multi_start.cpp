@@ -14,11 +14,14 @@ constexpr std::array coarse{3e-2};
 
 // Lengths are in sizes of the robot.
 constexpr std::array reaches{0.15, 0.5, 1.5, 10.0};  // of points on rays
+constexpr double near_by = 1.0;  // of them: ways to other parts of the chamber may lead outside of the grid of Reach
 constexpr double apart = 0.3;        // least distance of two starts
 constexpr double same = 1e-2;  // greatest distance of two ends of coarse descents that count as one
 constexpr std::size_t most_starts = 8, limit_starts = 6;
 constexpr double beside_joint = 1e-2;  // distance of the starts beside an internal joint
 constexpr int around_joint = 128;  // directions there
+constexpr double promising = 0.1;  // in the criterion above the best minimum: the best of them is refined
+constexpr double close_to_joint = 1e-3, coarsest_turn = 0.2, finest_turn = 1e-3;
 constexpr std::array before_joint{5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2, 3.2e-2};  // distances of starts that leave it
 constexpr int points_of_scan = 20;  // along each axis
 constexpr double hopeless = 0.5;  // coarse descents that end this much above the best are abandoned
@@ -64,7 +67,11 @@ class Search {
           const Vec3 direction = Vec3(a, b, c).normalized();
           const double way = pose_.step_to_singularity(x, direction, far_away);
           // Near the robot, and always closer than the singularity.
-          for (const double reach : reaches) add_sample(x + direction * (way * reach / (way + reach)));
+          for (const double reach : reaches) {
+            const Vec3 y = x + direction * (way * reach / (way + reach));
+            add_sample(y);
+            if (reach > near_by) reach_.add_far(y);
+          }
         }
   }
 
@@ -101,17 +108,25 @@ class Search {
   /// Descends into the internal joints: the criterion depends on the direction there, which the grid of a scan misses.
   void descend_into_joints() {
     for (int k = 0; k < 6; ++k) {
-      Sample best{Vec3::Zero(), minima_.best()};
+      Vec3 best = Vec3::Zero();
+      double least = minima_.best() + promising;
       for (int n = 0; n < around_joint; ++n) {
         // A spiral over the sphere, with the golden angle.
         const double z = (2.0 * n + 1.0) / around_joint - 1.0, turn = 2.399963229728653 * n;
         const double flat = std::sqrt(1.0 - z * z);
         const Vec3 x = pose_.joint(k) + beside_joint * Vec3(flat * std::cos(turn), flat * std::sin(turn), z);
-        if (!objective_.in_chamber(x) || objective_.violation(x) >= limit_tolerance) continue;
-        if (const double value = objective_.exact(x); value < best.value) best = {x, value};
+        if (const double value = allowed_value(x); value < least) {
+          best = x;
+          least = value;
+        }
       }
-      if (!(best.value < minima_.best()) || !reach_.reaches(best.x)) continue;
-      minima_.add(end_of(objective_, descend(pose_, soft_, best.x, final_epsilons())));
+      if (!(least < minima_.best() + promising)) continue;
+      const bool lower = least < minima_.best();
+      if (!lower) least = turn_about_joint(k, best);
+      if (!(least < minima_.best()) || !reach_.reaches(best)) continue;
+      // From so near, a descent begun with strong smoothing would leave the joint.
+      minima_.add(lower ? end_of(objective_, descend(pose_, soft_, best, final_epsilons()))
+                        : minimum_from(objective_, best));
     }
   }
 
@@ -144,6 +159,34 @@ class Search {
   }
 
  private:
+  /// The criterion at x; infinite where the chamber or the limits exclude it.
+  double allowed_value(const Vec3& x) const {
+    const bool allowed = objective_.in_chamber(x) && objective_.violation(x) < limit_tolerance;
+    return allowed ? objective_.exact(x) : infinity;
+  }
+
+  /// Moves x close to a joint and turns it about it to where the criterion is least: the directions looked at are too
+  /// few to show how low it is there. Returns the value.
+  double turn_about_joint(int k, Vec3& x) const {
+    const Vec3 joint = pose_.joint(k);
+    x = joint + close_to_joint * (x - joint).normalized();
+    double least = allowed_value(x);
+    for (double turn = coarsest_turn; turn > finest_turn;) {
+      const Vec3 way = (x - joint).normalized(), side = way.unitOrthogonal(), other = way.cross(side);
+      bool lower = false;
+      for (const Vec3& step : {side, Vec3(-side), other, Vec3(-other)}) {
+        const Vec3 y = joint + close_to_joint * (way + turn * step).normalized();
+        const double value = allowed_value(y);
+        if (!(value < least)) continue;
+        least = value;
+        x = y;
+        lower = true;
+      }
+      if (!lower) turn *= 0.5;
+    }
+    return least;
+  }
+
   void add_sample(const Vec3& x) {
     if (!objective_.in_chamber(x)) return;
     const double broken = objective_.violation(x);

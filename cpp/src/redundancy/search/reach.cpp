@@ -80,6 +80,7 @@ bool Reach::reaches(const Vec3& x) {
 }
 
 bool Reach::finds(const Vec3& x) const {
+  if (std::ranges::any_of(far_, [&](const Vec3& from) { return line_is_free(pose_, from, x); })) return true;
   Front forth(pose_, known_.front(), x), back(pose_, x, known_.front());
   while (!forth.exhausted() && !back.exhausted())
     if (forth.advance() || back.advance()) return true;
