@@ -91,6 +91,7 @@ from ninedof.sheet.comparison import Comparison, compare
 from ninedof.sheet.failure.failure import failure
 from ninedof.sheet.failure.result import Failure
 from ninedof.sheet.path_limits import PathLimits, path_limits
+from ninedof.sheet.path_payload import PathPayload, payload_along
 from ninedof.sheet.payload import Payload, largest_payload
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.architecture import (
@@ -182,6 +183,7 @@ __all__ = [
     "Objective",
     "OptimumProof",
     "PathLimits",
+    "PathPayload",
     "Payload",
     "Pose",
     "PositionStatus",
@@ -258,6 +260,7 @@ __all__ = [
     "optimize",
     "pareto",
     "path_limits",
+    "payload_along",
     "prove_optimum",
     "reciprocal_condition_number",
     "region_map",

@@ -1,4 +1,5 @@
 #include "ninedof/dynamics/inverse_dynamics.hpp"
+#include "ninedof/dynamics/payload.hpp"
 #include "support/module.hpp"
 #include "support/struct.hpp"
 
@@ -40,6 +41,15 @@ void bind_dynamics(py::module_& m) {
       const LegForces f = inverse_dynamics(g, state, masses, gravity, three_vectors<Load>(row + 18));
       Eigen::Map<Eigen::Matrix<double, 27, 1>>{out} << f.forces, inverse_velocity(g, state.at, state.velocity),
           f.unbalanced.moment, f.unbalanced.force, f.unbalanced.force_at_o;
+    });
+  });
+  // Rows of 36: forces without the payload, of a unit of it, greatest pushes and pulls.
+  m.def("payload_shares", [](const Array& instants, int threads) {
+    const long count = static_cast<long>(instants.shape(0));
+    const double* from = rows("instants", instants, count, 36);
+    return for_each_row(count, 18, threads, py::none(), [&](long i, double* out) {
+      const Eigen::Map<const Eigen::Matrix<double, 9, 4>> row(from + 36 * i);
+      Eigen::Map<Vec18>{out} = payload_shares(Vec9(row.col(0)), Vec9(row.col(1)), Vec9(row.col(2)), Vec9(row.col(3)));
     });
   });
 }

@@ -29,12 +29,16 @@ Vec18 payload_shares(const Geometry& g, const Configuration& c, const PayloadLim
   const LegForces own = leg_forces(g, c, without);
   const LegForces per_mass = leg_forces(g, c, {arm.cross(limits.gravity), limits.gravity, Vec3::Zero()});
   if (!own.balanced() || !per_mass.balanced()) return Vec18::Constant(infinity);
+  return payload_shares(own.forces, per_mass.forces, limits.push, limits.pull);
+}
+
+Vec18 payload_shares(const Vec9& own, const Vec9& per_mass, const Vec9& push, const Vec9& pull) {
   Vec18 out;
-  const double rounding = 1e-12 * per_mass.forces.cwiseAbs().maxCoeff();
+  const double rounding = 1e-12 * per_mass.cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < 9; ++k) {
-    const double by_mass = std::abs(per_mass.forces[k]) > rounding ? per_mass.forces[k] : 0.0;
-    out[k] = share(by_mass, limits.push[k] - own.forces[k]);
-    out[k + 9] = share(-by_mass, limits.pull[k] + own.forces[k]);
+    const double by_mass = std::abs(per_mass[k]) > rounding ? per_mass[k] : 0.0;
+    out[k] = share(by_mass, push[k] - own[k]);
+    out[k + 9] = share(-by_mass, pull[k] + own[k]);
   }
   return out;
 }

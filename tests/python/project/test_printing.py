@@ -55,6 +55,7 @@ def shown(published):
         "InternalPointMap": nd.best_internal_map(published, path),
         "LegForces": nd.leg_forces(published, STACK, [0, 0, 0], [0, 0, 1]),
         "Payload": nd.largest_payload(nd.Design(published, HOME), 100.0),
+        "PathPayload": nd.payload_along(nd.Design(published, HOME), nd.follow(published, line, HOME), 100.0),
         "InverseDynamics": nd.inverse_dynamics(published, STACK),
         "ErrorBounds": nd.error_bounds(published, HOME, 0.1),
         "SingularityDistance": nd.distance_to_singularity(published, HOME, DOWN, most=5.0),

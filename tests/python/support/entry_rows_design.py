@@ -358,6 +358,15 @@ row("largest_payload", few=3, huge=("samples",))(
         "samples": 10,
     }
 )
+row("payload_along")(
+    lambda: {
+        "design": it.design(),
+        "motion": it.followed(),
+        "force": 100.0,
+        "power": 50.0,
+        "centre": (0.0, 0.0, 0.1),
+    }
+)
 row("failure", few=3, huge=("samples",))(
     lambda: {
         "design": it.design(),
@@ -527,6 +536,7 @@ THINGS = {  # one of each class whose methods without arguments are called
     "Objective": nd.Objective,
     "OptimumProof": it.proof,
     "PathLimits": lambda: nd.path_limits(it.study(), it.followed(), it.c()),
+    "PathPayload": lambda: nd.payload_along(it.design(), it.followed(), 100.0),
     "Payload": lambda: nd.largest_payload(it.design(), 100.0),
     "Pose": lambda: nd.Pose((0.1, 0.0, 0.0)),
     "Region": lambda: nd.Region(cylinder=(0.1, 0.1)),
