@@ -137,25 +137,25 @@ function body(context, [width, height], { vertices, faces }, view, colours) {
 
 // The name of each leg beside it on light ground, off the base where there is room, else at the end of a thin line.
 function labels(context, robot, project, colours, line, dark) {
-  const taken = [];
+  const o = project(robot.o), taken = [[o[0], o[1], 8]]; // middles and widths: of the mark of O, then of the names
   Object.assign(context, { textAlign: "center", textBaseline: "middle" });
-  const free = ([x, y]) => taken.every(([a, b]) => Math.abs(a - x) > 17 || Math.abs(b - y) > 14);
   const light = ([x, y]) => !dark.some((face) => within(face, x, y));
   const write = (text, colour, places, font = "600 12px system-ui, sans-serif") => {
+    context.font = font;
+    const wide = Math.max(18, context.measureText(text).width + 4);
+    const free = ([x, y]) => taken.every(([a, b, w]) => Math.abs(a - x) > (w + wide) / 2 - 1 || Math.abs(b - y) > 14);
     const [x, y] = places[0], around = [26, 40, 56, 76].flatMap((r) =>
       [...Array(16).keys()].map((k) => [x + r * Math.cos(k * Math.PI / 8), y + r * Math.sin(k * Math.PI / 8)]));
     const at = places.find((p) => free(p) && light(p)) || places.find(free) || around.find(free) || places[0];
     if (around.includes(at)) line([[x, y], at], colour, 0.8);
-    taken.push(at);
-    Object.assign(context, { font, fillStyle: colours.surface });
+    taken.push([...at, wide]);
+    context.fillStyle = colours.surface;
     context.globalAlpha = 0.85;
-    const wide = Math.max(18, context.measureText(text).width + 4);
     context.fillRect(at[0] - wide / 2, at[1] - 8, wide, 16);
     context.globalAlpha = 1;
     context.fillStyle = colour;
     context.fillText(text, at[0], at[1]);
   };
-  const o = project(robot.o);
   write("O", colours.ink, [[o[0] - 17, o[1] - 3], [o[0] + 17, o[1] - 3], [o[0], o[1] + 18]], "italic 600 13px system-ui, sans-serif");
   for (const [kind, i, a, b] of [...robot.legs.slice(3), ...robot.legs.slice(0, 3)]) { // the short ones first
     const [from, to] = [a, b].map(project), long = Math.hypot(to[0] - from[0], to[1] - from[1]) || 1;

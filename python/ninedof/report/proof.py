@@ -29,6 +29,8 @@ def of_result(result: Result, certificate: MachineCertificate | None) -> Html:
     """Return what is established of an optimization and what is not; `certificate`: what `ninedof certify` proved."""
     proofs = [*(certificate.sentences() if certificate else ()), *_checked(result)]
     as_built = result.reserve is not None and result.reserve.proved  # of every machine within the tolerances
+    if as_built and certificate is None:
+        proofs.append("Proved: every machine within the tolerances keeps the limits at every pose.")
     between = not as_built and (certificate is None or not certificate.proved)
     return _two(proofs, list(_searched(result, between)), STATUS[result.status], result.status)
 

@@ -8,7 +8,7 @@ from typing import Any
 from ninedof.design.duty import Tool
 from ninedof.design.limits import kind_of
 from ninedof.design.region import box_lines
-from ninedof.motion.tables import motion_tables
+from ninedof.motion.tables import motion_tables, seconds_of
 from ninedof.paper.verdicts import verdicts_table
 from ninedof.redundancy.rules import where_o
 from ninedof.report import origin, proof, scene
@@ -104,16 +104,21 @@ def _motion(motion: dict[str, Any], unit: str) -> tuple[str, Html, list[Any]]:
     broken = len(motion["breaks"])
     for limit in motion.get("limits", ()):
         broken += is_violated(limit["margin"], kind_of(limit["name"]), limit.get("limit", 0.0))
-    until = "whole path" if motion["tracked"] else f"up to t = {motion['tracked_until']:.6g}"
+
+    def moment(t: float) -> str:
+        return amount(f"{t:.6g}", seconds_of(motion))
+
+    until = "whole path" if motion["tracked"] else f"up to t = {moment(motion['tracked_until'])}"
     rows = [
-        ("condition number, worst", f"{kappa['worst']:.4f} at t = {kappa['at']:.6g}"),
+        ("condition number, worst", f"{kappa['worst']:.4f} at t = {moment(kappa['at'])}"),
         ("at the start and at the end", f"{kappa['first']:.4f}, {kappa['last']:.4f}"),
-        ("nearest singularity", f"{near['determinant']} = {near['value']:.4f} at t = {near['at']:.6g}"),
+        ("nearest singularity", f"{near['determinant']} = {near['value']:.4f} at t = {moment(near['at'])}"),
         ("never move", ", ".join(motion["idle_legs"]) or "none: all nine legs move"),
         ("tracked back from the leg lengths", f"{until}, largest difference {motion['tracking_error']:.1e}"),
     ]
     sentence = (
-        f"What do the nine legs do along {motion['poses']} poses from t = {motion['begin']:g} to {motion['end']:g}, "
+        f"What do the nine legs do along {motion['poses']} poses from t = {motion['begin']:g} to "
+        f"{moment(motion['end'])}, "
         f"and which limits break? O is {where_o(motion['internal_point'])}."
     )
     top = [("limits broken", broken), ("worst condition number", f"{kappa['worst']:.4f}")]

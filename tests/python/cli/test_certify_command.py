@@ -225,6 +225,8 @@ def test_a_run_with_a_reserve_says_so_and_its_tolerances_are_proved(tmp_path, ca
     said = " ".join(capsys.readouterr().out.split())
     assert "reserve for the tolerances: radius ratio max" in said
     assert "proved of every machine within the tolerances" in said
+    page = nd.report(folder, folder / "page.html").read_text()  # beside what is searched, nothing said so
+    assert "Proved: every machine within the tolerances keeps the limits at every pose." in page
     assert status(folder) == 0
     assert status(folder, "--tolerance", "max") == 0
     said = " ".join(capsys.readouterr().out.split())
