@@ -212,7 +212,7 @@ class Followed(Saved):
         else:
             low, high = self.limits
             bounded = np.isfinite(high).any() or (np.asarray(low) > 0.0).any()
-            words = "legs within their lengths" if bounded else "no limits given"
+            words = "legs within their lengths, no other limit looked at" if bounded else "no limits given"
         return f"<Followed: {len(self.time)} poses, {words}>"
 
     def _repr_html_(self) -> str:

@@ -12,7 +12,7 @@ from ninedof.redundancy.rules import where_o
 from ninedof.robot.geometry import LEGS
 from ninedof.robot.idle import NEVER_CARRY
 from ninedof.support.margins import margin_words
-from ninedof.support.units import amount, kind_unit, per, times, watt_note
+from ninedof.support.units import amount, kind_unit, per, times, watt_note, with_unit
 from ninedof.tables import RIGHT, Column, Table, columns, grouped
 
 POWERS, WORKS = ("power", "braking"), ("work", "returned")
@@ -69,7 +69,7 @@ def drives_table(motion: Mapping[str, Any]) -> Table | None:
 
 def limits_table(motion: Mapping[str, Any]) -> Table:
     """Return the other limits of the study: where each has its least margin."""
-    heads = columns("limit", "", ">allowed", ">worst", ">margin", ">at t")
+    heads = columns("limit", "", ">allowed", ">worst", ">margin", with_unit(">at t", seconds_of(motion)))
     rows = []
     for row in motion.get("limits", ()):
         if "limit_deg" in row:
@@ -84,6 +84,11 @@ def limits_table(motion: Mapping[str, Any]) -> Table:
     return Table("Limits of the study along the path", heads, rows, notes)
 
 
+def seconds_of(motion: Mapping[str, Any]) -> str:
+    """Return "s" where lengths have a unit; times have none without one."""
+    return "s" * bool(motion.get("unit"))
+
+
 def motion_tables(motion: Mapping[str, Any]) -> list[Table]:
     """Return the tables of a motion: legs, drives where there are forces, limits where a study has some."""
     drives = drives_table(motion)
@@ -94,20 +99,22 @@ def motion_tables(motion: Mapping[str, Any]) -> list[Table]:
 def motion_words(followed: Any, motion: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield remarks on the tables, one sentence each: words to be stressed, and the rest."""
     kappa, near = motion["condition_number"], motion["nearest_singularity"]
-    o = where_o(motion["internal_point"])
+    o, seconds = where_o(motion["internal_point"]), seconds_of(motion)
+    moments = {"end": motion["end"], "worst": kappa["at"], "near": near["at"], "tracked": motion["tracked_until"]}
+    at = {name: amount(f"{t:.6g}", seconds) for name, t in moments.items()}
     if motion["poses"] < FEW:
         yield (
             f"at {motion['poses']} poses only",
             f": between them nothing is looked at, and rates are of polynomials through them; give at least {FEW}",
         )
-    yield "", f"{motion['poses']} poses from t = {motion['begin']:g} to {motion['end']:g}; O: {o}"
+    yield "", f"{motion['poses']} poses from t = {motion['begin']:g} to {at['end']}; O: {o}"
     if motion["idle_legs"]:
         yield "", f"never move: {', '.join(motion['idle_legs'])}; with --internal-point best or 0.5 they help"
     if motion.get("unloaded_legs"):
         yield "", f"never carry load: {', '.join(motion['unloaded_legs'])}; {NEVER_CARRY}"
     ends = f"{kappa['first']:.4f} at the start, {kappa['last']:.4f} at the end"
-    yield "", f"condition number at worst {kappa['worst']:.4f} at t = {kappa['at']:.6g}; {ends}"
-    yield "", f"nearest singularity: {near['determinant']} = {near['value']:.4f} at t = {near['at']:.6g}"
+    yield "", f"condition number at worst {kappa['worst']:.4f} at t = {at['worst']}; {ends}"
+    yield "", f"nearest singularity: {near['determinant']} = {near['value']:.4f} at t = {at['near']}"
     turning, moving = (float(np.linalg.norm(followed.velocity[:, k : k + 3], axis=1).max()) for k in (0, 3))
     speed, time = amount(f"{moving:.5g}", per(followed.unit, "s")), "second" if followed.unit else "unit of time"
     yield "", f"platform: speed at most {speed}, turning at most {math.degrees(turning):.5g} degrees per {time}"
@@ -117,23 +124,23 @@ def motion_words(followed: Any, motion: Mapping[str, Any]) -> Iterator[tuple[str
         row["name"]: kind_unit(row["kind"], followed.unit, followed.force_unit) for row in motion.get("limits", ())
     }
     for entry in breaks[:SHOWN]:
-        yield _break_words(entry, units)
+        yield _break_words(entry, units, seconds)
     if len(breaks) > SHOWN:
         yield "", f"and {len(breaks) - SHOWN} more breaks of limits: see record.json"
     error = f"largest difference {motion['tracking_error']:.1e}"
     if motion["tracked"]:
         yield "", f"tracked back from the leg lengths, every step proved: {error}"
     else:
-        yield "not tracked back", f" beyond t = {motion['tracked_until']:.6g}: {error}"
+        yield "not tracked back", f" beyond t = {at['tracked']}: {error}"
 
 
-def _break_words(entry: Mapping[str, Any], units: Mapping[str, str]) -> tuple[str, str]:
-    limit = entry["limit"]
+def _break_words(entry: Mapping[str, Any], units: Mapping[str, str], seconds: str) -> tuple[str, str]:
+    limit, begin = entry["limit"], f"{entry['begin']:.6g}"
     if limit.startswith("det"):
-        return "singularity", f": {limit} changes sign at t = {entry['begin']:.6g}"
+        return "singularity", f": {limit} changes sign at t = {amount(begin, seconds)}"
     if "worst_deg" in entry:
         worst = f"{entry['worst_deg']:.5g}°"
     else:
         worst = amount(f"{entry['worst']:.5g}", units.get(limit.split()[0], ""))
-    when = f"from t = {entry['begin']:.6g} to {entry['end']:.6g}"
-    return "limit breaks", f": {limit}, {when}, at worst {worst} at {entry['at']:.6g}"
+    end, at = (amount(f"{entry[key]:.6g}", seconds) for key in ("end", "at"))
+    return "limit breaks", f": {limit}, from t = {begin} to {end}, at worst {worst} at {at}"

@@ -35,14 +35,14 @@ def legs_csv(motion: Followed) -> bytes:
     """Return legs.csv: t, nine lengths, rates and accelerations of the legs, nine forces and powers of each load."""
     unit, shape = motion.unit, (-1, len(motion.time), 9)
     parts = [("", unit, motion.leg_lengths), (RATE, per(unit, "s"), motion.leg_rates)]
-    parts.append((ACCELERATION, per(unit, "s^2"), motion.leg_accelerations))
+    parts.append((ACCELERATION, per(unit, "s²"), motion.leg_accelerations))
     if motion.leg_forces is not None and motion.leg_powers is not None:
         loads = zip(motion.leg_forces.reshape(shape), motion.leg_powers.reshape(shape), strict=True)
         for k, (forces, powers) in enumerate(loads, start=1):
             number = f"_{k}" if motion.load_count > 1 else ""
             parts.append((FORCE + number, motion.force_unit, forces))
             parts.append((POWER + number, "W" if motion.force_unit else "", powers))
-    columns = {"t": motion.time}
+    columns = {with_unit("t", "s" * bool(unit)): motion.time}
     for what, of, values in parts:
         columns |= {with_unit(leg + what, of): values[:, k] for k, leg in enumerate(LEGS)}
     return _csv(columns)
@@ -60,7 +60,7 @@ def motion_values(motion: Followed, limits: PathLimits | None) -> dict[str, Any]
 def _poses(motion: Followed, margins: Mapping[str, Floats]) -> dict[str, Floats]:
     c, axes = motion.configurations, range(3)
     return {
-        "t": motion.time,
+        with_unit("t", "s" * bool(motion.unit)): motion.time,
         **{with_unit(LENGTHS[k], motion.unit): c.position[:, k] for k in axes},
         **{f"Q{i + 1}{j + 1}": c.rotation[:, i, j] for i in axes for j in axes},
         **{with_unit(LENGTHS[3 + k], motion.unit): c.internal_point[:, k] for k in axes},

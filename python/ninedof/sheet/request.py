@@ -86,6 +86,13 @@ def masses_of(study: Study, mass: float | None = None, centre: Vector | None = N
     return masses.seen_from(study.tool) if masses else None
 
 
+def masses_words(study: Study, mass: float | None = None) -> list[str]:
+    """Return which masses are those of the study, where the platform's may be given; empty for none."""
+    if mass is None:
+        return ["[masses]"] * bool(study.masses)
+    return ["[masses] but the platform's mass"] * bool(replace(study.masses, platform=0.0))
+
+
 def masses_besides_platform(study: Study) -> Masses | None:
     """Return the masses of the legs and of O; None where they are 0. Sheets have the platform as a `Weight`."""
     masses = masses_of(study)

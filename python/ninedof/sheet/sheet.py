@@ -39,7 +39,7 @@ from ninedof.statics.dynamics import masses_for_core
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats, all_finite, one_or_each
 from ninedof.support.structs import options_of, plain_fields, rows_of
-from ninedof.support.units import per, unit_argument, unit_of_forces, with_unit
+from ninedof.support.units import degrees_of, per, times, unit_argument, unit_of_forces, with_unit
 from ninedof.tables.html import notebook
 from ninedof.tables.table import plain_text
 
@@ -188,7 +188,7 @@ class Sheet:
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values; names of angles end in _deg, those of poses are indices into "poses".
 
-        "unit" names the length unit where there is one.
+        "unit" names the length unit where there is one, "units" what goes with it, as {"speed": "mm/s"}.
         """
         c, motion = self.configurations, self.motion
         poses = {
@@ -204,7 +204,7 @@ class Sheet:
         }
         out["motion"] = {
             "linear_speed": motion.linear_speed,
-            "angular_speed_deg": float(np.degrees(motion.angular_speed)),
+            "angular_speed_deg": degrees_of(motion.angular_speed),
             "internal": motion.internal,
             "twist": motion.twist,
             "twist_rate": None if motion.twist is None else motion.twist_rate,
@@ -216,26 +216,32 @@ class Sheet:
         for row in out["limits"]:
             if row["unit"] == "angle":
                 _in_degrees(row, "limit", "value")
-        return {**out, "idle": list(self.idle)}
+        return {**out, "idle": list(self.idle), "units": self._units()}
+
+    def _units(self) -> dict[str, str]:
+        """Return the units by quantity; without forces and powers where masses and lengths name no unit of force."""
+        unit, force, speed = self.unit, self.force_unit, per(self.unit, "s")
+        units = {"length": unit, "speed": speed, "acceleration": per(unit, "s²"), "force": force}
+        units |= {"power": times(force, speed), "moment": times(force, unit), "stiffness": per(force, unit)}
+        return {quantity: name for quantity, name in units.items() if name}
 
     def to_csv(self) -> str:
         """Return the table of the legs as CSV text: one row for each leg, empty where a leg has no such joint.
 
-        Names of columns are followed by the length unit in brackets, where there is one: "shortest (mm)". Speeds,
-        accelerations and powers are those at `platform_speed` and `platform_turn_deg`, the same in every row.
+        Names of columns are followed by their unit in brackets, where there is one: "shortest (mm)", "power (N mm/s)".
+        Speeds, accelerations and powers are those at `platform_speed` and `platform_turn_deg`, the same in every row.
         """
         motion = self.motion
-        at = {"platform_speed": motion.linear_speed, "platform_turn_deg": float(np.degrees(motion.angular_speed))}
+        at = {"platform_speed": motion.linear_speed, "platform_turn_deg": degrees_of(motion.angular_speed)}
         rows = [leg.flat() | at for leg in self.legs]
         import csv  # when it is needed, as it takes time to load
 
         text = io.StringIO()
         writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
+        units = self._units()
         lengths = ("shortest", "longest", "neutral", "stroke", "permitted_shortest", "permitted_longest")
-        units = dict.fromkeys(lengths, self.unit)
-        units |= dict.fromkeys(("speed", "platform_speed"), per(self.unit, "s"))
-        units |= {"acceleration": per(self.unit, "s²")}
-        writer.writerow({name: with_unit(name, units.get(name, "")) for name in rows[0]})
+        of = {name: "length" if name in lengths else next((q for q in units if q in name), "") for name in rows[0]}
+        writer.writerow({name: with_unit(name, units.get(quantity, "")) for name, quantity in of.items()})
         writer.writerows(rows)
         return text.getvalue()
 

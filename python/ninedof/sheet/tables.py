@@ -215,12 +215,12 @@ def _powers(sheet: Any) -> Table:
     return _of_legs(f"Drives, largest {over(sheet)}", sheet, columns, rows, [note])
 
 
-def weight_words(weight: Any, tool: Any, legs: bool, force: str = "") -> list[str]:
+def weight_words(weight: Any, tool: Any, legs: bool, force_unit: str = "") -> list[str]:
     """Return which weights act beside the loads; the centre of the platform's in the frame of the plate."""
     words = []
     if weight is not None:
         x, y, z = tool.own(weight.centre).tolist()
-        mass = f"{weight.mass:g}{' kg' if force else ''}"
+        mass = f"{weight.mass:g}{' kg' if force_unit else ''}"
         words.append(
             f"each with the weight of a mass of {mass}, centre {vector_words((x, y, z))} in the frame of the plate, "
             f"{gravity_words(weight.gravity, force)}"
@@ -228,10 +228,10 @@ def weight_words(weight: Any, tool: Any, legs: bool, force: str = "") -> list[st
     return [*words, *["each with the weights of the legs and of O"] * legs]
 
 
-def load_words(number: int, load: Any, unit: str, force: str = "") -> str:
-    """Return a load in words; `force` is "N", or "" for a unit without a name."""
-    moment = amount(vector_words(load[:3]), times(force or "force", unit))
-    return f"load {number}: moment {moment}, force {amount(vector_words(load[3:]), force)}"
+def load_words(number: int, load: Any, unit: str, force_unit: str = "") -> str:
+    """Return a load in words; `force_unit` is "N", or "" for a unit without a name."""
+    moment = amount(vector_words(load[:3]), times(force_unit or "force", unit))
+    return f"load {number}: moment {moment}, force {amount(vector_words(load[3:]), force_unit)}"
 
 
 def region_words(sheet: Any) -> Iterator[str]:

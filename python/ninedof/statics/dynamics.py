@@ -112,7 +112,7 @@ def inverse_dynamics(
 
     Examples
     --------
-    A platform of 5 kg that is lifted at 2 m/s^2:
+    A platform of 5 kg that is lifted at 2 m/s²:
 
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=0.58124, b1=0.29062, b2=0.0)

@@ -1,5 +1,6 @@
 """Lines that commands say of a machine of a study: what its loads, speeds and fixed variables mean for the answer."""
 
+import json
 import re
 from dataclasses import replace
 
@@ -39,6 +40,28 @@ def test_a_load_that_carries_the_payload_is_told(words, run):
     alone = float(out.partition("without these loads ")[2].split(":")[0])
     assert alone < float(out.partition("largest payload ")[2].split(",")[0])
     assert "without these loads" not in words("payload ./run --force 300 --load 0,0,0,0,0,-90")
+
+
+def test_masses_of_options_and_of_the_study_are_told_apart(words, folder, run):
+    """With --mass a path named [loads] alone, though the masses of the legs were still those of the study."""
+    legs = {"platform": 3.0, "cylinder": 0.4}
+    nd.save(nd.optimize(replace(STUDY, masses=legs)), folder / "legs")
+    path = "path {} --line 5 0 0 --points 51 --no-figures --no-report --out ./of_mass_{}"
+    assert "from the study: [loads], [masses] but the platform's mass" in words(path.format("./legs --mass 9", 1))
+    assert "from the study: [loads], [masses] run folder" in words(path.format("./legs", 2))
+    assert "from the study: [loads] run folder" in words(path.format("./run --mass 9", 3))
+    plain = words(path.format("./run", 4))
+    assert "poses from t = 0 to 1 s; O:" in plain
+    assert "from the study: [loads] run folder" in plain
+    out = words("forces ./run --mass 9 --centre 0 0 5")
+    assert "each with the weight of a mass of 9 kg, centre (0, 0, 5) in the frame of the plate" in out
+    assert "from the study: [loads] Forces (N)" in out
+    assert "[masses] but the platform's mass" in words("forces ./legs --mass 9")
+    nd.save(nd.optimize(replace(STUDY, masses={"platform": 9.0})), folder / "nine")
+    given, stated = (
+        json.loads(run(f"forces {folder}/{line} --json")[1])["forces"] for line in ("run --mass 9", "nine")
+    )
+    assert given == stated
 
 
 def test_a_path_faster_than_the_speeds_of_the_study_is_told(words):
@@ -90,9 +113,13 @@ def test_forces_are_newtons_and_powers_watts_where_masses_are_stated(words, fold
     assert "200000 N mm/s" in along
     assert "700 N" in along
     laden = words("path ./heavy --line 1 0 0 --points 51 --mass 300 --no-figures --no-report --out ./laden")
-    assert re.search(r"limit breaks: force \w+ max, from t = \S+ to \S+, at worst [\d.]+ N at ", laden)
+    assert re.search(r"limit breaks: force \w+ max, from t = \S+ to \S+ s, at worst [\d.]+ N at \S+ s", laden)
     assert "t.tex" in words("export ./heavy --to latex --out ./t.tex")
     assert "N mm/s" in (folder / "t.tex").read_text()
+    head = sheet.to_csv().partition("\n")[0]
+    assert "power (N mm/s),force_largest (N),force_1_min (N),force_1_max (N),platform_speed (mm/s)" in head
+    units = sheet.to_dict()["units"]
+    assert (units["force"], units["power"], units["moment"], units["stiffness"]) == ("N", "N mm/s", "N mm", "N/mm")
     assert "a mass of 3 kg" in words("forces ./heavy")
     assert "Forces (N), + pushes" in words("forces ./heavy")
     said = words("payload ./heavy")

@@ -171,7 +171,15 @@ def test_records_json_and_csv_have_the_unit(capsys, here):
     heads = [Path(name).read_text().split("\n")[0].split(",") for name in ("sheet.csv", "path/legs.csv")]
     bracket = " (mm)" if here else ""
     assert heads[0][1:5] == [f"{name}{bracket}" for name in ("shortest", "longest", "neutral", "stroke")]
-    assert heads[1][:2] + heads[1][10:11] == ["t", f"l1{bracket}", "l1_rate (mm/s)" if here else "l1_rate"]
+    assert heads[0][7:9] == [
+        f"{name} (mm/{s})" if here else name for name, s in (("speed", "s"), ("acceleration", "s²"))
+    ]
+    assert heads[1][19:20] == ["l1_acceleration (mm/s²)" if here else "l1_acceleration"]
+    assert heads[1][:2] + heads[1][10:11] == [
+        "t (s)" if here else "t",
+        f"l1{bracket}",
+        "l1_rate (mm/s)" if here else "l1_rate",
+    ]
 
 
 def test_a_unit_changes_no_number(tmp_path, capsys, monkeypatch):
@@ -183,6 +191,8 @@ def test_a_unit_changes_no_number(tmp_path, capsys, monkeypatch):
         found[unit] = {k: v for k, v in data["optimization"].items() if k != "seconds"}
         found[unit]["sheet"] = nd.load(f"run{len(unit)}").sheet().to_dict()
         assert found[unit]["sheet"].pop("unit", "") == ("in" if unit else "")
+        units = found[unit]["sheet"].pop("units")
+        assert units == ({"length": "in", "speed": "in/s", "acceleration": "in/s²"} if unit else {})
     first, second = (json.dumps(one, default=lambda a: a.tolist()) for one in found.values())
     assert first == second
 

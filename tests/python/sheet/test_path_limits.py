@@ -1,5 +1,7 @@
 """Margins along a path against those of the study at the poses passed so far."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -136,11 +138,16 @@ def test_a_path_of_a_result_has_loads_masses_and_all_limits_of_its_study(tmp_pat
     assert repr(by_hand) == "<Followed: 51 poses, no limits given>"
     far = nd.Trajectory.line(home, [20.0, 0.0, 0.0], points=51)
     least = nd.follow(result.geometry, far, home, limits=(1.0, np.inf))
-    assert repr(least) == "<Followed: 51 poses, legs within their lengths>"
+    assert repr(least) == "<Followed: 51 poses, legs within their lengths, no other limit looked at>"
+    point = study.evaluate(result.best.variables)
+    bounded = replace(study, constraints={**study.constraints, "leg_length": (1.0, 900.0)}).evaluate(point.variables)
+    assert repr(nd.follow(bounded, far)).endswith("legs within their lengths, no other limit looked at>")
     broken = nd.follow(result, far)
     assert broken.breaks == nd.path_limits(study, broken, home).breaks != ()
     assert "breaks base_cone l" in repr(broken)
-    assert repr(nd.follow(result.geometry, far, home, limits=(1.0, 900.0))).endswith("legs within their lengths>")
+    assert repr(nd.follow(result.geometry, far, home, limits=(1.0, 900.0))).endswith(
+        "legs within their lengths, no other limit looked at>"
+    )
     nd.save(broken, tmp_path / "path")
     assert nd.load(tmp_path / "path").breaks == broken.breaks
     assert "worst_deg" in (tmp_path / "path" / "record.json").read_text()

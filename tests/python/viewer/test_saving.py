@@ -74,7 +74,7 @@ def test_legs_along_the_path_that_is_open(viewer):
         viewer.state.open_path("circle", path)
     files, _ = saved(viewer, kind)
     head, *rows = csv.reader(io.StringIO(files["legs.csv"].decode()))
-    assert head[:2] == ["t", "l1 (mm)"]
+    assert head[:2] == ["t (s)", "l1 (mm)"]
     offset = HOME.internal_point - HOME.position  # carried: no turn on a circle
     for row, p in zip(rows, path.position, strict=True):
         expected = nd.leg_lengths(DESIGN.geometry, nd.Configuration(p, internal_point=p + offset))

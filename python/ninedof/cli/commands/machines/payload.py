@@ -32,9 +32,10 @@ EXAMPLES = """
 class _Options(Options):
     design: str = argument(ONE_DESIGN)
     force: float | None = option(
-        "Greatest force of a leg, pushing, and pulling without --pull; N for kg. That of the study by default."
+        "Greatest force of each leg that pushes, and without --pull of one that pulls; in N for a payload in kg. The "
+        "limits of the study by default."
     )
-    pull: float | None = option("Greatest force of a leg that pulls.")
+    pull: float | None = option("Greatest force of each leg that pulls; --force by default.")
     centre: Three | None = triple("Of the payload in the frame of the plate; its origin by default.")
     load: list[str] | None = option(LOAD)
 

@@ -12,6 +12,7 @@ from ninedof.cli.options import (
     LEG_ERROR,
     LEG_STIFFNESS,
     LOAD,
+    MASS,
     ONE_DESIGN,
     Options,
     argument,
@@ -51,7 +52,7 @@ class _Options(Options):
     )
     twist_rate: str | None = option("Its time derivative, 0 by default.")
     load: list[str] | None = option(LOAD)
-    mass: float | None = option("Mass of the platform: its weight is added to each load; of the study.")
+    mass: float | None = option(MASS)
     centre: str | None = option('Its centre "x y z" in the frame of the plate; of the study, or its origin.')
     gravity: str | None = option('Force per mass "x y z", base axes; of the study, or "0 0 -9.81": newtons for kg.')
     leg_error: float | None = option(LEG_ERROR)

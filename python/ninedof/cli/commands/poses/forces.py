@@ -8,20 +8,21 @@ import numpy as np
 
 import ninedof as nd
 from ninedof.cli.answer import Answer
-from ninedof.cli.options import LOAD, loads_option, option, struct
+from ninedof.cli.options import CENTRE, GRAVITY, LOAD, MASS, Three, loads_option, option, struct, triple
 from ninedof.cli.posed import PosesOptions
 from ninedof.cli.screen import bold
 from ninedof.robot.geometry import LEGS
 from ninedof.robot.idle import NEVER_CARRY, unloaded_names
-from ninedof.sheet.request import masses_besides_platform, masses_of, weight_of
+from ninedof.sheet.request import masses_besides_platform, masses_of, masses_words, weight_of
 from ninedof.sheet.tables import load_words, weight_words
-from ninedof.support.units import with_unit
+from ninedof.support.units import unit_of_forces, with_unit
 from ninedof.tables import Table, columns, grouped
 from ninedof.tables.numbers import spread
 
 PLACE = 4
 EXAMPLES = """
   ninedof forces design.toml --load "0 0 0 0 0 -100"
+  ninedof forces runs/20260101-120000 --mass 12 --centre 0 0 30
   ninedof forces runs/20260101-120000 --load "0 0 0 0 0 -100" --load "0 5 0 0 0 -100" --all-poses
   ninedof forces runs/20260101-120000#7 --load "0 0 0 0 0 -100" --position 10 0 350 --json | jq .forces"""
 
@@ -31,6 +32,9 @@ BALANCED = 1e-9  # of the largest force
 @struct
 class _Options(PosesOptions):
     load: list[str] | None = option(LOAD)
+    mass: float | None = option(MASS)
+    centre: Three | None = triple(CENTRE)
+    gravity: Three | None = triple(GRAVITY)
 
 
 def forces(options: _Options) -> Answer:
@@ -38,20 +42,23 @@ def forces(options: _Options) -> Answer:
     own = loads_option(options.load)
     at = options.at()
     duty = at.duty
-    weight, masses = weight_of(duty, None, None, None), masses_of(duty)
+    weight = weight_of(duty, options.mass, options.centre, options.gravity)
+    masses = masses_of(duty, options.mass, options.centre)
+    gravity = duty.loads.gravity if options.gravity is None else options.gravity
     loads = np.array(own or duty.loads.wrenches or np.zeros((int(masses is not None), 6)))
     if not len(loads):
-        raise ValueError("--load: got none, expected one, or a run whose study has [loads] or [masses]")
-    balance = nd.inverse_dynamics(at.geometry, at.c, masses=masses, gravity=duty.loads.gravity, load=loads[:, None])
+        raise ValueError("--load: got none, expected one, or --mass, or a run whose study has [loads] or [masses]")
+    balance = nd.inverse_dynamics(at.geometry, at.c, masses=masses, gravity=gravity, load=loads[:, None])
     result, size = balance.forces, np.abs(balance.forces).max(axis=(1, 2))
     heads = columns("leg", *(f">load {k}" for k in range(1, len(loads) + 1)))
     least, most = result.min(axis=1), result.max(axis=1)
     rows = [(leg, *map(spread, least[:, k], most[:, k], size[:, None])) for k, leg in enumerate(LEGS)]
-    parts: list[Any] = [load_words(k, row, at.unit, duty.force_unit) for k, row in enumerate(loads, start=1)]
-    parts += weight_words(weight, duty.tool, masses_besides_platform(duty) is not None, duty.force_unit)
-    if masses is not None or not own:
-        parts.append(f"from the study: {', '.join(['[loads]'] * (not own) + ['[masses]'] * (masses is not None))}")
-    parts.append(Table(with_unit("Forces", duty.force_unit) + ", + pushes", heads, list(grouped(rows))))
+    force_unit = unit_of_forces(at.unit, masses is not None)
+    parts: list[Any] = [load_words(k, row, at.unit, force_unit) for k, row in enumerate(loads, start=1)]
+    parts += weight_words(weight, duty.tool, masses_besides_platform(duty) is not None, force_unit)
+    stated = ["[loads]"] * (not own and bool(duty.loads.wrenches)) + masses_words(duty, options.mass)
+    parts += [f"from the study: {', '.join(stated)}"] * bool(stated)
+    parts.append(Table(with_unit("Forces", force_unit) + ", + pushes", heads, list(grouped(rows))))
     for k, each in enumerate(result, start=1):
         if (names := unloaded_names(each)) and len(names) < len(LEGS):
             parts.append(bold("never carry load", f" {k}: {', '.join(names)}; {NEVER_CARRY}"))

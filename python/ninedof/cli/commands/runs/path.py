@@ -14,7 +14,9 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer, finish_job
 from ninedof.cli.options import (
+    CENTRE,
     DESIGN_OR_PUBLISHED,
+    GRAVITY,
     LC,
     LEG_LIMITS,
     JobOptions,
@@ -31,6 +33,7 @@ from ninedof.cli.options import (
 from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.design.limit_numbers import FORCES
 from ninedof.motion.follow import wrenches_along
 from ninedof.motion.tables import motion_tables, motion_words
 from ninedof.records.motion import motion_values
@@ -38,7 +41,7 @@ from ninedof.records.record import run_folder, write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.pose_words import turn_deg, vector_words
-from ninedof.sheet.request import masses_of
+from ninedof.sheet.request import masses_of, masses_words
 from ninedof.support.store import Store
 from ninedof.support.units import amount, per, unit_entry
 
@@ -71,9 +74,9 @@ class _Options(JobOptions):
     legs: Two | None = ends(LEG_LIMITS)
     force: Three | None = triple("Force on the platform at its origin.")
     moment: Three | None = triple("Moment on the platform.")
-    mass: float | None = option("Mass of the platform: weight and inertia are added to the load; of the study.")
-    centre: Three | None = triple("Its centre in the frame of the plate; of the study.")
-    gravity: Three | None = triple("Force per mass, base axes; 0 0 -9.81 by default.")
+    mass: float | None = option("Mass of the platform, in place of that of the study: its weight and inertia act too.")
+    centre: Three | None = triple(CENTRE)
+    gravity: Three | None = triple(GRAVITY)
     lc: str | None = option(LC, values=KINDS)
 
 
@@ -118,9 +121,9 @@ def path(options: _Options) -> None:
         *(bold(*words) for words in motion_words(result, motion)),
         *_turned(trajectory, home),
         *_faster(result, chosen.duty.speeds),
+        *_payload(chosen, result),
     ]
-    if masses is not None and options.mass is None:
-        stated = [*stated, "[masses]"]
+    stated = [*stated, *masses_words(chosen.duty, options.mass)]
     parts += [f"from the study: {', '.join(stated)}"] if stated else []
     write = partial(write_run, result, directory, question=question, results={"motion": motion}, limits=of_study)
     answer = Answer(parts, {"motion": motion}, DONE if result.tracked and not motion["breaks"] else NO_RESULT)
@@ -170,6 +173,13 @@ def _faster(motion: nd.Followed, speeds: nd.Speeds) -> Iterator[Any]:
         if size > most * (1.0 + SLACK) and (speeds.linear > 0.0 or speeds.angular > 0.0):
             reached, stated = (amount(f"{shown * x:.4g}", unit) for x in (size, most))
             yield bold("faster than the study", f": {name} speed {reached}, [speeds] has {stated}")
+
+
+def _payload(chosen: Chosen, motion: nd.Followed) -> Iterator[str]:
+    """Yield what the machine can carry along the path, where its study limits forces or powers."""
+    if any(one.kind in (FORCES, "power") and one.at == "poses" for one in chosen.duty.limits):
+        at = "of a point mass at the plate's origin, beside loads and masses"
+        yield f"{nd.payload_along(chosen.machine, motion).words}; {at}"
 
 
 def _draw(result: nd.Followed, screen: Screen, of_study: nd.PathLimits | None, directory: Path) -> list[Path]:
