@@ -223,7 +223,7 @@ def weight_words(weight: Any, tool: Any, legs: bool, force_unit: str = "") -> li
         mass = f"{weight.mass:g}{' kg' if force_unit else ''}"
         words.append(
             f"each with the weight of a mass of {mass}, centre {vector_words((x, y, z))} in the frame of the plate, "
-            f"{gravity_words(weight.gravity, force)}"
+            f"{gravity_words(weight.gravity, force_unit)}"
         )
     return [*words, *["each with the weights of the legs and of O"] * legs]
 

@@ -48,7 +48,7 @@ def test_every_argument_is_taken_or_refused_by_name(name):
 RESULTS = set(
     "ArchitectureSingularity AssemblyModes Bounds Candidate CertifiedWorkspace Design DesignPoint DeterminantBounds "
     "Ellipsoid ErrorBounds Followed Front InternalPoint InternalPointMap InverseDynamics LegForces LimitBreak "
-    "LimitProof Payload Comparison Failure RegionMap AdmissibleRow AdmissibleRows AdmissibleSet LowerBound "
+    "LimitProof PathPayload Payload Comparison Failure RegionMap AdmissibleRow AdmissibleRows AdmissibleSet LowerBound "
     "MachineCertificate MapAudit NearestSingularity OptimumProof PathLimits Result Sheet Singularity "
     "SingularityDistance SingularityMargins SweepResult Trace Tracked ModesCertificate VelocityMatrices "
     "WorkspaceCells WorkspaceMap WorkspaceSlice".split()

@@ -196,7 +196,7 @@ def test_what_enters_the_limits_keeps_the_clearance():
 
 
 def test_a_part_of_the_chamber_behind_a_far_way_and_a_joint_with_a_narrow_low_side_are_found():
-    """Without limits: 12.54 and 20.652 were "found", above 5.213 beyond the grid of ways and 20.611 close to a joint."""
+    """Without limits 12.54 and 20.652 were "found": 5.213 lies beyond the grid of ways, 20.611 close to a joint."""
     far, joint = Pose(1019), Pose(1063)
     best = nd.best_internal_point(far.g, far.p, far.q)
     assert best.value == pytest.approx(5.213315367, rel=1e-8)
