@@ -106,7 +106,7 @@ def prove(
     if ways.home is not study or ways.by_boxes:
         return StepByStep(study, ways, limit or LONGEST, count, progress).prove(best, gap, earlier)
     proof = prove_class(study, best * (1.0 - aim), MOST_BOXES, limit, count, progress)
-    proved = from_core(OptimumProof, proof, target=best * (1.0 - aim), where="")
+    proved = from_core(OptimumProof, proof, target=best * (1.0 - aim), where="", reason="")
     if earlier is None or earlier.lower_bound <= proved.lower_bound:
         return proved
     return replace(proved, lower_bound=earlier.lower_bound, certificate=earlier.certificate)
@@ -137,15 +137,15 @@ class CertificateCheck:
     recut: int
     """Boxes that were cut further than by the search."""
     incomplete: bool = False
-    """Nothing wrong was found, and not all of it could be confirmed: of a set of designs, or as the time was over."""
+    """Nothing wrong was found, and not all was confirmed: of a set or a workspace, or as the time was over."""
     study: tuple[str, ...] = ()
-    """Of a proof: the designs that it is about, one line each, as the checker read them; angles in radians."""
+    """Of a proof: what it is about, one line each, as the checker read them; angles in radians."""
 
 
 def check_certificate(
     path: str | os.PathLike[str], *, time_limit: float | None = None, progress: Progress | None = None
 ) -> CertificateCheck:
-    """Check a certificate of an optimum, a machine or a set of designs, without trusting the search that wrote it.
+    """Check a certificate without trusting the search that wrote it: of an optimum, a machine, designs or a workspace.
 
     By the code of the program ninedof_check, which shares none with the search: numbers, formulas and bounds are its
     own. The certificate of the paper's study takes half a second.
@@ -153,11 +153,12 @@ def check_certificate(
     Parameters
     ----------
     path : path
-        As `OptimumProof.save`, `Result.save_certificate` and `AdmissibleSet.save_certificate` write it.
+        As `OptimumProof.save`, and `save_certificate` of a `Result`, an `AdmissibleSet` or a `CertifiedWorkspace` write
+        it.
     time_limit : float, optional
         Seconds; none by default. A machine with limits of forces may take minutes.
     progress : callable, optional
-        Called as progress(bytes or boxes of designs read, all of them, None).
+        Called as progress(bytes or boxes read, all of them, None).
 
     Returns
     -------

@@ -42,6 +42,8 @@ class OptimumProof:
     """Whether Ctrl-C ended the search."""
     where: str = ""
     """The poses of the worst condition number: "over the region", "at its poses"; "" for the neutral pose."""
+    reason: str = ""
+    """Why boxes of designs prove a study about the neutral pose, and not its class, which is faster; "" elsewhere."""
     certificate: bytes = field(default=b"", repr=False, compare=False)
     """A file that `ninedof check` and ninedof_check read; empty if nothing is proved, if the search did not come to
     its end, of a class of plane plates at the neutral pose, and of non-planar ones above a gigabyte."""
@@ -55,6 +57,8 @@ class OptimumProof:
         bound = Decimal(self.lower_bound).quantize(Decimal("1e-11"), ROUND_FLOOR, digits)  # never more than was proved
         where = self.where and f" {self.where}"
         sentence = f"Proved: no machine of this class has a condition number below {bound.normalize(digits):f}{where}"
+        if self.reason:
+            return f"{sentence}. The class has no proof here ({self.reason}): by boxes of designs, which take longer."
         if not self.left_out:
             return f"{sentence}."
         return f"{sentence}. The proof does without {', '.join(self.left_out)}: with them it holds all the more."

@@ -33,6 +33,8 @@ class Ways:
     """Whether boxes of designs are known to prove it, with every limit, where the class does not."""
     neutral: bool
     """Whether the study is about the neutral pose alone."""
+    reason: str = ""
+    """Why the class of a study about the neutral pose has no proof; "" where it has one, or where there is none."""
 
     @property
     def left_out(self) -> tuple[str, ...]:
@@ -55,15 +57,21 @@ def ways_of(study: Study) -> Ways:
     home, neutral, few = at_home(study), is_neutral(study), len(study.free_variables) <= FEW
     if home is not None and neutral and not (few and left_out_of_class(home)):
         return Ways(home, by_boxes=False, neutral=True)
-    if home is None and neutral and (_missing(study) or not few):
-        left_out_of_class(study)  # raises
+    reason = ""
+    if home is None and neutral:
+        try:
+            left_out_of_class(study)  # raises
+        except ValueError as error:
+            if _missing(study) or not few:
+                raise
+            reason = str(error) if study.family in GAPS else ""
     try:
         existence(range_to_prove(study), seconds=0.0)  # raises where a limit has no bounds over boxes of designs
     except ValueError:
         if home is None:
             raise
         return Ways(home, by_boxes=False, neutral=neutral)
-    return Ways(home, by_boxes=True, neutral=neutral)
+    return Ways(home, by_boxes=True, neutral=neutral, reason=reason)
 
 
 def range_to_prove(study: Study, condition_number: float | None = None) -> DesignRange:
@@ -153,6 +161,7 @@ class StepByStep:
             left_out=self._left_out,
             interrupted=self._interrupted,
             where="over the region" if objective.region is not None else "at its poses" if objective.poses else "",
+            reason=self._ways.reason,
             certificate=self._certificate,
         )
 

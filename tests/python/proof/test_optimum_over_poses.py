@@ -142,6 +142,18 @@ SIX = replace(REGION, variables={**SIZES, "a1": (0.0, 6.0), "b2": (0.0, 3.0), "z
 
 
 @pytest.mark.slow
+def test_why_boxes_of_designs_take_the_place_of_a_class_is_said():
+    """Where zp and an internal radius begin at 0 the class has no domain."""
+    sizes = {"base_external_radius": 4.0, "base_internal_radius": (0.0, 4.0), "base_internal_angle": 0.7, "zs": 2.0}
+    sizes |= {"platform_external_radius": 2.0, "platform_external_angle": 0.9, "platform_internal_radius": 1.8}
+    study = nd.Study("symmetric", sizes | {"platform_internal_angle": -0.4, "zp": (0.0, 6.0)}, characteristic_length=1)
+    proof = nd.prove_optimum(study, 3.0, gap=0.5, time_limit=0.0)
+    assert "The class has no proof here (zp: got [0, 6], expected a positive lower bound" in proof.words
+    assert OptimumProof.from_dict(proof.to_dict()).words == proof.words
+    higher = replace(study, variables=dict(study.variables) | {"zp": (0.1, 6.0)})
+    assert "no proof here" not in nd.prove_optimum(higher, 3.0, gap=0.5, time_limit=0.0).words
+
+
 def test_the_neutral_pose_proves_wide_gaps_of_six_free_variables(tmp_path):
     best = nd.optimize(SIX).condition_number
     proof = nd.prove_optimum(SIX, best, gap=0.4)
