@@ -117,6 +117,9 @@ void bind_certified_workspace(py::module_& m) {
           return true;
         });
   });
+  m.def("workspace_certificate", [](const WorkspaceQuestion& q, const C& found) {
+    return py::bytes(workspace_certificate(q.geometry, q.domain, q.rule, q.criteria, found, q.home));
+  });
   m.def("certified_states", [](const py::object& certified, const Array& points) {
     const CertifiedWorkspace found = certified_from(certified);
     const std::vector<Vec3> at = points_from("points", points);

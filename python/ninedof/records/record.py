@@ -33,6 +33,7 @@ from ninedof.support.store import folder_of, require_run_or_nothing
 from ninedof.support.structs import entries_of
 from ninedof.sweep import SweepResult
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
+from ninedof.workspace.certified_record import CERTIFICATE as WORKSPACE_CERTIFICATE
 
 RUNS = Path("runs")
 
@@ -143,6 +144,8 @@ def write_run(
         files.append(run.save(folder / ARRAYS[record.kind][1]))
     if isinstance(run, WorkspaceMap) and run.certified is not None:
         files.append(run.certified.save(folder / CERTIFIED))
+        if run.certified.certificate.size:
+            files.append(run.certified.save_certificate(folder / WORKSPACE_CERTIFICATE))
     if isinstance(result, Result) and result.proof is not None and result.proof.certificate:
         files.append(result.proof.save(folder / CERTIFICATE))
     return write_drawn(replace(record, files=tuple(file.name for file in files)), folder, draw)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from time import perf_counter
 from typing import Any, Unpack
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
@@ -109,12 +110,18 @@ def certified_workspace(
         threads=thread_argument(threads),
     )
     begin = perf_counter()
+    found = _core.certified_workspace(problem, settings, progress)
+    try:
+        certificate = _core.workspace_certificate(problem, found)
+    except ValueError:  # of limits with different duties there is none
+        certificate = b""
     return from_core(
         CertifiedWorkspace,
-        _core.certified_workspace(problem, settings, progress),
+        found,
         connected=connected(problem),
         archetype=arguments["archetype"],
         seconds=perf_counter() - begin,
         estimate=None,
         unit=unit,
+        certificate=np.frombuffer(certificate, np.uint8),
     )

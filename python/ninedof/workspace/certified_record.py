@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,9 +14,9 @@ from numpy.typing import NDArray
 
 from ninedof import _core
 from ninedof.proof.machine_record import outward
-from ninedof.support.arguments import choice, finite, text, whole
+from ninedof.support.arguments import choice, finite, path_argument, text, whole
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.files import Saved
+from ninedof.support.files import Saved, write_whole
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount
 from ninedof.tables.html import Worded
@@ -28,6 +30,9 @@ ENDS = {
     "smallest": "the boxes left cannot be divided any more",
     "stopped": "interrupted",
 }
+
+CERTIFICATE = "workspace.certificate"
+"""Its file in the folder of a run."""
 
 OF_ALL = "the gap asked for is reached by all allowed poses together"
 
@@ -97,6 +102,8 @@ class CertifiedWorkspace(Worded, Saved):
     estimate: tuple[float, float] | None = None
     """Volume and estimated error of a `WorkspaceMap` of the same question, where there is one."""
     unit: str = ""
+    certificate: NDArray[np.uint8] = field(default_factory=lambda: np.empty(0, np.uint8))
+    """The bytes of `save_certificate`; none of limits of forces, rates or powers whose duties differ."""
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -146,6 +153,21 @@ class CertifiedWorkspace(Worded, Saved):
         """
         at = as_floats("points", points, (3,)).reshape(-1, 3)
         return _core.certified_states(self, at)
+
+    def save_certificate(self, path: str | os.PathLike[str]) -> Path:
+        """Write a file that `check_certificate` and the program ninedof_check replay: the question, boxes, `volume`.
+
+        Not in it: what is connected with home, and what lies outside the box.
+
+        Raises
+        ------
+        ValueError
+            If there is none: the limits of forces, rates and powers are about different duties.
+
+        """
+        if not self.certificate.size:
+            raise ValueError("certificate: got limits with different duties, expected one duty")
+        return write_whole(path_argument("path", path), self.certificate.tobytes())
 
     def section(self, axis: str, at: float, pixels: int = 400) -> CertifiedSection:
         """Return a plane through the box that was divided, for drawing.

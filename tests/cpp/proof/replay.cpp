@@ -16,6 +16,7 @@
 #include "ninedof/proof/admissible.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "proof/checker/spelling.hpp"
+#include "proof/checker/workspace.hpp"
 #include "support/support.hpp"
 
 using namespace ninedof;
@@ -423,6 +424,39 @@ TEST_SUITE("replay") {
     CHECK_FALSE(sets::Weigher(file, cube).weigh(upper, {lifted, lifted}).high < 0.0);
     cube[2].a = 5.01;
     CHECK(sets::Weigher(file, cube).weigh(upper, {lifted, lifted}).high < 0.0);
+  }
+
+  TEST_CASE("the part of a box below a plane is that of many points, whatever its slopes") {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> even(-1.0, 1.0), power(-9.0, 0.0);
+    constexpr int steps = 40;
+    for (int n = 0; n < 300; ++n) {
+      checker::Linear x(even(random), n % 3 == 0 ? 0.1 : 0.0);
+      for (std::size_t k = 0; k < 3; ++k)
+        x.a[k] = n % 7 == 0 && k == 1 ? 0.0 : even(random) * std::pow(10.0, power(random));
+      long surely = 0, perhaps = 0;
+      for (int i = 0; i < steps * steps * steps; ++i) {
+        const auto place = [&](int of) { return (2.0 * (of % steps) + 1.0) / steps - 1.0; };
+        const double at = x.c + x.a[0] * place(i) + x.a[1] * place(i / steps) + x.a[2] * place(i / steps / steps);
+        surely += at + x.r < 0.0 ? 1 : 0;
+        perhaps += at - x.r < 0.0 ? 1 : 0;
+      }
+      const checker::Range share = sets::share_below_zero(x);
+      const double all = std::pow(steps, 3.0), room = 3.0 / steps;
+      CHECK(share.a <= static_cast<double>(surely) / all + room);
+      CHECK(share.a >= static_cast<double>(surely) / all - room);
+      CHECK(share.b <= static_cast<double>(perhaps) / all + room);
+      CHECK(share.b >= static_cast<double>(perhaps) / all - room);
+      const double level = x.c - 0.2;
+      for (const sets::Point& t : sets::corners_beyond({x.a[0], x.a[1], x.a[2]}, level))
+        CHECK(x.a[0] * t[0] + x.a[1] * t[1] + x.a[2] * t[2] >= level - 1e-12);
+    }
+    checker::Linear one(0.0);
+    one.a[0] = one.a[1] = one.a[2] = 1.0;
+    one.c = 2.0;  // an eighth of the sides is cut off at a corner: (1/2)^3 / 6
+    CHECK(sets::share_below_zero(one).a == doctest::Approx(1.0 / 48.0));
+    CHECK(sets::share_below_zero(one).b == doctest::Approx(1.0 / 48.0));
+    CHECK(sets::share_below_zero(checker::unknown_number()) == checker::Range(0.0, 1.0));
   }
 
   TEST_CASE("a genuine certificate is proved, and refused once it says more") {

@@ -3,6 +3,7 @@
 
 #include "ninedof/workspace/certified.hpp"
 
+#include "ninedof/proof/checker.hpp"
 #include "support/support.hpp"
 
 using namespace support;
@@ -121,6 +122,23 @@ TEST_SUITE("certified") {
     const auto at = [&](double x) { return Vec3(x, middle, middle); };
     CHECK(proved_states(found, {at(middle), at(middle + 1e-5), at(middle - 1e-5), Vec3::Constant(0.5)}) ==
           std::vector<std::int8_t>{0, 1, -1, 0});
+  }
+
+  TEST_CASE("the checker replays a proof, and no file is written of another question") {
+    const Geometry g = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
+    WorkspaceDomain domain;
+    domain.low = Vec3::Constant(-9.0);
+    domain.high = Vec3::Constant(9.0);
+    WorkspaceCriteria criteria;
+    criteria.legs = LegLimits{Vec9::Constant(2.5), Vec9::Constant(6.5)};
+    CertifySettings settings;
+    settings.gap = 0.4;
+    CertifiedWorkspace found = certified_workspace(g, domain, {}, criteria, settings);
+    const checker::Verdict verdict = checker::check(workspace_certificate(g, domain, {}, criteria, found));
+    CHECK_MESSAGE(verdict.proved, verdict.words);
+    CHECK(verdict.leaves > static_cast<long>(found.inner_low.size() + found.open_low.size()));
+    found.high *= 1.1;
+    CHECK_THROWS_AS(workspace_certificate(g, domain, {}, criteria, found), InvalidArgument);
   }
 
   TEST_CASE("a stop ends the work") {

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks a certificate of the optimum, or of a set of admissible designs. Shares no source with the search that wrote
+/// Checks a certificate of the optimum, of a set of admissible designs, or of a workspace. Shares no source with the search that wrote
 /// it: its own numbers, its own formulas, from docs/certificate.md alone.
 
 #include <cstddef>
@@ -13,7 +13,8 @@ namespace ninedof::checker {
 
 struct Verdict {
   bool proved = false;
-  bool incomplete = false;  ///< of a set of designs: nothing in it is wrong, and not all of it could be confirmed
+  bool incomplete =
+      false;  ///< of a set of designs or a workspace: nothing in it is wrong, and not all of it could be confirmed
   std::string words;  ///< what is proved, or why the certificate is refused
   std::vector<std::string> study;  ///< of a proof: the designs that it is about, as the checker read them
   long leaves = 0;    ///< boxes looked at

@@ -58,6 +58,13 @@ CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain&
                                        const WorkspaceCriteria& criteria, const CertifySettings& settings = {},
                                        const std::optional<Configuration>& home = {}, const Control& control = {});
 
+/// The proof as a file that the checker (ninedof/proof/checker.hpp) replays: the question, and every box with its share
+/// of allowed positions. It is about `volume` alone, not about what is connected with home or lies outside the box.
+/// Throws InvalidArgument for limits with duties that differ, and for boxes that are not those of the question.
+std::string workspace_certificate(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                                  const WorkspaceCriteria& criteria, const CertifiedWorkspace& found,
+                                  const std::optional<Configuration>& home = {});
+
 /// What is proved of positions: 1 where the pose is allowed, -1 where it is not, 0 where nothing is known. It does not
 /// say whether the pose is connected with home. Roundings count against both proofs. The inner and the open boxes do
 /// not overlap, but for their faces.

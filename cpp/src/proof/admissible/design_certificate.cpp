@@ -5,14 +5,14 @@
 
 #include "ninedof/math/error.hpp"
 #include "proof/admissible/demands.hpp"
-#include "proof/optimum/certificate.hpp"
+#include "proof/optimum/certificate_lines.hpp"
 
 namespace ninedof {
 namespace admissible {
 namespace {
 
 /// The lines of a file.
-class DesignLines {
+class DesignLines : proof::CertificateLines {
  public:
   DesignLines(const DesignQuestion& question, const DesignSet& set)
       : question_(question), set_(set), family_(design_family(question.problem.family)) {}
@@ -31,7 +31,7 @@ class DesignLines {
     const StudyLength& length = problem.characteristic_length;
     line("characteristic_length", {length.choice == StudyLength::Choice::number ? length.value : 1.0});
     put_poses();
-    put_duty();
+    put_duty(problem.limits);
     put_limits();
     line("shares", {set_.inside, set_.outside, set_.undecided});
     // The boxes have the ends of variables in the order of the family.
@@ -50,23 +50,6 @@ class DesignLines {
   }
 
  private:
-  struct Numbers {
-    std::vector<double> all;
-    Numbers() = default;
-    Numbers(std::initializer_list<double> x) : all(x) {}
-    Numbers(std::initializer_list<Vec3> x) {
-      for (const Vec3& v : x) all.insert(all.end(), v.begin(), v.end());
-    }
-  };
-  static std::string spelled(const Numbers& x) {
-    std::string out;
-    for (const double one : x.all) out.append(1, ' ').append(proof::hexadecimal(one));
-    return out;
-  }
-  void line(const std::string& words, const Numbers& numbers = {}, const std::string& rest = "") {
-    text_ += words + spelled(numbers) + rest + "\n";
-  }
-
   void put_poses() {
     if (question_.region.empty()) {
       line("region none", {0.0, 0.0, 0.0, 0.0, 0.0}, " shifted length");
@@ -79,29 +62,6 @@ class DesignLines {
     }
     for (const Pose& one : question_.problem.objective.poses)
       line("pose", {one.position, one.rotation, one.internal}, one.in_zp ? " zp" : " length");
-  }
-  /// Of limits of forces, rates and powers: one for all of them.
-  void put_duty() {
-    std::string first;
-    for (const Limit& one : question_.problem.limits) {
-      if (one.duty == nullptr) continue;
-      const std::size_t start = text_.size();
-      put_duty(*one.duty);
-      const std::string own = text_.substr(start);
-      if (first.empty()) first = own;
-      else text_.resize(start);
-      if (own != first) throw InvalidArgument(one.label(), "a duty of its own", "that of all other limits");
-    }
-  }
-  void put_duty(const Duty& duty) {
-    const Masses& m = duty.masses;
-    const Vec3 &g = duty.gravity, &c = m.centre;
-    line("weights", {g.x(), g.y(), g.z(), m.platform, c.x(), c.y(), c.z(), m.internal_point});
-    for (int k = 0; k < 9; ++k) line("leg", {m.cylinder[k], m.cylinder_centre[k], m.rod[k], m.rod_centre[k]});
-    for (const Load& load : duty.loads) line("load", {load.moment, load.force, load.force_at_o});
-    const char* internal =
-        std::array{" least", " held", " shifted", " carried"}[static_cast<std::size_t>(duty.motion.internal)];
-    line("speeds", {duty.motion.linear_speed, duty.motion.angular_speed}, internal);
   }
   void put_limits() {
     const Objective& objective = question_.problem.objective;
@@ -124,7 +84,7 @@ class DesignLines {
   void put_limit(const std::string& label, const std::string& name, double low, double high, const char* of,
                  bool neutral, const Vec3& axis) {
     labels_.push_back(label);
-    line("limit " + name, {low, high}, std::string(" ") + of + (neutral ? " neutral" : " poses") + spelled({axis}));
+    proof::CertificateLines::put_limit(name, low, high, of, neutral, axis);
   }
   int limit_of(const DesignPiece& piece) const {
     const auto n = static_cast<std::size_t>(piece.demand);
@@ -163,7 +123,6 @@ class DesignLines {
   const DesignSet& set_;
   const DesignFamily& family_;
   std::vector<std::string> labels_{"no singularity", "zp > zs"};
-  std::string text_;
 };
 
 }  // namespace

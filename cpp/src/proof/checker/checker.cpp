@@ -8,6 +8,7 @@
 #include "proof/checker/blocks.hpp"
 #include "proof/checker/lines.hpp"
 #include "proof/checker/replay.hpp"
+#include "proof/checker/workspace.hpp"
 
 namespace ninedof::checker {
 namespace {
@@ -123,6 +124,10 @@ Verdict check(std::istream& certificate, const Reading& reading) {
     const std::string kind = file.emplace(certificate).kind();
     if (kind == sets::kind_of_designs) {
       sets::replay(sets::read_designs(*file), reading, out);
+      return out;
+    }
+    if (kind == sets::kind_of_workspace) {
+      sets::replay_workspace(sets::read_designs(*file), *file, reading, out);
       return out;
     }
     if (kind != kind_of_optimum) refuse(quoted(kind) + " is no kind of certificate");

@@ -151,71 +151,161 @@ bool decomposes(Square<double, six> a) {
   return true;
 }
 
-/// Whether all matrices of the box are positive definite: those at the corners are, less the errors of their rows.
-bool positive_everywhere(const Square<Linear, six>& a) {
-  std::vector<std::size_t> moving;
-  for (std::size_t k = 0; k < symbols; ++k)
-    for (std::size_t i = 0; i < six * six; ++i)
-      if (i % six <= i / six && a[i / six][i % six].a[k] != 0.0) {
-        moving.push_back(k);
-        break;
+/// Symmetric matrices over a box.
+class Matrices {
+ public:
+  explicit Matrices(Square<Linear, six> a) : a_(a) {
+    for (std::size_t k = 0; k < symbols; ++k)
+      for (std::size_t i = 0; i < six * six; ++i)
+        if (i % six <= i / six && a_[i / six][i % six].a[k] != 0.0) {
+          moving_.push_back(k);
+          break;
+        }
+    for (std::size_t i = 0; i < six; ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        const Linear& x = a_[i][j];
+        const double error = (x.r + grain::of_product * (std::abs(x.c) + swing(x))) * grain::up;
+        errors_[i] += error;
+        if (i != j) errors_[j] += error;
       }
-  Vector6 errors{};
-  for (std::size_t i = 0; i < six; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      const double error = (a[i][j].r + grain::of_product * (std::abs(a[i][j].c) + swing(a[i][j]))) * grain::up;
-      errors[i] += error;
-      if (i != j) errors[j] += error;
-    }
-  for (unsigned corner = 0; corner < 1U << moving.size(); ++corner) {
+  }
+  /// Whether that at a point is positive definite, less the errors of its rows.
+  bool positive_at(const std::array<double, symbols>& t) const {
     Square<double, six> at{};
     for (std::size_t i = 0; i < six; ++i)
       for (std::size_t j = 0; j <= i; ++j) {
-        at[i][j] = a[i][j].c;
-        for (std::size_t k = 0; k < moving.size(); ++k)
-          at[i][j] += (corner >> k & 1U) != 0U ? a[i][j].a[moving[k]] : -a[i][j].a[moving[k]];
-        if (i == j) at[i][i] -= errors[i] * grain::up;
+        at[i][j] = a_[i][j].c;
+        for (const std::size_t k : moving_) at[i][j] += a_[i][j].a[k] * t[k];
+        if (i == j) at[i][i] -= errors_[i] * grain::up;
       }
-    if (!decomposes(at)) return false;
+    return decomposes(at);
   }
-  return true;
-}
+  /// Whether all are: those at the corners.
+  bool positive_everywhere() const {
+    std::array<double, symbols> t{};
+    for (unsigned corner = 0; corner < 1U << moving_.size(); ++corner) {
+      for (std::size_t k = 0; k < moving_.size(); ++k) t[moving_[k]] = (corner >> k & 1U) != 0U ? 1.0 : -1.0;
+      if (!positive_at(t)) return false;
+    }
+    return true;
+  }
 
-}  // namespace
+ private:
+  Square<Linear, six> a_;
+  std::vector<std::size_t> moving_;
+  Vector6 errors_{};
+};
 
-/// kappa <= K where mu - S and K^2 S - mu are positive definite for some mu, which may change along the box. They are
-/// seen in the eigenvectors of the middle, each as long as makes S nearly one: there the errors of soft directions are
-/// small.
-int condition_within(const Mount& m, const Stand& at, double length, double most, int locked) {
+/// mu - S and K^2 S - mu for some mu, which may change along the box: where both are positive definite, kappa <= K.
+/// They are seen in the eigenvectors of the middle, each as long as makes S nearly one: there the errors of soft
+/// directions are small.
+struct Test {
+  bool known = false;
+  Square<Linear, six> s, one;  ///< B^T S B and B^T B of the basis B
+  Linear k2, mu, excess;  ///< where the excess is negative, kappa > K
+  Square<Linear, six> below() const {
+    Square<Linear, six> out;
+    for (std::size_t i = 0; i < six; ++i)
+      for (std::size_t j = 0; j <= i; ++j) out[i][j] = mu * one[i][j] - s[i][j];
+    return out;
+  }
+  Square<Linear, six> above() const {
+    Square<Linear, six> out;
+    for (std::size_t i = 0; i < six; ++i)
+      for (std::size_t j = 0; j <= i; ++j) out[i][j] = k2 * s[i][j] - mu * one[i][j];
+    return out;
+  }
+};
+Test test_of(const Mount& m, const Stand& at, double length, double most, int locked) {
   Square<double, six> middle{}, basis{};
   for (std::size_t i = 0; i < six; ++i) basis[i][i] = 1.0;
   const Square<Linear, six> as_it_is = stiffness(m, at, length, locked, basis);
   for (std::size_t i = 0; i < six; ++i)
     for (std::size_t j = 0; j <= i; ++j) middle[i][j] = middle[j][i] = as_it_is[i][j].c;
   diagonalize(middle, basis);
+  Test out;
   std::size_t first = 0, last = 0;
   for (std::size_t i = 0; i < six; ++i) {
-    if (!(middle[i][i] > 0.0)) return 0;
+    if (!(middle[i][i] > 0.0)) return out;
     if (middle[i][i] < middle[first][first]) first = i;
     if (middle[i][i] > middle[last][last]) last = i;
     for (auto& row : basis) row[i] /= std::sqrt(middle[i][i]);
   }
-  const Square<Linear, six> s = stiffness(m, at, length, locked, basis);
-  Square<Linear, six> one;  // B^T B
+  out.s = stiffness(m, at, length, locked, basis);
   for (std::size_t i = 0; i < six; ++i)
     for (std::size_t j = 0; j <= i; ++j)
-      for (const auto& row : basis) one[i][j] = one[i][j] + Linear(row[i]) * row[j];
-  const Linear k2 = Linear(most) * most, &least = s[first][first], &greatest = s[last][last];
-  if (upper_end(k2 * least * one[last][last] - greatest * one[first][first]) < 0.0) return -1;
-  Linear mu = 0.5 * (middle[last][last] * greatest + k2 * (middle[first][first] * least));
-  mu.r = 0.0;
-  Square<Linear, six> below, above;
-  for (std::size_t i = 0; i < six; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      below[i][j] = mu * one[i][j] - s[i][j];
-      above[i][j] = k2 * s[i][j] - mu * one[i][j];
+      for (const auto& row : basis) out.one[i][j] = out.one[i][j] + Linear(row[i]) * row[j];
+  const Linear &least = out.s[first][first], &greatest = out.s[last][last];
+  out.known = true;
+  out.k2 = Linear(most) * most;
+  out.excess = out.k2 * least * out.one[last][last] - greatest * out.one[first][first];
+  out.mu = 0.5 * (middle[last][last] * greatest + out.k2 * (middle[first][first] * least));
+  out.mu.r = 0.0;
+  return out;
+}
+
+}  // namespace
+
+int condition_within(const Mount& m, const Stand& at, double length, double most, int locked) {
+  const Test test = test_of(m, at, length, most, locked);
+  if (!test.known) return 0;
+  if (upper_end(test.excess) < 0.0) return -1;
+  return Matrices(test.below()).positive_everywhere() && Matrices(test.above()).positive_everywhere() ? 1 : 0;
+}
+
+std::vector<Point> corners_beyond(const Point& slope, double level) {
+  const auto excess = [&](const Point& t) { return slope[0] * t[0] + slope[1] * t[1] + slope[2] * t[2] - level; };
+  std::vector<Point> out;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Point t;
+    for (std::size_t k = 0; k < 3; ++k) t[k] = (corner >> k & 1U) != 0U ? 1.0 : -1.0;
+    const double here = excess(t);
+    if (here >= 0.0) out.push_back(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      Point other = t;
+      other[k] = 1.0;
+      if (const double there = excess(other); t[k] < 0.0 && (here >= 0.0) != (there >= 0.0)) {
+        other[k] = std::clamp(-1.0 + 2.0 * here / (here - there), -1.0, 1.0);
+        out.push_back(other);
+      }
     }
-  return positive_everywhere(below) && positive_everywhere(above) ? 1 : 0;
+  }
+  return out;
+}
+
+/// Matrices that are linear are positive definite where they are at the corners of a body: a plane behind that where
+/// the excess is 0 moves on until both are so at all corners of the part beyond it.
+Sides condition_sides(const Mount& m, const Stand& at, double length, double most, int locked) {
+  constexpr int tries = 10;
+  constexpr double wider = 1.6;
+  Sides out{{unknown_number()}, {unknown_number()}};
+  const Test test = test_of(m, at, length, most, locked);
+  if (!test.known) return out;
+  const Linear& x = test.excess;
+  out.breaks = {x};
+  const Matrices below(test.below()), above(test.above());
+  if (x.c > 0.0 && below.positive_everywhere() && above.positive_everywhere()) return {{}, {}};
+  const Point slope{x.a[0], x.a[1], x.a[2]};
+  const double all = swing(x);
+  double step = 0.5 * x.r + 1e-9 * all, level = step - x.c;
+  if (level < -all) {
+    step = 0.1 * all;
+    level = step - all;
+  }
+  for (int n = 0; n < tries && level < all; ++n, step *= wider, level += step) {
+    const std::vector<Point> corners = corners_beyond(slope, level);
+    const bool kept = std::ranges::all_of(corners, [&](const Point& t) {
+      const std::array<double, symbols> there{t[0], t[1], t[2]};
+      return below.positive_at(there) && above.positive_at(there);
+    });
+    if (!kept || corners.empty()) continue;
+    Linear plane = x;
+    plane.c = -level;
+    plane.r = 1e-9 * all;  // of the corners
+    out.keeps = {plane};
+    break;
+  }
+  return out;
 }
 
 }  // namespace ninedof::checker::sets

@@ -2,92 +2,47 @@
 
 #include <cmath>
 
+#include "proof/checker/line_words.hpp"
+
 namespace ninedof::checker::sets {
 namespace {
 
-/// The lines of a file, in this order: whether there may be many, or none.
+/// The lines of a file, in this order: of designs, of a workspace or of both; whether there may be many, or none.
 struct LineKind {
   const char* key;
+  char of;
   bool many, optional;
 };
-constexpr std::array<LineKind, 15> kinds{{{"family", false, false},
-                                          {"variable", true, false},
-                                          {"tool", false, false},
-                                          {"characteristic_length", false, false},
-                                          {"region", false, false},
-                                          {"corner", true, true},
-                                          {"pose", true, true},
-                                          {"weights", false, true},
-                                          {"leg", true, true},
-                                          {"load", true, true},
-                                          {"speeds", false, true},
-                                          {"limit", true, true},
-                                          {"exempt", true, true},
-                                          {"shares", false, false},
-                                          {"box", true, false}}};
+constexpr std::array<LineKind, 23> kinds{{{"family", 'd', false, false},
+                                          {"variable", 'd', true, false},
+                                          {"tool", 'd', false, false},
+                                          {"joint", 'w', true, false},
+                                          {"home", 'w', false, false},
+                                          {"characteristic_length", 'b', false, false},
+                                          {"region", 'd', false, false},
+                                          {"corner", 'd', true, true},
+                                          {"pose", 'd', true, true},
+                                          {"space", 'w', false, false},
+                                          {"internal_point", 'w', false, false},
+                                          {"allowed_with", 'w', false, false},
+                                          {"rotation", 'w', true, false},
+                                          {"weights", 'b', false, true},
+                                          {"leg", 'b', true, true},
+                                          {"load", 'b', true, true},
+                                          {"speeds", 'b', false, true},
+                                          {"limit", 'b', true, true},
+                                          {"exempt", 'b', true, true},
+                                          {"shares", 'd', false, false},
+                                          {"box", 'd', true, false},
+                                          {"volume", 'w', false, false},
+                                          {"tree", 'w', false, false}}};
 constexpr std::array states{"inside", "outside", "undecided"};
-
-/// The words of a line, one after another.
-class LineWords {
- public:
-  explicit LineWords(const std::string& line) : line_(line) {}
-  bool done() const { return at_ > line_.size(); }
-  std::string word() {
-    if (done()) refuse(quoted(line_) + " ends too early");
-    const std::size_t end = std::min(line_.find(' ', at_), line_.size());
-    std::string out = line_.substr(at_, end - at_);
-    at_ = end + 1;
-    return out;
-  }
-  /// Each number has one spelling. Products of larger ones overflow, and what is not known is divided for minutes.
-  double real(bool finite = true) {
-    const std::string text = word();
-    const double out = number(text);
-    if (finite && !(std::abs(out) <= 1e100)) refuse(quoted(line_) + " has a number above 1e100");
-    if (hexadecimal(out) != text) refuse(quoted(text) + " is not spelled as " + quoted(hexadecimal(out)));
-    return out;
-  }
-  int whole() {
-    const std::string text = word();
-    int out = 0;
-    std::from_chars(text.data(), text.data() + text.size(), out);
-    if (digits(out) != text) refuse(quoted(text) + " is not a whole number");
-    return out;
-  }
-  template <std::size_t N>
-  std::array<double, N> reals() {
-    std::array<double, N> out{};
-    for (double& x : out) x = real();
-    return out;
-  }
-  Range range() {
-    const Range out{real(false), real(false)};
-    if (!out.sound()) refuse("the bounds of " + quoted(line_) + " are inverted");
-    return out;
-  }
-  /// Whether the first of two words stands there.
-  bool either(const char* yes, const char* no) {
-    const std::string text = word();
-    if (text != yes && text != no) refuse(quoted(text) + " is neither " + quoted(yes) + " nor " + quoted(no));
-    return text == yes;
-  }
-  Patch pose() {
-    Patch out;
-    out.piece = whole();
-    out.low = out.high = reals<pose_symbols>();
-    return out;
-  }
-
- private:
-  const std::string& line_;
-  std::size_t at_ = 0;
-};
 
 LimitLine limit_of(LineWords& line) {
   LimitLine out;
   out.name = line.word();
   for (const char c : out.name)
-    if (c != '_' && (c < 'a' || c > 'z')) refuse(quoted(out.name) + " is no name of a limit");
+    if (c != '_' && (c < 'a' || c > 'z') && (c < '1' || c > '3')) refuse(quoted(out.name) + " is no name of a limit");
   out.range = line.range();
   out.of = line.word();
   if (out.of != "length" && out.of != "zp" && out.of != "radius") refuse(quoted(out.of) + " is no unit of a limit");
@@ -118,7 +73,20 @@ void add(const std::string& key, LineWords& line, DesignsFile& out) {
     if (!std::isfinite(x.a) || !std::isfinite(x.b)) refuse("a variable has no bounds");
     if (x.a < x.b) out.varied.push_back(out.variables.size() - 1);
     if (out.varied.size() > most_varied_symbols) refuse("more than six variables vary");
-  } else if (key == "tool") out.tool = line.reals<6>();
+  } else if (key == "joint") out.space.joints.push_back(line.reals<3>());
+  else if (key == "home") out.space.home = line.reals<15>();
+  else if (key == "space") {
+    out.space.low = line.reals<3>();
+    out.space.high = line.reals<3>();
+  } else if (key == "internal_point") {
+    out.space.rule = line.word();
+    out.space.point = line.reals<3>();
+    out.space.fraction = line.real();
+  } else if (key == "allowed_with") out.space.some = line.either("some", "all");
+  else if (key == "rotation") out.space.rotations.push_back(line.reals<9>());
+  else if (key == "volume") out.space.volume = line.range();
+  else if (key == "tree") out.space.tree = static_cast<std::size_t>(line.whole());
+  else if (key == "tool") out.tool = line.reals<6>();
   else if (key == "characteristic_length") out.length = line.real();
   else if (key == "region") {
     out.region.shape = line.word();
@@ -165,9 +133,20 @@ void validate_duty(const DesignsFile& file) {
     if (duties_of(one.name).count > 0 && !stated) refuse(one.name + " is a limit of a duty, and the file has none");
 }
 
-void validate(const DesignsFile& file) {
+void validate_space(const DesignsFile& file) {
+  const SpaceLines& space = file.space;
+  if (space.joints.size() != 12) refuse("the joints are not twelve");
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(space.low[k] < space.high[k])) refuse("the box of positions is none");
+  if (space.rule != "fixed" && space.rule != "platform" && space.rule != "between")
+    refuse(quoted(space.rule) + " is no rule for O");
+  if (!(space.volume.a >= 0.0)) refuse("the volume is negative");
+  for (const LimitLine& one : file.limits)
+    if (one.at_neutral || one.of != "length") refuse("the limit of " + one.name + " is none of a pose");
+}
+
+void validate_region(const DesignsFile& file) {
   require_variables(file.family, file.variables);
-  if (!(file.length > 0.0)) refuse("the characteristic length is not positive");
   const RegionLine& region = file.region;
   bool known = region.corners.empty() == (region.shape != "path") && region.corners.size() != 1;
   for (const double x : {region.size[0], region.size[1], region.size[2], region.tilt, region.yaw}) known &= x >= 0.0;
@@ -175,6 +154,13 @@ void validate(const DesignsFile& file) {
   bool shape = false;
   for (const char* one : {"none", "box", "ball", "cylinder", "path"}) shape |= region.shape == one;
   if (!shape) refuse(quoted(region.shape) + " is no shape of a region");
+  if (file.boxes.empty()) refuse("the file has no boxes");
+}
+
+void validate(const DesignsFile& file) {
+  if (!(file.length > 0.0)) refuse("the characteristic length is not positive");
+  if (file.space.given()) validate_space(file);
+  else validate_region(file);
   for (const LimitLine& one : file.limits) {
     if (one.name.find("cone") != std::string::npos && !(one.range.b <= 3.15 || one.range.b == inf))
       refuse("the bound of " + one.name + " is no angle");
@@ -183,7 +169,6 @@ void validate(const DesignsFile& file) {
   validate_duty(file);
   for (const int pair : file.exempt)
     if (pair < 0 || pair > 20) refuse("a pair of legs is not from 0 to 20");
-  if (file.boxes.empty()) refuse("the file has no boxes");
 }
 
 /// The variables of a family in their order.
@@ -227,26 +212,53 @@ void require_variables(const std::string& family, const std::vector<Bound>& vari
 
 DesignsFile read_designs(Stream& file) {
   DesignsFile out;
+  const char other = file.kind() == kind_of_workspace ? 'd' : 'w';
   std::size_t place = 0, last = kinds.size();  // the kind that comes next, and the one that was last
   for (std::string text; file.line(text);) {
     LineWords line(text);
     const std::string key = line.word();
     const std::size_t before = place;
     while (place < kinds.size() && key != kinds[place].key) ++place;
-    if (place == kinds.size()) refuse("line " + quoted(text) + " is not in its place");
+    if (place == kinds.size() || kinds[place].of == other) refuse("line " + quoted(text) + " is not in its place");
     for (std::size_t k = before; k < place; ++k)
-      if (!kinds[k].optional && k != last) refuse("line " + quoted(kinds[k].key) + " is missing");
+      if (!kinds[k].optional && kinds[k].of != other && k != last)
+        refuse("line " + quoted(kinds[k].key) + " is missing");
     last = place;
     if (!kinds[place].many) ++place;
     add(key, line, out);
     if (!line.done()) refuse(quoted(text) + " goes on after its end");
+    if (key == "tree") break;
   }
-  file.finish();
+  if (other == 'w') file.finish();
   validate(out);
   return out;
 }
 
-std::vector<std::string> question_of(const DesignsFile& file) {
+namespace {
+
+std::vector<std::string> robot_of(const DesignsFile& file) {
+  const SpaceLines& space = file.space;
+  std::vector<std::string> out{"positions from " + plain(space.low) + " to " + plain(space.high)};
+  for (std::size_t k = 0; k < space.joints.size(); ++k)
+    out.push_back((k < 6 ? "joint of the base " : "joint of the platform ") + plain(space.joints[k]));
+  const auto matrix = [](const double* x) {
+    return plain({x[0], x[1], x[2]}) + "; " + plain({x[3], x[4], x[5]}) + "; " + plain({x[6], x[7], x[8]});
+  };
+  const std::array<double, 15>& home = space.home;
+  out.push_back("home at " + plain({home[0], home[1], home[2]}) + " with the rotation " + matrix(home.data() + 3) +
+                ", O at " + plain({home[12], home[13], home[14]}));
+  out.push_back(space.rule == "between"
+                    ? "O at " + digits(space.fraction) + " of the way between the internal joints"
+                    : "O at " + plain(space.point) + (space.rule == "platform" ? " of the platform" : " of the base"));
+  for (const auto& rotation : space.rotations)
+    out.push_back((space.rotations.size() == 1 ? "the rotation "
+                   : space.some                ? "or the rotation "
+                                               : "and the rotation ") +
+                  matrix(rotation.data()));
+  return out;
+}
+
+std::vector<std::string> designs_of(const DesignsFile& file) {
   std::vector<std::string> out{file.family + " designs with 0 < zs < zp"};
   for (const Bound& one : file.variables) out.push_back(said(one.name, one.range));
   if (file.tool != std::array<double, 6>{})
@@ -263,6 +275,13 @@ std::vector<std::string> question_of(const DesignsFile& file) {
   for (const PoseLine& one : file.poses)
     out.push_back("at the pose shifted by " + plain(one.position) + in(one.in_zp) + turned_by(one.rotation) +
                   ", O shifted by " + plain(one.internal) + in(one.in_zp));
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> question_of(const DesignsFile& file) {
+  std::vector<std::string> out = file.space.given() ? robot_of(file) : designs_of(file);
   if (const DutyLines& duty = file.duty; !duty.internal.empty()) {
     out.push_back("gravity " + plain(duty.gravity) + ", mass of the platform " + digits(duty.platform) + " at " +
                   plain(duty.centre) + ", of O " + digits(duty.internal_point));

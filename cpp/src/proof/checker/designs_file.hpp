@@ -1,5 +1,5 @@
 #pragma once
-/// What a certificate of a set of admissible designs says, before anything of it is believed.
+/// What a certificate of a set of admissible designs, or of a workspace, says, before anything of it is believed.
 
 #include <array>
 #include <string>
@@ -59,6 +59,21 @@ struct BoxLine {
   Patch at, other;  ///< where all of the box break it; of a spread where a leg is longest and where shortest
 };
 
+/// The workspace of one robot: a box of positions, and how the rest of a pose follows from the position.
+struct SpaceLines {
+  std::vector<Triple> joints;     ///< base external, base internal, platform external, platform internal, three each
+  std::array<double, 15> home{};  ///< p, the rows of Q, O
+  Triple low{}, high{};
+  std::string rule;  ///< of O: "fixed" at a point of the base, "platform" at one of it, or "between" the plates
+  Triple point{};
+  double fraction = 0.0;  ///< of the way from the centroid of the lower to that of the upper internal joints
+  bool some = false;      ///< one rotation is enough, not all are needed
+  std::vector<std::array<double, 9>> rotations;  ///< their rows
+  Range volume;
+  std::size_t tree = 0;  ///< bytes that follow
+  bool given() const { return !joints.empty(); }
+};
+
 struct DesignsFile {
   std::string family;
   std::vector<Bound> variables;
@@ -68,6 +83,7 @@ struct DesignsFile {
   RegionLine region;
   std::vector<PoseLine> poses;
   DutyLines duty;
+  SpaceLines space;  ///< then family, variables, tool, region, poses, shares and boxes are none
   std::vector<LimitLine> limits;
   std::vector<int> exempt;  ///< pairs of legs that share a joint in all designs
   std::array<double, 3> shares{};
@@ -82,8 +98,9 @@ struct LegDuties {
 LegDuties duties_of(const std::string& limit);
 
 constexpr const char* kind_of_designs = "ninedof certificate of designs 1";
+constexpr const char* kind_of_workspace = "ninedof certificate of a workspace 1";
 
-/// Accepts one spelling of each certificate, as `read` does.
+/// Accepts one spelling of each certificate, as `read` does. Of a workspace the tree is left to be read.
 DesignsFile read_designs(Stream& file);
 
 /// Refuses an unknown family, and variables that are not all of its own in their order.

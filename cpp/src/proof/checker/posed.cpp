@@ -46,6 +46,54 @@ Arrow polar(const Linear& radius, const Linear& angle, const Linear& height) {
   return {radius * cosine(angle), radius * sine(angle), height};
 }
 
+/// The rotation nearest to a matrix: one with the singular values x is within max |x - 1| <= max |x^2 - 1| of it, and
+/// that is at most three times the greatest entry of Q^T Q - 1.
+std::array<Arrow, 3> rotation_near(const double* rows) {
+  double defect = 0.0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      Range sum = i == j ? -1.0 : 0.0;
+      for (int k = 0; k < 9; k += 3) sum = sum + Range(rows[k + i]) * Range(rows[k + j]);
+      defect = std::max(defect, size(sum));
+    }
+  const double volume = rows[0] * (rows[4] * rows[8] - rows[5] * rows[7]) +
+                        rows[1] * (rows[5] * rows[6] - rows[3] * rows[8]) +
+                        rows[2] * (rows[3] * rows[7] - rows[4] * rows[6]);
+  if (!(defect < 1e-6 && volume > 0.5)) refuse("a matrix is no rotation");
+  std::array<Arrow, 3> out;
+  for (int k = 0; k < 3; ++k) {
+    const auto entry = [&](int row) { return Linear(rows[3 * row + k], 3.5 * defect); };
+    out[static_cast<std::size_t>(k)] = {entry(0), entry(1), entry(2)};
+  }
+  return out;
+}
+Arrow middle_of(const std::array<Arrow, 12>& joints, std::size_t first) {
+  return Linear(1.0 / 3.0, 1e-16) * (joints[first] + joints[first + 1] + joints[first + 2]);
+}
+
+Mount mount_of(const SpaceLines& space) {
+  Mount out;
+  for (std::size_t k = 0; k < out.plate.size(); ++k) out.plate[k] = fixed(space.joints[k]);
+  out.joint = out.plate;
+  const auto& home = space.home;
+  out.home = {fixed({home[0], home[1], home[2]}), fixed({home[12], home[13], home[14]}), rotation_near(&home[3])};
+  return out;
+}
+Stand stand_in(const SpaceLines& space, const Mount& m, const Patch& patch) {
+  Stand out;
+  out.p = {along(patch.low[0], patch.high[0], 0), along(patch.low[1], patch.high[1], 1),
+           along(patch.low[2], patch.high[2], 2)};
+  out.q = rotation_near(space.rotations[static_cast<std::size_t>(patch.piece)].data());
+  const Arrow point = fixed(space.point);
+  if (space.rule == "fixed") out.s = point;
+  else if (space.rule == "platform") out.s = out.p + combined(out.q, point);
+  else {
+    const Arrow lower = middle_of(m.joint, 3), upper = out.p + combined(out.q, middle_of(m.joint, 9));
+    out.s = lower + Linear(space.fraction) * (upper - lower);
+  }
+  return out;
+}
+
 struct RoundPart {
   std::size_t first, count;
   double radius;
@@ -62,6 +110,7 @@ std::vector<RoundPart> round_parts(const DesignsFile& file) {
 }  // namespace
 
 Mount mount(const DesignsFile& file, const Cube& designs) {
+  if (file.space.given()) return mount_of(file.space);
   std::vector<Linear> x;
   for (const Bound& one : file.variables) x.emplace_back(one.range.a);
   for (std::size_t k = 0; k < file.varied.size(); ++k)
@@ -108,6 +157,7 @@ Mount mount(const DesignsFile& file, const Cube& designs) {
 }
 
 Stand stand(const DesignsFile& file, const Mount& m, const Patch& patch) {
+  if (file.space.given()) return stand_in(file.space, m, patch);
   Stand out = m.home;
   const auto moved = [&](Arrow& point, const Arrow& by, bool in_zp) { point = point + (in_zp ? m.zp * by : by); };
   const auto turn = [&](const std::array<Arrow, 3>& by) {
@@ -149,6 +199,27 @@ LegLine leg_line(const Mount& m, const Stand& at, int leg) {
   if (leg < 3) return {m.joint[k], at.p + carried(at, m.joint[6 + k])};
   if (leg < 6) return {at.p + carried(at, m.joint[6 + k]), at.s};
   return {m.joint[k - 3], at.s};
+}
+
+void require_shared_joints(const DesignsFile& file, const Mount& m) {
+  const auto joint_of = [](int leg, bool at_platform) {
+    return static_cast<std::size_t>(leg < 3 ? (at_platform ? 6 + leg : leg) : leg < 6 ? 6 + leg : leg - 3);
+  };
+  // Of the place of one in the middle of the designs: a cube may be so large that any distance is small beside it.
+  const auto together = [&](std::size_t i, std::size_t j) {
+    const Arrow &one = m.plate[i], apart = one - m.plate[j];
+    const double size = std::max({std::abs(one.x.c), std::abs(one.y.c), std::abs(one.z.c)});
+    const auto nowhere = [size](const Linear& x) { return std::abs(x.c) + swing(x) + x.r <= 1e-12 * size; };
+    return nowhere(apart.x) && nowhere(apart.y) && nowhere(apart.z);
+  };
+  for (const int pair : file.exempt) {
+    const auto [a, b] = legs_of_pair(pair);
+    const bool shared =
+        b < 3   ? together(joint_of(a, false), joint_of(b, false)) || together(joint_of(a, true), joint_of(b, true))
+        : b < 6 ? together(joint_of(a, true), joint_of(b, true))
+                : together(joint_of(a, false), joint_of(b, false));
+    if (!shared) refuse("a pair of legs that is exempt shares no joint");
+  }
 }
 
 std::vector<Patch> all_poses(const DesignsFile& file) {

@@ -21,7 +21,7 @@ struct Mount {
 };
 Mount mount(const DesignsFile& file, const Cube& designs);
 
-/// The poses of a patch. Its piece has to be one of the file.
+/// The poses of a patch. Its piece has to be one of the file; of a workspace it is a rotation.
 Stand stand(const DesignsFile& file, const Mount& m, const Patch& patch);
 
 /// The ends of a leg: l1 l2 l3 from the base to the platform, q1 q2 q3 from the platform and r1 r2 r3 from the base to
@@ -33,6 +33,9 @@ struct LegLine {
 LegLine leg_line(const Mount& m, const Stand& at, int leg);
 /// A vector of the platform in the base frame.
 Arrow carried(const Stand& at, const Arrow& v);
+
+/// Refuses a file with an exempt pair of legs that share no joint in every machine.
+void require_shared_joints(const DesignsFile& file, const Mount& m);
 
 /// The patches of all poses; those of the neutral pose are one of piece -1.
 std::vector<Patch> all_poses(const DesignsFile& file);

@@ -43,7 +43,7 @@ class DesignsReplay {
   void run() {
     std::vector<std::size_t> all(file_.boxes.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    check_exempt();
+    require_shared_joints(file_, mount(file_, whole_));
     node(whole_, all, everything(), 0);
     say();
   }
@@ -52,29 +52,6 @@ class DesignsReplay {
   std::size_t dimensions() const { return file_.varied.size(); }
   void report() const {
     if (reading_) reading_(static_cast<std::size_t>(out_.leaves), file_.boxes.size());
-  }
-
-  /// Legs that may meet share a joint in every design.
-  void check_exempt() const {
-    const Mount m = mount(file_, whole_);
-    const auto joint_of = [](int leg, bool at_platform) {
-      return static_cast<std::size_t>(leg < 3 ? (at_platform ? 6 + leg : leg) : leg < 6 ? 6 + leg : leg - 3);
-    };
-    // Of the place of one in the middle of the designs: a cube may be so large that any distance is small beside it.
-    const auto together = [&](std::size_t i, std::size_t j) {
-      const Arrow &one = m.plate[i], apart = one - m.plate[j];
-      const double size = std::max({std::abs(one.x.c), std::abs(one.y.c), std::abs(one.z.c)});
-      const auto nowhere = [size](const Linear& x) { return std::abs(x.c) + swing(x) + x.r <= 1e-12 * size; };
-      return nowhere(apart.x) && nowhere(apart.y) && nowhere(apart.z);
-    };
-    for (const int pair : file_.exempt) {
-      const auto [a, b] = legs_of_pair(pair);
-      const bool shared =
-          b < 3   ? together(joint_of(a, false), joint_of(b, false)) || together(joint_of(a, true), joint_of(b, true))
-          : b < 6 ? together(joint_of(a, true), joint_of(b, true))
-                  : together(joint_of(a, false), joint_of(b, false));
-      if (!shared) refuse("a pair of legs that is exempt shares no joint");
-    }
   }
 
   /// The poses at which a want holds: of the design alone the neutral one stands for all.

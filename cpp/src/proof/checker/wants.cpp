@@ -16,6 +16,8 @@ struct Legs {
 };
 std::optional<Legs> legs_of(const std::string& name) {
   const bool platform = name.starts_with("platform_");
+  for (int leg = 0; leg < 9; ++leg)
+    if (name == name_of_leg(leg)) return Legs{About::length, false, leg, 1};
   if (name == "leg_length") return Legs{About::length, false, 0, 9};
   if (name == "external_length") return Legs{About::length, false, 0, 3};
   if (name == "upper_length") return Legs{About::length, false, 3, 3};
@@ -40,8 +42,14 @@ double largest(double x, double y) {
 
 std::vector<Want> wants_of(const DesignsFile& file, std::vector<std::string>& unknown) {
   std::vector<Want> out;
-  for (int k = 0; k < 3; ++k) out.push_back({About::determinant, 0, k});
-  for (int k = 0; k < 2; ++k) out.push_back({About::height, 1, k});
+  const bool one_robot = file.space.given();
+  const auto add_regular = [&] {
+    for (int k = 0; k < 3; ++k) out.push_back({About::determinant, 0, k});
+  };
+  if (!one_robot) {
+    add_regular();
+    for (int k = 0; k < 2; ++k) out.push_back({About::height, 1, k});
+  }
   for (int n = 0; n < static_cast<int>(file.limits.size()); ++n) {
     const LimitLine& one = file.limits[static_cast<std::size_t>(n)];
     const auto legs = legs_of(one.name);
@@ -49,6 +57,7 @@ std::vector<Want> wants_of(const DesignsFile& file, std::vector<std::string>& un
     bool known =
         (one.of == "length" || (one.of == "zp" && of_zp) || (one.of == "radius" && one.name.starts_with("joint_"))) &&
         (one.axis == Triple{} || (legs && legs->about == About::cone));
+    if (one_robot && one.name == "singularity_free") add_regular();
     for (const bool high : {false, true}) {
       const double bound = high ? one.range.b : one.range.a;
       if (!(bound > 0.0) || !(bound < inf)) continue;
@@ -155,48 +164,86 @@ Linear Weigher::number(const Want& want, const Posed& at, Weighed& out) const {
   return dot(Linear(sense) * unit(v), axis) - cosine(bound(want));
 }
 
-/// The legs are at least the least of four products along a unit vector n apart: those of n with the ways from the ends
-/// of one to the ends of the other. And at most as far as two points of them.
-void Weigher::pair(const Want& want, const Posed& at, const Patch& patch, Weighed& out) const {
-  const auto [a, b] = legs_of_pair(want.item);
-  const LegLine one = at.leg(a), two = at.leg(b);
+namespace {
+
+/// Two legs where their middles are nearest: the way from one to the other, and a direction across what of them is near.
+struct NearLegs {
+  LegLine one, two;
+  Arrow apart, across;
+};
+NearLegs near_legs(const LegLine& one, const LegLine& two) {
   const Arrow u = one.along(), v = two.along(), w = two.from - one.from;
-  add_moves(u, false, out);
-  add_moves(v, false, out);
-  add_moves(w, false, out);
-  // Where the middles are nearest: by turns along one and the other, which comes near enough.
+  // By turns along one and the other, which comes near enough.
   const double uu = dot(u, u).c, vv = dot(v, v).c, uv = dot(u, v).c, uw = dot(u, w).c, vw = dot(v, w).c;
   const auto part = [](double x) { return x > 0.0 ? std::min(x, 1.0) : 0.0; };
   const double across = uu * vv - uv * uv;
   double s = part((uw * vv - uv * vw) / across), t = part((uv * s - vw) / vv);
   s = part((uw + uv * t) / uu);
   t = part((uv * s - vw) / vv);
-  const Linear distance = in_unit(want);
-  const Arrow apart = w + Linear(t) * v - Linear(s) * u;
+  NearLegs out{one, two, w + Linear(t) * v - Linear(s) * u, {}};
   const bool within_one = s > 0.0 && s < 1.0, within_two = t > 0.0 && t < 1.0;
   const Arrow between = (t > 0.5 ? two.to : two.from) - (s > 0.5 ? one.to : one.from);
   const auto across_leg = [&](const Arrow& leg) { return dot(leg, leg) * between - dot(leg, between) * leg; };
-  Arrow n = between;
-  if (within_one && within_two) n = cross(u, v);
-  else if (within_one) n = across_leg(u);
-  else if (within_two) n = across_leg(v);
-  if (dot(n, apart).c < 0.0) n = Linear(-1.0) * n;
+  out.across = between;
+  if (within_one && within_two) out.across = cross(u, v);
+  else if (within_one) out.across = across_leg(u);
+  else if (within_two) out.across = across_leg(v);
+  if (dot(out.across, out.apart).c < 0.0) out.across = Linear(-1.0) * out.across;
+  return out;
+}
+/// The legs are at least the least of four products along a unit vector apart: those with the ways from the ends of one
+/// to the ends of the other.
+std::array<Linear, 4> products_along(const Arrow& unit, const NearLegs& legs) {
+  const LegLine &one = legs.one, &two = legs.two;
+  return {dot(unit, two.from - one.from), dot(unit, two.to - one.from), dot(unit, two.from - one.to),
+          dot(unit, two.to - one.to)};
+}
+Arrow fixed_direction(const NearLegs& legs) {
+  const Arrow& v = legs.apart;
+  const double size = std::sqrt(dot(v, v).c) * grain::up;
+  return {v.x.c / size, v.y.c / size, v.z.c / size};
+}
+
+/// A number below all of these, with the slopes of the least.
+Linear below_all(const std::array<Linear, 4>& all) {
+  Linear slopes = all[0];
+  for (const Linear& x : all)
+    if (!(lower_end(x) >= lower_end(slopes))) slopes = x;
+  slopes.c = slopes.r = 0.0;
+  double rest = inf;
+  for (const Linear& x : all)
+    if (const double low = lower_end(x - slopes); !(low >= rest)) rest = low;
+  return slopes + Linear(rest);
+}
+
+/// Of vectors with one coordinate in each part their range is known to the last bit, however wide the box.
+int length_within(const Arrow& v, double bound, bool high) {
+  Range sum;
+  for (const Linear& x : {v.x, v.y, v.z}) sum = sum + square(Range(lower_end(x), upper_end(x)));
+  const Range margin = high ? square(Range(bound)) - sum : sum - square(Range(bound));
+  return margin.a > 0.0 ? 1 : margin.b < 0.0 ? -1 : 0;
+}
+
+}  // namespace
+
+/// They are at most as far apart as two points of them.
+void Weigher::pair(const Want& want, const Posed& at, const Patch& patch, Weighed& out) const {
+  const auto [a, b] = legs_of_pair(want.item);
+  const NearLegs legs = near_legs(at.leg(a), at.leg(b));
+  for (const Arrow& v : {legs.one.along(), legs.two.along(), legs.two.from - legs.one.from}) add_moves(v, false, out);
+  const Linear distance = in_unit(want);
   const auto least_along = [&](const Arrow& direction) {
     double least = inf;
-    for (const Arrow& from : {one.from, one.to})
-      for (const Arrow& to : {two.from, two.to}) {
-        const double x = least_over(file_, dot(direction, to - from) - distance, patch);
-        least = std::min(least, x);
-      }
+    for (const Linear& x : products_along(direction, legs))
+      least = std::min(least, least_over(file_, x - distance, patch));
     return least;
   };
-  out.low = least_along(unit(n));
+  out.low = least_along(unit(legs.across));
   if (!(out.low > 0.0)) {
-    const double size = std::sqrt(dot(apart, apart).c) * grain::up;
-    const double fixed = least_along({apart.x.c / size, apart.y.c / size, apart.z.c / size});
+    const double fixed = least_along(fixed_direction(legs));
     if (!(out.low > fixed)) out.low = fixed;
   }
-  out.high = upper_end(dot(apart, apart) - squared(distance));
+  out.high = upper_end(dot(legs.apart, legs.apart) - squared(distance));
 }
 
 /// The designs count once: their slopes in both lengths are taken together.
@@ -310,6 +357,35 @@ Weighed Weigher::weigh(const Want& want, const Spot& spot) const {
     }
   }
   return out;
+}
+
+Sides Weigher::sides(const Want& want, const Patch& patch) const {
+  const Posed at{mount_, stand(file_, mount_, patch)};
+  if (want.about == About::condition)
+    return condition_sides(mount_, at.stand, file_.length, bound(want), want.second > 0 ? want.second : -1);
+  if (want.about == About::pair) {
+    const auto [a, b] = legs_of_pair(want.item);
+    const NearLegs legs = near_legs(at.leg(a), at.leg(b));
+    const Linear distance = in_unit(want);
+    Linear turning = below_all(products_along(unit(legs.across), legs)) - distance;
+    const Linear held = below_all(products_along(fixed_direction(legs), legs)) - distance;
+    if (!(lower_end(turning) > lower_end(held))) turning = held;
+    return {{turning}, {dot(legs.apart, legs.apart) - squared(distance)}};
+  }
+  if (want.about == About::duty) {
+    std::vector<Linear> all;
+    for (const Linear& x : leg_duties(file_.duty, mount_, at.stand, duties_of(line(want).name)))
+      for (const Linear& room : {bound(want) - x, bound(want) + x}) all.push_back(room);
+    return {all, all};
+  }
+  if (want.about == About::length)
+    if (const int known = length_within(at.leg(want.item).along(), bound(want), want.high); known != 0)
+      return {{Linear(known)}, {Linear(known)}};
+  if (want.about == About::determinant && !side_of_all_[static_cast<std::size_t>(want.item)])
+    refuse("rounding cannot tell home from a singular configuration");
+  Weighed unused;
+  const Linear x = number(want, at, unused);
+  return {{x}, {x}};
 }
 
 }  // namespace ninedof::checker::sets

@@ -32,11 +32,19 @@ struct Weighed {
   std::array<double, symbols + pose_symbols> moves{};
 };
 
+/// Numbers over a box of poses of one machine: the limit is kept where all of `keeps` are positive, and broken where one
+/// of `breaks` is negative.
+struct Sides {
+  std::vector<Linear> keeps, breaks;
+};
+
 /// A box of designs with what all numbers share.
 class Weigher {
  public:
   Weigher(const DesignsFile& file, const Cube& designs);
   Weighed weigh(const Want& want, const Spot& spot) const;
+  /// Of one machine; for wants that are about a pose.
+  Sides sides(const Want& want, const Patch& patch) const;
 
  private:
   struct Posed {
@@ -64,6 +72,13 @@ class Weigher {
 /// Whether kappa <= K over the box (1), kappa > K for all designs at the single pose (-1), or neither is known (0);
 /// with an internal leg locked where that is not -1.
 int condition_within(const Mount& m, const Stand& at, double length, double most, int locked = -1);
+
+/// Where over the box.
+Sides condition_sides(const Mount& m, const Stand& at, double length, double most, int locked);
+
+using Point = std::array<double, 3>;
+/// The corners of the part of the box -1 to 1 where slope . t >= level.
+std::vector<Point> corners_beyond(const Point& slope, double level);
 
 /// Forces, greatest rates or powers of legs, for each load: of what moduli the limit is.
 std::vector<Linear> leg_duties(const DutyLines& duty, const Mount& m, const Stand& at, const LegDuties& of);

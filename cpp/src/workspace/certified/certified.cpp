@@ -10,7 +10,6 @@
 #include "workspace/certified/scale.hpp"
 #include "workspace/certified/search.hpp"
 #include "workspace/criteria/limits.hpp"
-#include "workspace/criteria/placement.hpp"
 #include "workspace/requirements.hpp"
 
 namespace ninedof {
@@ -35,17 +34,6 @@ void require_certified(const WorkspaceDomain& domain, const InternalPointRule& r
     throw InvalidArgument("gap", format_number(settings.gap), "a number in (0, 1)");
   if (!(settings.seconds >= 0.0)) throw InvalidArgument("time_limit", format_number(settings.seconds), "at least 0");
   if (settings.boxes < 1) throw InvalidArgument("boxes", std::to_string(settings.boxes), "at least 1");
-}
-
-/// As in a map: the middle of the box, O by the rule.
-Configuration home_or_middle(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
-                             const WorkspaceCriteria& criteria, const std::optional<Configuration>& home) {
-  if (home) return *home;
-  Configuration out;
-  out.position = 0.5 * (domain.low + domain.high);
-  if (domain.archetype == Archetype::constant_orientation) out.rotation = domain.rotations.front();
-  out.internal_point = Placement(g, rule, criteria).point(out.position, out.rotation);
-  return out;
 }
 
 /// What is in `all` but not in `box`, as boxes.

@@ -9,6 +9,7 @@
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/interval.hpp"
+#include "workspace/criteria/placement.hpp"
 
 namespace ninedof::certified {
 namespace {
@@ -74,6 +75,16 @@ void require_held(const Question& q, int exponent) {
 }
 
 }  // namespace
+
+Configuration home_or_middle(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                             const WorkspaceCriteria& criteria, const std::optional<Configuration>& home) {
+  if (home) return *home;
+  Configuration out;
+  out.position = 0.5 * (domain.low + domain.high);
+  if (domain.archetype == Archetype::constant_orientation) out.rotation = domain.rotations.front();
+  out.internal_point = Placement(g, rule, criteria).point(out.position, out.rotation);
+  return out;
+}
 
 int exponent_of(const Question& q) {
   double most = 0.0;

@@ -13,6 +13,10 @@ struct Question {
   Configuration home;
 };
 
+/// Home; as in a map the middle of the box, O by the rule, where none is given.
+Configuration home_or_middle(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                             const WorkspaceCriteria& criteria, const std::optional<Configuration>& home);
+
 /// The exponent of the unit in which the question is of size 1.
 int exponent_of(const Question& question);
 

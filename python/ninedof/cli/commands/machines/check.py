@@ -10,29 +10,37 @@ from ninedof.cli.options import Options, argument, option, struct
 from ninedof.cli.screen import DONE, NO_RESULT, REFUSED, bold
 from ninedof.proof.optimum import check_certificate
 from ninedof.proof.optimum_proof import FILE
+from ninedof.workspace.certified_record import CERTIFICATE
 
 PLACE = 4
 EXAMPLES = f"""
   ninedof optimize --certify --out proved       writes {FILE} into the run folder
   ninedof check proved
   ninedof admissible study.toml --vary a2 --vary b1 --certificate designs.certificate
-  ninedof check designs.certificate"""
+  ninedof check designs.certificate
+  ninedof workspace machine --certify --out space    writes {CERTIFICATE} into the run folder
+  ninedof check space"""
 
-MAKERS = "of `ninedof optimize --certify`, or a file of `certify` or `admissible` with --certificate FILE"
+MAKERS = (
+    "of `ninedof optimize --certify` or `workspace --certify`, or a file of `certify` or `admissible` with --certificate "
+    "FILE"
+)
 UNIT = "lengths in the study's unit, which a certificate does not name"
 
 
 @struct
 class _Options(Options):
-    certificate: Path = argument(f"A certificate, or a run folder that has {FILE}.")
+    certificate: Path = argument(f"A certificate, or a run folder that has {FILE} or {CERTIFICATE}.")
     time: float | None = option("Seconds, no limit by default; a machine with limits of forces may take minutes.")
 
 
 def check(options: _Options) -> Answer:
-    """Check a certificate: of a bound of all designs, a machine that keeps its limits, or a set of designs."""
-    path = options.certificate / FILE if options.certificate.is_dir() else options.certificate
-    if not path.exists() and path != options.certificate:
-        raise ValueError(f"{options.certificate}: got a folder without {FILE}, expected that {MAKERS}")
+    """Check a certificate: of a bound of all designs, a machine and its limits, a set of designs, or a workspace."""
+    path = options.certificate
+    if path.is_dir():
+        path = next((file for name in (FILE, CERTIFICATE) if (file := path / name).exists()), path)
+    if path.is_dir():
+        raise ValueError(f"{path}: got a folder without {FILE} and {CERTIFICATE}, expected that {MAKERS}")
     with options.screen.bar("boxes", "reading the certificate") as bar:
         bar.phase("a machine is one box, which may take minutes")  # the share of the file says nothing of its time
         result = check_certificate(path, time_limit=options.time, progress=bar)
@@ -43,6 +51,6 @@ def check(options: _Options) -> Answer:
     if result.words == "this is no certificate":
         parts.append(f"Expected {FILE} {MAKERS}. certify.json says what is proved of a machine, and not why.")
     if result.study:
-        parts.append(f"{result.boxes} boxes of designs read, {result.recut} cut further by the checker")
+        parts.append(f"{result.boxes} boxes read, {result.recut} cut further by the checker")
     data = {name: getattr(result, name) for name in ("proved", "incomplete", "words", "boxes", "study")}
     return Answer(parts, data, DONE if result.proved else NO_RESULT if result.incomplete else REFUSED)

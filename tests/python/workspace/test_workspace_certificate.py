@@ -1,0 +1,254 @@
+"""Certificates of workspaces: replayed by the checker; changed ones are refused, or what they say is true."""
+
+import zlib
+
+import numpy as np
+import pytest
+from forged import lines_of, spelled, verdict_of, with_word
+
+import ninedof as nd
+
+FIRST = b"ninedof certificate of a workspace 1\nchecksum "
+INCH = 1.0 / 25.4
+LEGS = {"leg_limits": (2.5, 6.5)}
+BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])
+HOME = nd.Configuration.neutral(zp=4.8, zs=2.4)
+AXES = np.array([[0.96, 0.0, 0.28], [0.0, 1.0, 0.0], [-0.28, 0.0, 0.96]])
+
+
+def sealed(head, tree):
+    body = "".join(f"{line}\n" for line in head).encode() + tree
+    return FIRST + f"{zlib.crc32(body):x}\n".encode() + body
+
+
+def parts_of(data):
+    """The lines below the checksum, and the tree."""
+    size = int(data[data.index(b"\ntree ") + 6 :].split(b"\n", 1)[0])
+    return lines_of(data[: len(data) - size]), data[len(data) - size :]
+
+
+@pytest.fixture
+def verdict(tmp_path):
+    return lambda data: verdict_of(data, tmp_path)
+
+
+def proof_of(robot, box=BOX, gap=0.3, **question):
+    question.setdefault("home", HOME)
+    return nd.certified_workspace(robot, box, gap=gap, **question)
+
+
+QUESTIONS = {
+    "legs, as long as they are beside the box": {"box": ([-9, -9, -9], [9, 9, 9])},
+    "a hole": {"criteria": {"leg_limits": (4.4, 6.5)}, "box": ([-4, -4, -7], [4, 4, 7])},
+    "tilted": {"rotation": AXES, "criteria": LEGS | {"singularity_free": True}},
+    "no singularity": {"criteria": LEGS | {"condition_number": 5.0, "singularity_free": True}},
+    "cones": {"criteria": LEGS | {"base_cone": {"max": 0.5, "axis": (0.1, 0, 1)}, "platform_cone": {"max": 0.4}}},
+    "clearance": {"criteria": LEGS | {"leg_clearance": 0.3}},
+    "a leg lost": {
+        "criteria": LEGS | {"fault_tolerant": 10.0},
+        "box": ([-0.3, -0.3, 4.5], [0.3, 0.3, 4.9]),
+    },
+    "carried": {"internal_point": {"platform": (0.0, 0.0, -2.2)}, "criteria": LEGS},
+    "held": {"internal_point": (0.0, 0.0, 2.4), "criteria": LEGS},
+    "some": {"archetype": "reachable", "orientations": np.stack([np.eye(3), AXES]), "criteria": LEGS},
+    "all": {"archetype": "inclusive", "orientations": np.stack([np.eye(3), AXES]), "criteria": LEGS},
+    "nothing": {"criteria": {"leg_limits": (0.1, 1.0)}},
+    "nearly nothing": {"criteria": {"leg_limits": (3.2, 3.2000001)}, "gap": 0.999},
+}
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_every_kind_of_limit_is_replayed(name, published, verdict):
+    proof = proof_of(published, **({"criteria": LEGS} | QUESTIONS[name]))
+    found = verdict(proof.certificate.tobytes())
+    assert found.proved, found.words
+    low, high = (float(word) for word in found.words.split(" from ")[1].split(" to "))
+    assert low == pytest.approx(proof.volume[0], rel=1e-3, abs=1e-5)
+    assert high == pytest.approx(proof.volume[1], rel=1e-3, abs=1e-5)
+    assert low <= proof.volume[0]
+    assert high >= proof.volume[1]
+
+
+def test_limits_of_forces_and_rates_are_replayed(verdict):
+    plates = {"base_external_radius": 2.0, "base_internal_radius": 1.8, "platform_external_radius": 0.9}
+    plates |= {"platform_internal_radius": 0.8, "zp": 2.5, "zs": 1.2, "platform_internal_angle": 0.3}
+    plates |= {"base_internal_angle": 0.7, "platform_external_angle": 0.9}
+    study = nd.Study(
+        family="symmetric",
+        variables=plates,
+        constraints={"force": (None, 3.0), "rate": (None, 4.0), "leg_clearance": (0.01, None)},
+        characteristic_length=1,
+        loads={"wrenches": [[0, 0, 0, 0, 0, -1.0]]},
+        speeds={"linear": 1.0, "angular": 1.0},
+    )
+    proof = nd.certified_workspace(nd.optimize(study), ([-0.6, -0.6, 2.2], [0.6, 0.6, 3.0]), gap=0.5)
+    found = verdict(proof.certificate.tobytes())
+    assert found.proved, found.words
+    assert any("speeds up to 1 and 1" in line for line in found.study)
+
+
+@pytest.mark.parametrize("unit", [INCH, 1e6])
+def test_the_unit_does_not_matter(unit, published, verdict):
+    p = published
+    joints = (p.base_external, p.base_internal, p.platform_external, p.platform_internal)
+    robot = nd.Geometry(*(unit * triple for triple in joints))
+    criteria = {"leg_limits": (2.5 * unit, 6.5 * unit), "condition_number": 5.0, "leg_clearance": 0.2 * unit}
+    home = nd.Configuration.neutral(zp=4.8 * unit, zs=2.4 * unit)
+    box = tuple(unit * np.array(end) for end in BOX)
+    proof = proof_of(robot, box, criteria=criteria, home=home, characteristic_length=unit)
+    assert verdict(proof.certificate.tobytes()).proved
+
+
+@pytest.fixture(scope="module")
+def data(published):
+    near = ([-1.2, -1.2, 3.2], [1.2, 1.2, 5.6])
+    return proof_of(published, near, criteria=LEGS | {"condition_number": 5.0}).certificate.tobytes()
+
+
+def drawn_volume(lines, rng):
+    """The volume that the question of a file has, by random positions, and twice its standard error."""
+    rows = {}
+    for line in lines:
+        key, *words = line.split(" ")
+        rows.setdefault(key, []).append(words)
+    robot = nd.Geometry(*np.array([[float.fromhex(x) for x in words] for words in rows["joint"]]).reshape(4, 3, 3))
+    low, high = np.array([float.fromhex(x) for x in rows["space"][0]]).reshape(2, 3)
+    p = rng.uniform(low, high, (6000, 3))
+    q = np.array([float.fromhex(x) for x in rows["rotation"][0]]).reshape(3, 3)
+    lower, upper = robot.base_internal.mean(axis=0), p + q @ robot.platform_internal.mean(axis=0)
+    s = lower + float.fromhex(rows["internal_point"][0][4]) * (upper - lower)
+    poses = nd.Configuration(p, np.broadcast_to(q, (len(p), 3, 3)), s)
+    bounds = {words[0]: [float.fromhex(x) if "x" in x else np.inf for x in words[1:3]] for words in rows["limit"]}
+    lengths = nd.leg_lengths(robot, poses)
+    kept = np.ones(len(p), bool)
+    for k, name in enumerate(["l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"]):
+        kept &= (bounds[name][0] <= lengths[:, k]) & (lengths[:, k] <= bounds[name][1])
+    length = float.fromhex(rows["characteristic_length"][0][0])
+    kept &= nd.condition_number(robot, poses, length) <= bounds["condition_number"][1]
+    return kept.mean() * np.prod(high - low), 4.0 * np.prod(high - low) * np.sqrt(0.25 / len(p))
+
+
+@pytest.mark.slow
+def test_digits_edited_at_random_are_refused_or_true(data, verdict):
+    head, tree = parts_of(data)
+    rng, proved = np.random.default_rng(3), 0
+    places = [(n, k) for n, line in enumerate(head) for k, c in enumerate(line) if "0x" in line[:k] and c.isdigit()]
+    for n, k in (places[i] for i in rng.choice(len(places), 40, replace=False)):
+        digit = str((int(head[n][k]) + int(rng.integers(1, 9))) % 10)
+        forged = [*head[:n], head[n][:k] + digit + head[n][k + 1 :], *head[n + 1 :]]
+        found = verdict(sealed(forged, tree))
+        if found.proved:
+            proved += 1
+            low, high = (float(word) for word in found.words.split(" from ")[1].split(" to "))
+            volume, error = drawn_volume(forged, rng)
+            assert low - error <= volume <= high + error, head[n]
+    assert proved < 35
+
+
+@pytest.mark.slow
+def test_bytes_of_the_tree_edited_at_random_prove_nothing_else(data, verdict):
+    head, tree = parts_of(data)
+    original, rng, proved = verdict(data), np.random.default_rng(4), 0
+    for _ in range(40):
+        at = int(rng.integers(len(tree)))
+        forged = tree[:at] + bytes([int(rng.integers(256))]) + tree[at + 1 :]
+        found = verdict(sealed(head, forged))
+        if found.proved:
+            proved += 1
+            assert found.words == original.words
+    assert proved < 35
+
+
+def leaves_of(tree):
+    """Where each leaf begins."""
+    at = 0
+    while at < len(tree):
+        code = tree[at]
+        if code > 5:
+            yield at
+        at += 1 if code < 3 else 9 if code < 6 else 5 if code == 18 else 1
+
+
+def test_what_a_box_is_called_has_to_be_true(data, verdict):
+    head, tree = parts_of(data)
+    for was, called in ((16, 17), (17, 16)):
+        at = [n for n in leaves_of(tree) if tree[n] == was]
+        found = verdict(sealed(head, tree[: at[-1]] + bytes([called]) + tree[at[-1] + 1 :]))
+        assert not found.proved
+        assert "does not have the share that is said" in found.words
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda tree: tree[:-1], "the tree ends too early"),
+        (lambda tree: tree + b"\x10", "the tree goes on after its last box"),
+        (lambda tree: b"\x03" + np.float64(7.5).tobytes() + b"\x10" + tree, "a cut is beside its box"),
+        (lambda tree: b"\x63" + tree[1:], "byte 99 of the tree means nothing"),
+        (lambda tree: tree[: next(leaves_of(tree))] + b"\x12\x00\x00\xff\xff", "the tree ends too early"),
+    ],
+)
+def test_no_box_is_missing_or_laid_over_another(change, words, data, verdict):
+    head, tree = parts_of(data)
+    forged = change(tree)
+    assert words in verdict(sealed([*head[:-1], f"tree {len(forged)}"], forged)).words
+
+
+def test_no_smaller_gap_is_proved_by_the_same_boxes(data, verdict):
+    head, tree = parts_of(data)
+    n = len(head) - 2
+    low, high = (float.fromhex(word) for word in head[n].split(" ")[1:])
+    for place, value in ((1, 0.6 * low + 0.4 * high), (2, 0.4 * low + 0.6 * high)):
+        found = verdict(sealed(with_word(head, n, place, spelled(value)), tree))
+        assert not found.proved
+        assert found.incomplete
+        assert "not confirmed is the volume" in found.words
+    above = f"volume {spelled(high * 1.01)} {spelled(high * 1.02)}"
+    assert "is not that of the boxes" in verdict(sealed([*head[:n], above, *head[n + 1 :]], tree)).words
+
+
+@pytest.mark.parametrize(
+    ("key", "change", "words"),
+    [
+        ("joint", lambda line: [], "the joints are not twelve"),
+        ("rotation", lambda line: [line.replace("0x1p+0", "0x1.8p+0", 1)], "a matrix is no rotation"),
+        ("space", lambda line: [f"space {' '.join(line.split(' ')[4:] + line.split(' ')[1:4])}"], "is none"),
+        ("internal_point", lambda line: [line.replace("between", "best")], "is no rule for O"),
+        (
+            "limit l1",
+            lambda line: ["limit stroke 0x0p+0 0x1p+0 length poses 0x0p+0 0x0p+0 0x0p+0"],
+            "no limit of a pose",
+        ),
+        (
+            "limit l1",
+            lambda line: ["limit magic 0x0p+0 0x1p+0 length poses 0x0p+0 0x0p+0 0x0p+0", line],
+            "not checked: magic",
+        ),
+        ("limit l1", lambda line: [line.replace("poses", "neutral")], "none of a pose"),
+        ("volume", lambda line: ["exempt 1", line], "exempt shares no joint"),
+    ],
+)
+def test_what_is_no_question_is_refused(key, change, words, data, verdict):
+    head, tree = parts_of(data)
+    n = next(n for n, line in enumerate(head) if line.startswith(key))
+    found = verdict(sealed([*head[:n], *change(head[n]), *head[n + 1 :]], tree))
+    assert not found.proved
+    assert words in found.words
+
+
+def test_the_run_of_a_workspace_is_checked(run, tmp_path):
+    folder = tmp_path / "run"
+    asked = "workspace --legs 2.5 6.5 --condition 5 --tolerance 1e-2 --x -2.5 2.5 --y -2.5 2.5 --z 3 7"
+    assert run(f"{asked} --certify --gap 0.3 --no-figures --out {folder}")[0] == 0
+    code, out, _ = run(f"check {folder}")
+    assert code == 0
+    assert "Proved: the positions of this box that keep every limit have a volume from" in " ".join(out.split())
+    assert nd.load(folder).certified.certificate.size == (folder / "workspace.certificate").stat().st_size
+
+
+def test_limits_of_different_duties_have_no_file(published, tmp_path):
+    proof = proof_of(published, criteria=LEGS)
+    with pytest.raises(ValueError, match="certificate: got limits with different duties"):
+        nd.CertifiedWorkspace(**(vars(proof) | {"certificate": np.empty(0, np.uint8)})).save_certificate(
+            tmp_path / "no"
+        )
