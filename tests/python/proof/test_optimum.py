@@ -205,7 +205,7 @@ def test_reading_a_certificate_is_reported_and_can_be_interrupted(tmp_path):
 def test_what_is_no_certificate_is_said_in_a_line(run, tmp_path):
     (tmp_path / "run").mkdir()
     for name, code, words in (
-        ("run", 2, f"run: got a folder without {FILE}, expected that of `ninedof optimize --certify`"),
+        ("run", 2, f"run: got a folder without {FILE} and workspace.certificate, expected that of `ninedof optimize"),
         ("note", 1, "Refused: this is no certificate"),
     ):
         (tmp_path / "note").write_text("nothing")

@@ -1,6 +1,6 @@
 #pragma once
-/// Checks a certificate of the optimum, of a set of admissible designs, or of a workspace. Shares no source with the search that wrote
-/// it: its own numbers, its own formulas, from docs/certificate.md alone.
+/// Checks a certificate of the optimum, of a set of admissible designs, or of a workspace. Shares no source with the
+/// search that wrote it: its own numbers, its own formulas, from docs/certificate.md alone.
 
 #include <cstddef>
 #include <functional>
@@ -13,12 +13,11 @@ namespace ninedof::checker {
 
 struct Verdict {
   bool proved = false;
-  bool incomplete =
-      false;  ///< of a set of designs or a workspace: nothing in it is wrong, and not all of it could be confirmed
+  bool incomplete = false;  ///< of a set or a workspace: nothing in it is wrong, and not all of it could be confirmed
   std::string words;  ///< what is proved, or why the certificate is refused
   std::vector<std::string> study;  ///< of a proof: the designs that it is about, as the checker read them
-  long leaves = 0;    ///< boxes looked at
-  long recut = 0;     ///< of these, boxes that were cut further to see it
+  long leaves = 0;  ///< boxes looked at
+  long recut = 0;  ///< of these, boxes that were cut further to see it
 };
 
 /// Called now and then with the bytes of the tree that are read, and all of them. What it throws ends the check, unless

@@ -166,7 +166,7 @@ Linear Weigher::number(const Want& want, const Posed& at, Weighed& out) const {
 
 namespace {
 
-/// Two legs where their middles are nearest: the way from one to the other, and a direction across what of them is near.
+/// Two legs where their middles are nearest: the way from one to the other, and a direction across what is near.
 struct NearLegs {
   LegLine one, two;
   Arrow apart, across;

@@ -32,8 +32,8 @@ struct Weighed {
   std::array<double, symbols + pose_symbols> moves{};
 };
 
-/// Numbers over a box of poses of one machine: the limit is kept where all of `keeps` are positive, and broken where one
-/// of `breaks` is negative.
+/// Numbers over a box of poses of one machine: the limit is kept where all of `keeps` are positive, and broken where
+/// one of `breaks` is negative.
 struct Sides {
   std::vector<Linear> keeps, breaks;
 };

@@ -22,8 +22,8 @@ EXAMPLES = f"""
   ninedof check space"""
 
 MAKERS = (
-    "of `ninedof optimize --certify` or `workspace --certify`, or a file of `certify` or `admissible` with --certificate "
-    "FILE"
+    "of `ninedof optimize --certify` or `workspace --certify`, "
+    "or a file of `certify` or `admissible` with --certificate FILE"
 )
 UNIT = "lengths in the study's unit, which a certificate does not name"
 
