@@ -21,8 +21,8 @@ using Vec18 = Eigen::Matrix<double, 18, 1>;
 /// where the room is positive; infinite where there is none, and at a singular configuration that a load moves.
 Vec18 payload_shares(const Geometry& g, const Configuration& c, const PayloadLimits& limits, const Load& without);
 
-/// The same of leg forces that are known, also in motion: `own` without the payload, `per_mass` of a unit of it, and the
-/// greatest pushes and pulls at that instant.
+/// The same of leg forces that are known, also in motion: `own` without the payload, `per_mass` of a unit of it, and
+/// the greatest pushes and pulls at that instant.
 Vec18 payload_shares(const Vec9& own, const Vec9& per_mass, const Vec9& push, const Vec9& pull);
 
 /// The largest mass m >= 0 that keeps all limits; infinite where none is reached, NaN where the load without the
