@@ -12,7 +12,8 @@ from ninedof.design.duty import Masses
 from ninedof.design.limit_numbers import FORCES, PARTS
 from ninedof.design.study import Study
 from ninedof.motion.follow import Followed
-from ninedof.robot.geometry import LEGS
+from ninedof.robot.geometry import LEGS, TRIPLES
+from ninedof.sheet.region_look import robot_of
 from ninedof.sheet.request import duty_of
 from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.support.arguments import Vector, instance, shown, vector
@@ -97,10 +98,13 @@ def payload_along(
     >>> lift = nd.follow(machine, nd.Trajectory.line(machine.configuration, (0.0, 0.0, 0.5)))
     >>> payload = nd.payload_along(machine, lift, power=50.0)
     >>> round(payload.mass, 2), payload.kind
-    (0, '')
+    (15.35, 'power')
 
     """
     instance("motion", motion, Followed)
+    g = robot_of(design, length=1.0)[0]
+    if not all(np.array_equal(getattr(g, name), getattr(motion.geometry, name)) for name in TRIPLES):
+        raise ValueError("motion: got that of another robot, expected what `follow` returns of the design")
     duty, unit, n = duty_of(design), motion.unit, len(motion.time)
     most = {"force": force, "power": power}
     if force is None and power is None:

@@ -133,7 +133,8 @@ RETURNING = (
     "forward_position track velocity_matrices condition_number_bounds determinant_bounds velocity_ellipsoid "
     "error_bounds leg_forces inverse_dynamics best_internal_point best_internal_map singularity singularity_margins "
     "distance_to_singularity nearest_singularity architecture_singularity compare follow path_limits failure "
-    "region_map sheet largest_payload sweep trace Study.evaluate check applicable_bounds WorkspaceMap.slice"
+    "region_map sheet largest_payload payload_along sweep trace Study.evaluate check applicable_bounds "
+    "WorkspaceMap.slice"
 ).split()
 
 

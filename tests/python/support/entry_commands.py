@@ -44,7 +44,10 @@ LINES = {
     "check": ["{certificate} --time 5"],
     "export": ["{design} --to mjcf --out {xml} --leg-mass 1 --platform-mass 1 --gravity 1 --unit mm"],
     "failure": ["{design} --condition 10 --load 0,0,0,0,0,1 --no-pairs"],
-    "forces": ["{design} --load 0,0,0,0,0,1 --position 0,0,4 --rotation-deg 0,0,0 --internal-point 0,0,2"],
+    "forces": [
+        "{design} --load 0,0,0,0,0,1 --position 0,0,4 --rotation-deg 0,0,0 --internal-point 0,0,2",
+        "{design} --mass 5 --centre 0,0,0.1 --gravity 0,0,-9.81",
+    ],
     "payload": ["{design} --force 5 --pull 5 --centre 0,0,0.1 --load 0,0,0,0,0,1"],
     "modes": [
         "{design} --lengths 5,5,5,3,3,3,4,4,4 --certify",

@@ -536,7 +536,6 @@ THINGS = {  # one of each class whose methods without arguments are called
     "Objective": nd.Objective,
     "OptimumProof": it.proof,
     "PathLimits": lambda: nd.path_limits(it.study(), it.followed(), it.c()),
-    "PathPayload": lambda: nd.payload_along(it.design(), it.followed(), 100.0),
     "Payload": lambda: nd.largest_payload(it.design(), 100.0),
     "Pose": lambda: nd.Pose((0.1, 0.0, 0.0)),
     "Region": lambda: nd.Region(cylinder=(0.1, 0.1)),

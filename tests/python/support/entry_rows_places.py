@@ -30,6 +30,9 @@ at("AdmissibleSet.save_certificate", lambda **a: it.admissible_set().save_certif
 at("Result.save_certificate", lambda **a: it.region_result().save_certificate(**a))(
     lambda: {"certificate": it.certificate(), "path": it.fresh()}
 )
+at("CertifiedWorkspace.save_certificate", lambda **a: it.certified().save_certificate(**a))(
+    lambda: {"path": it.fresh()}
+)
 at("OptimumProof.save", lambda **a: it.proof().save(**a))(lambda: {"path": it.fresh()})
 at("report", few=3)(lambda: {"run": it.result(), "path": it.fresh(".html")})
 at("export", words={"platform_mass": ("options",)})(
