@@ -22,7 +22,7 @@ from ninedof.robot.geometry import LEGS, Geometry, triples
 from ninedof.robot.idle import idle_names, unloaded_names
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.statics.dynamics import GRAVITY, gravity_for_core, inverse_dynamics
-from ninedof.support.arguments import choice, finite, instance, items
+from ninedof.support.arguments import choice, finite, instance, items, vector
 from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_leading
 from ninedof.support.files import Saved
 from ninedof.support.structs import entries_of, from_core, options_of, plain_fields
@@ -92,6 +92,8 @@ class Followed(Saved):
     """Name of the length unit; "" without one."""
     force_unit: str = ""
     """"N" for masses in kilograms and lengths with a unit; "": that of the load, or what goes with the masses."""
+    gravity: tuple[float, float, float] = GRAVITY
+    """Of weights, m/s^2 where lengths have a unit, base frame."""
     study_breaks: tuple[LimitBreak, ...] | None = None
     """Stretches in which other limits of the study are violated, see `path_limits`; None where none was held."""
 
@@ -357,6 +359,7 @@ def follow(
         tracked_until=float(path.time[motion.tracked - 1]),
         unit=unit,
         force_unit=unit_of_forces(unit, masses is not None),
+        gravity=vector("gravity", gravity),
         study_breaks=None,
     )
     held = getattr(design, "path_limits", None)  # of a study; a geometry has none

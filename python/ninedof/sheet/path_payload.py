@@ -9,15 +9,14 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.design.duty import Masses
-from ninedof.design.limit_numbers import FORCES, PARTS
-from ninedof.design.study import Study
+from ninedof.design.limit_numbers import FORCES
 from ninedof.motion.follow import Followed
 from ninedof.robot.geometry import LEGS, TRIPLES
+from ninedof.sheet.payload import mass_words
 from ninedof.sheet.region_look import robot_of
-from ninedof.sheet.request import duty_of
+from ninedof.sheet.request import duty_of, leg_limits_argument, leg_limits_of
 from ninedof.statics.dynamics import inverse_dynamics
-from ninedof.support.arguments import Vector, instance, shown, vector
-from ninedof.support.arrays import Floats, one_or_each
+from ninedof.support.arguments import Vector, instance, vector
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount
 
@@ -39,7 +38,9 @@ class PathPayload(NamedTuple):
     load: int
     """The number of the load of the motion that limits it, from 0."""
     unit: str = ""
-    """"kg" where lengths have a unit and forces are newtons."""
+    """Name of the length unit; "" without one."""
+    force_unit: str = ""
+    """"N": the payload is in kilograms. "": what goes with the unit of forces."""
 
     @property
     def words(self) -> str:
@@ -51,7 +52,7 @@ class PathPayload(NamedTuple):
             return f"no payload along the path: singular {at}"
         if not self.fits:
             return f"no payload along the path: {self.leg} exceeds its {self.kind} {at} without one"
-        mass = amount(f"{self.mass:.6g}", self.unit)
+        mass = mass_words(self.mass, self.force_unit)
         return f"largest payload along the path {mass}: {self.leg} reaches its {self.kind} {at} first"
 
 
@@ -71,13 +72,13 @@ def payload_along(
     Parameters
     ----------
     design : Result, Candidate, DesignPoint or a design of a file
-        Whose limits `force` and `power` at its poses are held where none is given, with gravity and tool of its study.
+        Of the tool of its study `centre` is seen, and its limits hold where none is given.
     motion : Followed
-        Of that design, as `follow` returns it: its loads and masses act besides the payload.
+        Of that design, as `follow` returns it: its loads, masses and gravity act on the payload too.
     force : float or array_like of shape (9,), optional
-        Greatest force of each leg, pushing or pulling; that of the study by default.
+        Greatest force of each leg, pushing or pulling; by default the limit `force` of the study at its poses, if any.
     power : float or array_like of shape (9,), optional
-        Greatest power of each leg, force times length/time as a limit of a study; that of the study by default.
+        Greatest power of each leg, force times length/time; by default the limit `power` of the study, if any.
     centre : (3,) floats
         Centre of the payload, a point mass, in the frame of the plate; its origin by default.
 
@@ -105,47 +106,31 @@ def payload_along(
     g = robot_of(design, length=1.0)[0]
     if not all(np.array_equal(getattr(g, name), getattr(motion.geometry, name)) for name in TRIPLES):
         raise ValueError("motion: got that of another robot, expected what `follow` returns of the design")
-    duty, unit, n = duty_of(design), motion.unit, len(motion.time)
-    most = {"force": force, "power": power}
-    if force is None and power is None:
-        limits = {name: _stated(duty, kind) for name, kind in zip(most, (FORCES, "power"), strict=True)}
-    else:
-        limits = {name: np.full(9, np.inf) if x is None else _limit(name, x) for name, x in most.items()}
-    if np.isinf([*limits.values()]).all():
+    duty, n = duty_of(design), len(motion.time)
+    limits = [
+        leg_limits_of(duty, kind) if value is None else leg_limits_argument(name, value)
+        for name, value, kind in (("force", force, FORCES), ("power", power, "power"))
+    ]
+    if np.isinf(limits).all():
         raise ValueError("force, power: got none, expected one, or a design of a study that limits one at its poses")
     own = np.zeros((1, n, 9)) if motion.leg_forces is None else motion.leg_forces.reshape(-1, n, 9)
     unit_mass = Masses(platform=1.0, centre=duty.tool.seen(vector("centre", centre)))
     state = (motion.velocity, motion.acceleration)
-    moved = inverse_dynamics(motion.geometry, motion.configurations, state, unit_mass, duty.loads.gravity, unit=unit)
-    with np.errstate(divide="ignore"):  # a leg that rests has no power
-        at_power = limits["power"] / np.abs(motion.leg_rates)
-    ends = np.minimum(limits["force"], at_power)
+    moved = inverse_dynamics(motion.geometry, motion.configurations, state, unit_mass, motion.gravity, unit=motion.unit)
+    with np.errstate(divide="ignore", invalid="ignore"):  # a leg that rests has no power
+        at_power = np.where(motion.leg_rates == 0.0, np.inf, limits[1] / np.abs(motion.leg_rates))
+    ends = np.minimum(limits[0], at_power)
     instants = np.stack(np.broadcast_arrays(own, moved.forces, ends, ends), axis=-2).reshape(-1, 36)
     shares = _core.payload_shares(instants, 0).reshape(-1, n, 2, 9)
+    units = motion.unit, motion.force_unit or duty.force_unit
     if (singular := np.abs(moved.unbalanced).max(axis=1) > 0.0).any():
-        return PathPayload(0.0, False, "", "singular", float(motion.time[singular.argmax()]), 0, "kg" * bool(unit))
+        return PathPayload(0.0, False, "", "singular", float(motion.time[singular.argmax()]), 0, *units)
     share = float(shares.max())
     if share <= 0.0:
-        return PathPayload(np.inf, True, "", "", np.nan, 0, "kg" * bool(unit))
+        return PathPayload(np.inf, True, "", "", np.nan, 0, *units)
     if share == np.inf:  # where a limit is violated most without a payload
-        shares = np.stack([own / ends, -own / ends], axis=2)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            shares = np.nan_to_num(np.stack([own / ends, -own / ends], axis=2), nan=0.0)
     load, k, _, leg = map(int, np.unravel_index(int(np.argmax(shares)), shares.shape))
-    kind = "force" if limits["force"][leg] <= at_power[k, leg] else "power"
-    return PathPayload(1.0 / share, share < np.inf, LEGS[leg], kind, float(motion.time[k]), load, "kg" * bool(unit))
-
-
-def _stated(study: Study, kind: str) -> Floats:
-    """Return the greatest force or power that a study allows each leg at its poses; infinite where none."""
-    most = np.full(9, np.inf)
-    for one in study.limits:
-        if one.at == "poses" and one.kind == kind:
-            legs = [LEGS.index(leg) for leg in PARTS[one.name]]
-            most[legs] = np.minimum(most[legs], one.high)
-    return most
-
-
-def _limit(name: str, value: ArrayLike) -> Floats:
-    limit = one_or_each(name, value, 9)
-    if limit.shape != (9,) or not (limit > 0.0).all():
-        raise ValueError(f"{name}: got {shown(value)}, expected numbers > 0, one or nine")
-    return limit
+    kind = "force" if limits[0][leg] <= at_power[k, leg] else "power"
+    return PathPayload(1.0 / share, share < np.inf, LEGS[leg], kind, float(motion.time[k]), load, *units)

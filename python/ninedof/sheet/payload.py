@@ -8,16 +8,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.limit_numbers import FORCES, PARTS
-from ninedof.design.study import Study
+from ninedof.design.limit_numbers import FORCES
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import LEGS
 from ninedof.sheet.region_look import SAMPLES, RegionSearch, look_over, robot_of
-from ninedof.sheet.request import duty_of, load_rows, masses_of
+from ninedof.sheet.request import duty_of, leg_limits_argument, leg_limits_of, load_rows, masses_of
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.statics.dynamics import inverse_dynamics, masses_for_core
-from ninedof.support.arguments import Vector, shown, vector, whole
-from ninedof.support.arrays import Floats, one_or_each
+from ninedof.support.arguments import Vector, vector, whole
+from ninedof.support.arrays import Floats
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount
 from ninedof.tables.html import notebook
@@ -62,8 +61,7 @@ class Payload(NamedTuple):
             return "no limit: no leg reaches its force under any payload"
         limit = self.limits[self.side == "pull"][LEGS.index(self.leg)]
         first = f"{self.leg} reaches its limit of {amount(f'{limit:g}', self.force_unit)} ({self.side}) first"
-        kilograms = " kg" if self.force_unit else ", in kg where forces are in N"
-        return f"largest payload {self.mass:.6g}{kilograms}: {first}"
+        return f"largest payload {mass_words(self.mass, self.force_unit)}: {first}"
 
     def _repr_html_(self) -> str:
         return notebook(self.words)
@@ -133,9 +131,15 @@ def largest_payload(
     rows = rows if len(rows) else np.zeros((1, 6))
     others = [one for one in duty.limits if one.row.needs and one.kind != "rate"]  # whatever the mass
     if force is None:
-        force = _stated(duty)
+        force = leg_limits_of(duty, FORCES)
+        if np.isinf(force).all():
+            raise ValueError(
+                "force: got none, expected a number (--force at the terminal): there is no study with a limit of force "
+                "at its poses"
+            )
         others = [one for one in others if one.kind != FORCES or one.at != "poses"]
-    push, most_pull = _limit("force", force), _limit("pull", force if pull is None else pull)
+    push = leg_limits_argument("force", force)
+    most_pull = leg_limits_argument("pull", force if pull is None else pull)
     count = whole("samples", samples, 1, MOST_SAMPLES)
     gravity, masses = duty.loads.gravity, masses_of(duty)
     asked = [*rows, np.zeros(6)] if rows.any() else list(rows)
@@ -168,28 +172,11 @@ def largest_payload(
     )
 
 
+def mass_words(mass: float, force_unit: str) -> str:
+    """Return a mass with what it is in: kilograms where forces are newtons."""
+    return f"{mass:.6g} kg" if force_unit else f"{mass:.6g}, in kg where forces are in N"
+
+
 def _mass(share: float) -> float:
     """Return the mass of which a unit takes a share of what the legs have left."""
     return 1.0 / share if share > 0.0 else np.inf
-
-
-def _stated(study: Study) -> Floats:
-    """Return the greatest force that a study allows each leg at its poses: by `force`, and by that of its kind."""
-    most = np.full(9, np.inf)
-    for one in study.limits:
-        if one.at == "poses" and one.kind == FORCES:
-            legs = [LEGS.index(leg) for leg in PARTS[one.name]]
-            most[legs] = np.minimum(most[legs], one.high)
-    if np.isinf(most).all():
-        raise ValueError(
-            "force: got none, expected a number (--force at the terminal): there is no study with a limit of force at "
-            "its poses"
-        )
-    return most
-
-
-def _limit(name: str, value: ArrayLike) -> Floats:
-    limit = one_or_each(name, value, 9)
-    if limit.shape != (9,) or not (limit >= 0.0).all():
-        raise ValueError(f"{name}: got {shown(value)}, expected numbers >= 0, one or nine")
-    return limit

@@ -16,16 +16,34 @@ from ninedof.design.limit_numbers import CONES, JOINTS, PARTS, cone_limits, exem
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.robot.idle import IDLE
 from ninedof.support.arguments import Vector, choice, finite, shown, vector
-from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.arrays import Floats, as_floats, one_or_each
 
 
 def duty_of(design: Any) -> Study:
     """Return the study of a design with the poses that it was solved for; without one, one with its unit and tool."""
     study: Study | None = getattr(design, "solved", None) or getattr(design, "study", None)
     return study or Study(unit=getattr(design, "unit", ""), tool=getattr(design, "tool", Tool()))
+
+
+def leg_limits_of(study: Study, kind: str) -> Floats:
+    """Return the greatest force or power that a study allows each leg at its poses; infinite where it has no limit."""
+    most = np.full(9, np.inf)
+    for one in study.limits:
+        if one.at == "poses" and one.kind == kind:
+            legs = [LEGS.index(leg) for leg in PARTS[one.name]]
+            most[legs] = np.minimum(most[legs], one.high)
+    return most
+
+
+def leg_limits_argument(name: str, value: ArrayLike) -> Floats:
+    """Return the limits of an argument, one for each leg."""
+    limit = one_or_each(name, value, 9)
+    if limit.shape != (9,) or not (limit >= 0.0).all():
+        raise ValueError(f"{name}: got {shown(value)}, expected numbers >= 0, one or nine")
+    return limit
 
 
 def with_duty(options: Mapping[str, Any], study: Study) -> tuple[dict[str, Any], tuple[str, ...]]:

@@ -86,7 +86,7 @@ def test_what_time_was_too_short_for_has_the_value_met_and_says_so(tmp_path, mon
     study = replace(nd.Study.load(EXAMPLE), loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -400.0]]})
     study = replace(study, constraints={"force": {"max": 900.0}})
     nd.save(nd.optimize(study, starts=1), tmp_path / "run")
-    for module in ("ninedof.proof.machine", "ninedof.cli.commands.certify"):
+    for module in ("ninedof.proof.machine", "ninedof.cli.commands.runs.certify"):
         monkeypatch.setattr(import_module(module), "FOR_LIMITS", 0.0)
     assert status(tmp_path / "run", "--time", 0) == 3
     out = capsys.readouterr().out
@@ -117,7 +117,7 @@ def test_a_bound_that_does_not_hold_is_said(run, capsys):
     ("written", "message"),
     [
         ("", "got no file as ninedof wrote it"),
-        ('{"format": "ninedof-machine-certificate-5"}', "got no file as ninedof wrote it"),  # without a digest
+        ('{"format": "ninedof-machine-certificate-6"}', "got no file as ninedof wrote it"),  # without a digest
     ],
 )
 def test_a_broken_certificate_is_named(run, tmp_path, capsys, written, message):

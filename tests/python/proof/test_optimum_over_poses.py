@@ -141,7 +141,6 @@ def test_without_time_nothing_is_proved():
 SIX = replace(REGION, variables={**SIZES, "a1": (0.0, 6.0), "b2": (0.0, 3.0), "zp": (3.0, 7.0), "zs": (1.0, 5.0)})
 
 
-@pytest.mark.slow
 def test_why_boxes_of_designs_take_the_place_of_a_class_is_said():
     """Where zp and an internal radius begin at 0 the class has no domain."""
     sizes = {"base_external_radius": 4.0, "base_internal_radius": (0.0, 4.0), "base_internal_angle": 0.7, "zs": 2.0}
@@ -154,6 +153,7 @@ def test_why_boxes_of_designs_take_the_place_of_a_class_is_said():
     assert "no proof here" not in nd.prove_optimum(higher, 3.0, gap=0.5, time_limit=0.0).words
 
 
+@pytest.mark.slow
 def test_the_neutral_pose_proves_wide_gaps_of_six_free_variables(tmp_path):
     best = nd.optimize(SIX).condition_number
     proof = nd.prove_optimum(SIX, best, gap=0.4)

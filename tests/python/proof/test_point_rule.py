@@ -180,7 +180,7 @@ def test_a_proof_goes_on_with_its_own_rule_alone():
     region = REGIONS["turns"]
     rng = np.random.default_rng(5)
     rule, other = (random_rule(region, rng, 2) for _ in range(2))
-    part = proved(region, rule, gap=1e-4, time_limit=0.05)
+    part = proved(region, rule, gap=1e-9, time_limit=0.02)
     assert part.left_count
     again = certify(study(region), GEOMETRY, NEUTRAL, 150.0, resume=part, gap=1.0, time_limit=0.05)
     assert again.rule == rule

@@ -335,7 +335,7 @@ def test_saved_and_loaded(published, tmp_path):
     assert 100.0 * proved.gap <= percent <= 105.0 * proved.gap
     assert np.array_equal(again.cuts, proved.cuts)
     assert "mm³" in str(again)
-    with pytest.raises(ValueError, match="got no 'ninedof-certified-workspace-5' file"):
+    with pytest.raises(ValueError, match="got no 'ninedof-certified-workspace-6' file"):
         nd.CertifiedWorkspace.load(nd.workspace(published, BOX, criteria=LEGS, tolerance=0.1).save(tmp_path / "map"))
 
 
