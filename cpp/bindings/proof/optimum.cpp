@@ -58,7 +58,7 @@ void bind_optimum(py::module_& m) {
       .def_readonly("recut", &checker::Verdict::recut, "Of them, those that were divided further.")
       .def_property_readonly(
           "study", [](const checker::Verdict& v) { return py::tuple(py::cast(v.study)); },
-          "The designs that the proof is about, lines of text.");
+          "The designs or the robot that the proof is about, lines of text.");
   m.def(
       "check_certificate",
       [](std::string_view certificate, const py::object& progress, double seconds) {

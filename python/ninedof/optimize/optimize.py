@@ -13,6 +13,7 @@ from time import perf_counter
 from typing import TypedDict, Unpack
 
 from ninedof import _core
+from ninedof.design.limit_numbers import FORCES
 from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.optimize.actuators import ActuatorSearch, SearchEnded
@@ -197,7 +198,7 @@ def _anew(study: Study, settings: _core.Settings, progress: Progress | None) -> 
     if end.status == Status.INFEASIBLE:
         kinds = {one.kind for one in study.limits}
         units = {"lengths": "inches" if study.unit == "in" else study.unit}
-        for kind, name in (("rate", "rates"), ("number", "forces"), ("power", "powers")):
+        for kind, name in (("rate", "rates"), (FORCES, "forces"), ("power", "powers")):
             units[name] = kind_unit(kind, study.unit, study.force_unit) if kind in kinds else ""
         words = ", ".join(f"{name} in {unit}" for name, unit in units.items() if unit)
         reason += (f" ({words})" if words else "") + axis_hint(study)

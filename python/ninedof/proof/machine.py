@@ -23,7 +23,7 @@ from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import Geometry, triples
 from ninedof.sheet.pose_words import turn_deg
-from ninedof.support.arguments import finite, instance, shown, vector, whole
+from ninedof.support.arguments import finite, instance, shown, whole
 from ninedof.support.arrays import MOST_THREADS as MOST
 from ninedof.support.files import sha256
 from ninedof.support.margins import margin_of
@@ -302,7 +302,7 @@ def _proof_pose(
     tilt, yaw = from_vectors(turn)
     there = Configuration(home.position + shift, tilt @ yaw @ home.rotation, o)
     parts = (there.position, there.internal_point, turn_deg(there, home.rotation))
-    p, o, turned = (vector("place", part.tolist()) for part in parts)
+    p, o, turned = ((x, y, z) for x, y, z in map(np.ndarray.tolist, parts))
     return ProofPose(at.shift, at.tilt, at.yaw, place=(p, o, turned))
 
 

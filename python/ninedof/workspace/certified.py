@@ -111,17 +111,14 @@ def certified_workspace(
     )
     begin = perf_counter()
     found = _core.certified_workspace(problem, settings, progress)
-    try:
-        certificate = _core.workspace_certificate(problem, found)
-    except ValueError:  # of limits with different duties there is none
-        certificate = b""
+    seconds = perf_counter() - begin
     return from_core(
         CertifiedWorkspace,
         found,
         connected=connected(problem),
         archetype=arguments["archetype"],
-        seconds=perf_counter() - begin,
+        seconds=seconds,
         estimate=None,
         unit=unit,
-        certificate=np.frombuffer(certificate, np.uint8),
+        certificate=np.frombuffer(_core.workspace_certificate(problem, found), np.uint8),
     )

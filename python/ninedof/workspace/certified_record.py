@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -99,11 +99,11 @@ class CertifiedWorkspace(Worded, Saved):
     """Boxes looked at."""
     seconds: float
     archetype: str
+    certificate: NDArray[np.uint8]
+    """The bytes that `save_certificate` writes."""
     estimate: tuple[float, float] | None = None
     """Volume and estimated error of a `WorkspaceMap` of the same question, where there is one."""
     unit: str = ""
-    certificate: NDArray[np.uint8] = field(default_factory=lambda: np.empty(0, np.uint8))
-    """The bytes of `save_certificate`; none of limits of forces, rates or powers whose duties differ."""
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -159,14 +159,7 @@ class CertifiedWorkspace(Worded, Saved):
 
         Not in it: what is connected with home, and what lies outside the box.
 
-        Raises
-        ------
-        ValueError
-            If there is none: the limits of forces, rates and powers are about different duties.
-
         """
-        if not self.certificate.size:
-            raise ValueError("certificate: got limits with different duties, expected one duty")
         return write_whole(path_argument("path", path), self.certificate.tobytes())
 
     def section(self, axis: str, at: float, pixels: int = 400) -> CertifiedSection:

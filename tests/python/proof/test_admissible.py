@@ -359,7 +359,7 @@ def test_the_room_around_a_design():
     assert 0.0 < least < 0.02  # its sides go on until a limit is near
     reports = []
     assert found.around(progress=lambda *report: reports.append(report)) == room
-    assert all(done > 0 and total == 1_000_000 for done, total, _ in reports)
+    assert all(done > 0 and total == 2_000_000 for done, total, _ in reports)
     assert set(room.ended_by) == {"a2", "b1"}
     limits = {"leg length l", "footprint, at"}
     assert any(end.startswith(tuple(limits)) for two in room.ended_by.values() for end in two)

@@ -13,9 +13,9 @@ namespace ninedof::checker {
 
 struct Verdict {
   bool proved = false;
-  bool incomplete = false;  ///< of a set or a workspace: nothing in it is wrong, and not all of it could be confirmed
+  bool incomplete = false;  ///< nothing in it is wrong as far as was seen, and not all of it was confirmed
   std::string words;  ///< what is proved, or why the certificate is refused
-  std::vector<std::string> study;  ///< of a proof: the designs that it is about, as the checker read them
+  std::vector<std::string> study;  ///< of a proof: the designs or the robot that it is about, as the checker read them
   long leaves = 0;  ///< boxes looked at
   long recut = 0;  ///< of these, boxes that were cut further to see it
 };

@@ -112,7 +112,8 @@ struct PlaneSearch : BoxSearch {
       most = std::min(most, static_cast<long>(std::min(quick, 1e9)) + begun);
     } else if (here.known && !near && moves_of(one.seen) < times_designs * designs.moves()) {
       end = Found::Status::unknown;  // all designs may keep it, and smaller ones need fewer poses
-      return closed.push_back(one.box);
+      closed.push_back(one.box);
+      return;
     }
     if (here.known && !near && divide(one)) return;
     closed.push_back(one.box);

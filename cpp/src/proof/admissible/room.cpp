@@ -92,6 +92,7 @@ class RoomSearch {
         design_(design),
         proportions_(proportions),
         most_boxes_(most_boxes),
+        until_(most_boxes),
         control_(control) {}
 
   DesignRoom run() {
@@ -113,6 +114,7 @@ class RoomSearch {
       outer = grown({out_.low, out_.high}, growth);
     }
     if (out_.found) push_sides();
+    until_ = 2 * most_boxes_;
     for (std::size_t side = 0; side < 2 * count() && out_.found; ++side) look_beyond(side);
     return out_;
   }
@@ -122,10 +124,10 @@ class RoomSearch {
   Examined examined(const DesignBox& box) {
     Examined found = examiner_.examine({box, {}, {}, {}}, control_.stop);
     out_.boxes += found.boxes;
-    if (control_.progress) control_.progress(out_.boxes, most_boxes_, std::numeric_limits<double>::quiet_NaN());
+    if (control_.progress) control_.progress(out_.boxes, 2 * most_boxes_, std::numeric_limits<double>::quiet_NaN());
     return found;
   }
-  bool spent() const { return out_.boxes >= most_boxes_ || control_.stop.stop_requested(); }
+  bool spent() const { return out_.boxes >= until_ || control_.stop.stop_requested(); }
   /// A design on a limit has no box around it: the search ends where boxes have no width.
   bool wide(const DesignBox& box) const {
     for (std::size_t k = 0; k < count(); ++k)
@@ -266,7 +268,9 @@ class RoomSearch {
   bool broken_in(const DesignBox& beyond, std::size_t side) {
     const std::size_t k = side / 2;
     double nearest = infinity;
-    for (const Loss& loss : examiner_.examine({beyond, {}, {}, {}}, control_.stop).known.losses) {
+    if (spent()) return false;
+    const Examined found = examined(beyond);
+    for (const Loss& loss : found.known.losses) {
       const double slope = side % 2 == 0 ? -loss.most.a[k] : loss.most.a[k];  // outward
       const double far = least_of(loss.most) + std::abs(slope) + slope, near = far - 2.0 * slope;
       const double share = near < 0.0 ? 0.0 : far < 0.0 ? near / (near - far) : infinity;
@@ -315,7 +319,7 @@ class RoomSearch {
   Examiner examiner_;
   const std::vector<double>& design_;
   const std::vector<double>& proportions_;
-  long most_boxes_;
+  long most_boxes_, until_;
   const Control& control_;
   double size_ = 0.0;
   DesignRoom out_;

@@ -159,7 +159,7 @@ void validate_region(const DesignsFile& file) {
 
 void validate(const DesignsFile& file) {
   if (!(file.length > 0.0)) refuse("the characteristic length is not positive");
-  if (file.space.given()) validate_space(file);
+  if (file.space.present()) validate_space(file);
   else validate_region(file);
   for (const LimitLine& one : file.limits) {
     if (one.name.find("cone") != std::string::npos && !(one.range.b <= 3.15 || one.range.b == inf))
@@ -281,7 +281,7 @@ std::vector<std::string> designs_of(const DesignsFile& file) {
 }  // namespace
 
 std::vector<std::string> question_of(const DesignsFile& file) {
-  std::vector<std::string> out = file.space.given() ? robot_of(file) : designs_of(file);
+  std::vector<std::string> out = file.space.present() ? robot_of(file) : designs_of(file);
   if (const DutyLines& duty = file.duty; !duty.internal.empty()) {
     out.push_back("gravity " + plain(duty.gravity) + ", mass of the platform " + digits(duty.platform) + " at " +
                   plain(duty.centre) + ", of O " + digits(duty.internal_point));

@@ -71,7 +71,7 @@ struct SpaceLines {
   std::vector<std::array<double, 9>> rotations;  ///< their rows
   Range volume;
   std::size_t tree = 0;  ///< bytes that follow
-  bool given() const { return !joints.empty(); }
+  bool present() const { return !joints.empty(); }
 };
 
 struct DesignsFile {

@@ -1,8 +1,10 @@
 #pragma once
-/// The words of a line of a certificate, each with one spelling.
+/// How a line of a certificate is read.
 
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <string>
 
 #include "proof/checker/designs_file.hpp"
 

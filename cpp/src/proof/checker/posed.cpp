@@ -110,7 +110,7 @@ std::vector<RoundPart> round_parts(const DesignsFile& file) {
 }  // namespace
 
 Mount mount(const DesignsFile& file, const Cube& designs) {
-  if (file.space.given()) return mount_of(file.space);
+  if (file.space.present()) return mount_of(file.space);
   std::vector<Linear> x;
   for (const Bound& one : file.variables) x.emplace_back(one.range.a);
   for (std::size_t k = 0; k < file.varied.size(); ++k)
@@ -157,7 +157,7 @@ Mount mount(const DesignsFile& file, const Cube& designs) {
 }
 
 Stand stand(const DesignsFile& file, const Mount& m, const Patch& patch) {
-  if (file.space.given()) return stand_in(file.space, m, patch);
+  if (file.space.present()) return stand_in(file.space, m, patch);
   Stand out = m.home;
   const auto moved = [&](Arrow& point, const Arrow& by, bool in_zp) { point = point + (in_zp ? m.zp * by : by); };
   const auto turn = [&](const std::array<Arrow, 3>& by) {

@@ -42,7 +42,7 @@ double largest(double x, double y) {
 
 std::vector<Want> wants_of(const DesignsFile& file, std::vector<std::string>& unknown) {
   std::vector<Want> out;
-  const bool one_robot = file.space.given();
+  const bool one_robot = file.space.present();
   const auto add_regular = [&] {
     for (int k = 0; k < 3; ++k) out.push_back({About::determinant, 0, k});
   };
@@ -212,11 +212,11 @@ Linear below_all(const std::array<Linear, 4>& all) {
   slopes.c = slopes.r = 0.0;
   double rest = inf;
   for (const Linear& x : all)
-    if (const double low = lower_end(x - slopes); !(low >= rest)) rest = low;
+    if (const double low = lower_end(x - slopes); !std::isnan(rest) && !(low >= rest)) rest = low;  // NaN stays
   return slopes + Linear(rest);
 }
 
-/// Of vectors with one coordinate in each part their range is known to the last bit, however wide the box.
+/// The range of the squared length is exact up to rounding: each coordinate depends on one symbol.
 int length_within(const Arrow& v, double bound, bool high) {
   Range sum;
   for (const Linear& x : {v.x, v.y, v.z}) sum = sum + square(Range(lower_end(x), upper_end(x)));

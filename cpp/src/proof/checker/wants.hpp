@@ -73,7 +73,7 @@ class Weigher {
 /// with an internal leg locked where that is not -1.
 int condition_within(const Mount& m, const Stand& at, double length, double most, int locked = -1);
 
-/// Where over the box.
+/// Planes beyond which kappa is within `most` over the box, and below which it is not.
 Sides condition_sides(const Mount& m, const Stand& at, double length, double most, int locked);
 
 using Point = std::array<double, 3>;

@@ -15,14 +15,14 @@ struct OpenWant {
   const Want* want;
   int rotation;
 };
-/// All of one way is enough.
-using Ways = std::vector<std::vector<OpenWant>>;
-using Shared = std::shared_ptr<const Ways>;
+/// One alternative is enough; of it all wants must hold.
+using Alternatives = std::vector<std::vector<OpenWant>>;
+using SharedAlternatives = std::shared_ptr<const Alternatives>;
 
 /// A box of positions, and the part of its volume that is allowed.
 struct Part {
   Patch box;
-  Shared ways;
+  SharedAlternatives ways;
   Range share{0.0, 1.0};
 };
 
@@ -41,13 +41,23 @@ double middle_of(const Patch& box, std::size_t k) {
   return 0.5 * (box.low[k] + box.high[k]);
 }
 
-/// Whether one is negative at most where the other is.
+/// Whether the second is negative wherever in the box the first is.
 bool covered(const Linear& x, const Linear& by) {
   const auto size = [](const Linear& of) { return 1e-12 * (swing(of) + std::abs(of.c) + of.r); };
   const std::vector<Point> corners = corners_beyond({-x.a[0], -x.a[1], -x.a[2]}, x.c - x.r - size(x));
   return !corners.empty() && std::ranges::all_of(corners, [&](const Point& t) {
     return by.c - by.r + by.a[0] * t[0] + by.a[1] * t[1] + by.a[2] * t[2] <= -size(by);
   });
+}
+
+/// Shares of the symbols' range as shares of a box: `along` may go beyond it by a rounding on each side.
+Range of_positions(const Patch& box, const Range& share) {
+  Range wider = 1.0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (box.low[k] < box.high[k])
+      wider = wider * (Range(2.0 * along(box.low[k], box.high[k], k).a[k]) / (Range(box.high[k]) - Range(box.low[k])));
+  return {share.a == 1.0 ? 1.0 : std::max(down(1.0 - up(up(1.0 - share.a) * wider.b)), 0.0),
+          share.b == 0.0 ? 0.0 : std::min(up(share.b * wider.b), 1.0)};
 }
 
 /// At most the part of the box where one of them may be negative.
@@ -85,7 +95,7 @@ class WorkspaceReplay {
     walk();
     tree_.finish();
     stream.finish();
-    say();
+    write_verdict();
   }
 
  private:
@@ -93,10 +103,10 @@ class WorkspaceReplay {
     Part out;
     std::copy_n(file_.space.low.begin(), 3, out.box.low.begin());
     std::copy_n(file_.space.high.begin(), 3, out.box.high.begin());
-    Ways ways(file_.space.some ? file_.space.rotations.size() : 1);
+    Alternatives ways(file_.space.some ? file_.space.rotations.size() : 1);
     for (int r = 0; r < std::ssize(file_.space.rotations); ++r)
       for (const Want& want : wants_) ways[file_.space.some ? static_cast<std::size_t>(r) : 0].push_back({&want, r});
-    out.ways = std::make_shared<const Ways>(std::move(ways));
+    out.ways = std::make_shared<const Alternatives>(std::move(ways));
     return out;
   }
 
@@ -125,26 +135,32 @@ class WorkspaceReplay {
   }
 
   void leaf(const Part& part, unsigned code) {
-    Range said = code == inside ? 1.0 : 0.0;
+    Range claimed = code == inside ? 1.0 : 0.0;
     if (code == open) {
-      said.a = tree_.pair() / most_share;
-      said.b = tree_.pair() / most_share;
-      if (!said.sound()) refuse("the shares of a box are inverted");
+      claimed.a = tree_.pair() / most_share;
+      claimed.b = tree_.pair() / most_share;
+      if (!claimed.sound()) refuse("the shares of a box are inverted");
     } else if (code != inside && code != outside) {
       refuse("byte " + std::to_string(code) + " of the tree means nothing");
     }
     count_leaf(tree_, reading_, out_);
-    const Range own = share_of(part, said), volume = volume_of(part.box);
-    if (said.a > own.b || said.b < own.a)
-      refuse("box " + digits(out_.leaves) + " does not have the share that is said");
-    if (!confirmed(said, own)) ++open_;
-    if (own.b > 0.0) sum_ = meet(sum_ + own * volume, {0.0, inf});
+    const Range own = share_of(part, claimed);
+    if (excluded(claimed, own)) refuse("box " + digits(out_.leaves) + " does not have the share that is claimed");
+    if (!confirmed(claimed, own)) ++open_;
+    if (own.b > 0.0) sum_ = meet(sum_ + own * volume_of(part.box), {0.0, inf});
   }
   /// Up to the rounding of a sum over parts.
-  static bool confirmed(const Range& said, const Range& own) { return said.a <= own.a + 1e-12 && own.b <= said.b; }
+  static bool confirmed(const Range& claimed, const Range& own) {
+    return claimed.a <= own.a + 1e-12 && own.b <= claimed.b;
+  }
+  /// Of limits that the checker does not know less may be allowed than it sees.
+  bool excluded(const Range& claimed, const Range& own) const {
+    return claimed.a > own.b || (unknown_.empty() && claimed.b < own.a);
+  }
 
-  /// The share of a box that is allowed, in parts where that is needed to see what is said of it.
-  Range share_of(Part part, const Range& said) {
+  /// The share of a box that is allowed, in parts where that is needed to see what is claimed of it. Those are shares
+  /// of the greatest volume that the box may have: times its volume they are bounds again.
+  Range share_of(Part part, const Range& claimed) {
     look(part);
     const double whole = volume_of(part.box).b;
     std::vector<std::pair<Part, double>> parts{{std::move(part), 1.0}};
@@ -161,7 +177,7 @@ class WorkspaceReplay {
       }
       if (parts.size() == 1) sum = parts[0].first.share;
       sum = meet(sum, {0.0, 1.0});
-      if (confirmed(said, sum) || said.a > sum.b || said.b < sum.a || cuts == cuts_of_leaf ||
+      if (confirmed(claimed, sum) || claimed.a > sum.b || claimed.b < sum.a || cuts == cuts_of_leaf ||
           out_.recut > 100'000 + 4 * out_.leaves)
         return sum;
       const Patch box = parts[worst].first.box;
@@ -170,9 +186,9 @@ class WorkspaceReplay {
         if (box.high[i] - box.low[i] > box.high[k] - box.low[k]) k = i;
       const double middle = middle_of(box, k);
       if (!(box.low[k] < middle && middle < box.high[k])) return sum;
-      ++out_.recut;
+      if (++out_.recut % 64 == 0 && reading_) reading_(tree_.read(), tree_.size());
       const auto [low, high] = halves_at(box, k, middle);
-      const Shared ways = parts[worst].first.ways;
+      const SharedAlternatives ways = parts[worst].first.ways;
       const double half = 0.5 * parts[worst].second;
       parts[worst] = {{low, ways}, half};
       parts.push_back({{high, ways}, half});
@@ -181,9 +197,9 @@ class WorkspaceReplay {
     }
   }
 
-  /// Leaves what is not kept in all of the box, and finds its share.
+  /// Drops the wants that hold in all of the box, and bounds its allowed share.
   void look(Part& part) const {
-    auto left = std::make_shared<Ways>();
+    auto left = std::make_shared<Alternatives>();
     Range share = 0.0;
     for (const std::vector<OpenWant>& way : *part.ways) {
       std::vector<OpenWant> still;
@@ -205,26 +221,26 @@ class WorkspaceReplay {
       if (still.empty()) share = 1.0;
       left->push_back(std::move(still));
     }
-    part.share = {std::max(share.a, 0.0), share.b};
+    part.share = of_positions(part.box, {std::max(share.a, 0.0), share.b});
     part.ways = std::move(left);
   }
 
-  void say() {
-    const Range& said = file_.space.volume;
+  void write_verdict() {
+    const Range& claimed = file_.space.volume;
     out_.study = question_of(file_);
-    if (said.a > sum_.b || said.b < sum_.a) refuse("the volume is not that of the boxes");
-    out_.proved = said.a <= sum_.a && sum_.b <= said.b && unknown_.empty();
+    if (excluded(claimed, sum_)) refuse("the volume is not that of the boxes");
+    out_.proved = claimed.a <= sum_.a && sum_.b <= claimed.b && unknown_.empty();
     out_.incomplete = !out_.proved;
     const std::size_t n = file_.space.rotations.size();
     const std::string with = n == 1             ? " that keep every limit"
                              : file_.space.some ? " that keep every limit with one of " + digits(n) + " rotations"
                                                 : " that keep every limit with all of " + digits(n) + " rotations";
-    const Range& shown = out_.proved ? said : sum_;
-    out_.words =
-        "the positions of this box" + with + " have a volume from " + digits(shown.a) + " to " + digits(shown.b);
+    const Range& shown = out_.proved ? claimed : sum_;
+    const std::string volume = unknown_.empty() ? " from " + digits(shown.a) + " to " : " of at most ";
+    out_.words = "the positions of this box" + with + " have a volume" + volume + digits(shown.b);
     if (out_.proved) return;
-    out_.words = "not confirmed is the volume, " + digits(said.a) + " to " + digits(said.b) + ", by the shares of " +
-                 digits(open_) + " of " + digits(out_.leaves) + " boxes; " + out_.words;
+    out_.words = "not confirmed is the volume, " + digits(claimed.a) + " to " + digits(claimed.b) +
+                 ", by the shares of " + digits(open_) + " of " + digits(out_.leaves) + " boxes; " + out_.words;
     for (const std::string& name : unknown_) out_.words += "; not checked: " + name;
   }
 

@@ -2,6 +2,8 @@
 /// Lines of certificates of designs and of workspaces.
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "ninedof/limits/duty.hpp"
 #include "ninedof/limits/limits.hpp"

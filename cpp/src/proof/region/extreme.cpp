@@ -133,6 +133,7 @@ class Climb : public BoxSearch {
   OpenHeap<Open> open;
   bool enough() const {
     const double most = open.top().bound;
+    if (most <= reached_) return true;
     const bool near = contains(sought_.number({reached_, most}), wanted_.limit);  // no box decides below reached_
     const double size = std::max(std::abs(met_), near ? 0.0 : wanted_.scale);
     return most <= reached_ + (near ? settings_.relative : wanted_.relative) * size || looked >= most_boxes_;
@@ -157,7 +158,7 @@ class Climb : public BoxSearch {
     const double value = sought_.attained(domain_.machine().geometry, point);
     // A bound at a point takes as long as that of a box: where the drawing is far below what it met elsewhere, all
     // machines are, as a rule.
-    const bool near_most = value > met_ - (reached_ - met_) || looked % 16 == 0;
+    const bool near_most = reached_ == -infinity || value > 2.0 * met_ - reached_ || looked % 16 == 0;
     if (value > met_) {
       met_ = value;
       at_ = point;

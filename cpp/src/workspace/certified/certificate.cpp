@@ -37,6 +37,7 @@ class WorkspaceLines : proof::CertificateLines {
     line("characteristic_length", {question_.criteria.characteristic_length});
     line("space", {domain.low, domain.high});
     const InternalPointRule& rule = question_.rule;
+    if (rule.kind == InternalPointRule::Kind::best) throw InvalidArgument("internal_point", "\"best\"", "a formula");
     const char* kind = std::array{"fixed", "between", "platform"}[static_cast<std::size_t>(rule.kind)];
     line(std::string("internal_point ") + kind, {rule.point.x(), rule.point.y(), rule.point.z(), rule.fraction});
     line(domain.archetype == Archetype::reachable ? "allowed_with some" : "allowed_with all");

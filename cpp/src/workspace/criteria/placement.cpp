@@ -4,11 +4,8 @@
 #include "robot/triangle.hpp"
 
 namespace ninedof {
-namespace {
 
 using Kind = InternalPointRule::Kind;
-
-}  // namespace
 
 Placement::Placement(const Geometry& g, const InternalPointRule& rule, const WorkspaceCriteria& criteria)
     : g_(g), rule_(rule), lower_(centroid(g.base_internal())), upper_(centroid(g.platform_internal())) {
