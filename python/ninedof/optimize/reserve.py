@@ -5,19 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from time import perf_counter
 from typing import Any
 
-from ninedof.design.duty import Tolerances, tolerances_like
+from ninedof.design.duty import LARGEST_TOLERANCE, Tolerances, tolerances_like
 from ninedof.design.limit_numbers import with_scaled_limits
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.region_poses import Placing, o_is_placed
 from ninedof.design.study import Study
 from ninedof.optimize.candidate import best_of
-from ninedof.proof.machine import NEUTRAL_LIMIT, certify, open_limits
-from ninedof.proof.machine_record import MachineCertificate
+from ninedof.proof.machine import FOR_LIMITS, NEUTRAL_LIMIT, certify, open_limits
+from ninedof.proof.machine_record import UNDECIDED, MachineCertificate
 from ninedof.proof.point_rule import PointRule, rule_of
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.sheet.rows import limit_rows
 from ninedof.support.arguments import finite, flag, known_keys, table, text
 from ninedof.support.running import Progress, phase, progress_argument
@@ -38,34 +39,44 @@ def certified(result: Any, options: dict[str, Any]) -> MachineCertificate:
     return certify(result.study, *design, **options)
 
 
-def largest(result: Any, options: dict[str, Any]) -> Tolerances:
-    """Return the largest tolerances of a machine, for the options of `Result.largest_tolerance`.
+def largest(result: Any, options: dict[str, Any]) -> tuple[Tolerances, bool]:
+    """Return the largest tolerances of a machine, for the options of `Result.largest_tolerance`, and if time decided.
 
-    They are looked for from a millionth to a twentieth of the machine's height, to 5 %: none at all where not even the
-    least ones are proved. A KeyboardInterrupt has the largest ones proved so far.
+    They are looked for from those of the study on, from a millionth to a twentieth of the machine's height, to 5 %:
+    none at all where not even the least ones are proved. A KeyboardInterrupt has the largest ones proved so far.
     """
     known_keys("largest_tolerance", options, {"condition_number", "slack", "time_limit", "threads", "rule", "progress"})
     study, place, design = result.study, placing_of(result), machine_of(result)
-    seconds = finite("time_limit", options.pop("time_limit", 60.0), 0.0) / PROOFS
+    seconds = finite("time_limit", options.pop("time_limit", 60.0), 0.0)
     progress = progress_argument(options.pop("progress", None))
     threads = options.setdefault("threads", 0)
     rule = options.pop("rule", None)
     if place is not None and not isinstance(rule, PointRule):
         rule = rule_of(place, *design, threads, progress)
     height = study.zp(design[1][0])
+    first, least, most, limit = (share * height for share in (FIRST, LEAST, MOST, LARGEST_TOLERANCE))
+    own = max(study.tolerances.joints, study.tolerances.legs)
+    timed = False
 
     def of(size: float) -> Tolerances:
-        return tolerances_like(study.tolerances, size * height)
+        return study.tolerances if size == own > 0.0 else tolerances_like(study.tolerances, size)
 
     def proved(size: float) -> bool:
-        phase(progress, f"proving {size * height:.3g}")
-        return not open_limits(study, (*design, rule), of(size), max(seconds, 0.5), **options)
+        nonlocal timed
+        phase(progress, f"proving {size:.3g}")
+        each = max(seconds, FOR_LIMITS) if size == own else max(seconds / PROOFS, 0.5)  # its own ones as `certify` does
+        begin = perf_counter()
+        unproved = open_limits(study, (*design, rule), of(size), each, **options)
+        if unproved:  # the legs of a limit share its time
+            ended = perf_counter() - begin >= each / len(LEGS)
+            timed = ended and all(one.answer == UNDECIDED for one in unproved)
+        return not unproved
 
-    low, high = 0.0, FIRST
+    low, high = 0.0, own or first
     try:
-        while high <= MOST and proved(high):
-            low, high = high, STEP * high
-        while low == 0.0 and high >= LEAST:
+        while (high <= most or high == own) and proved(high):
+            low, high = high, min(STEP * high, limit)
+        while low == 0.0 and high >= least:
             high /= STEP
             if proved(high):
                 low, high = high, STEP * high
@@ -74,7 +85,7 @@ def largest(result: Any, options: dict[str, Any]) -> Tolerances:
             low, high = (middle, high) if proved(middle) else (low, middle)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(of(low)) from None
-    return of(low)
+    return of(low), timed
 
 
 def machine_of(result: Any) -> tuple[Geometry, Configuration, float]:

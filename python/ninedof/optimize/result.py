@@ -278,18 +278,21 @@ class Result(OfStudy):
     def largest_tolerance(self, **options: Any) -> Tolerances:
         """Return the largest tolerances of manufacture with which `certify` proves all limits.
 
-        Joints and legs are in the ratio of the study's tolerances, or alike.
+        Joints and legs are in the ratio of the study's tolerances, with which the search begins, or alike.
 
         Parameters
         ----------
         **options
             condition_number, slack, threads, rule, progress : as those of `certify`, no slack by default. time_limit :
-            seconds, 60: a limit has a twelfth of it in each proof.
+            seconds, 60: a limit has a twelfth of it in each proof, and as much as in `certify` in that of the study's
+            own tolerances.
 
         Returns
         -------
         Tolerances
-            To 5 %. `Tolerances()`, both zero and false, where none is proved: a limit leaves no reserve. An optimum
+            To 5 %, or smaller ones where the time ended a proof: nothing says so; a longer `time_limit` may prove
+            larger ones. `Tolerances()`, both zero and false, where none is proved: a limit leaves no reserve, or the
+            time was too short. An optimum
             lies on its limits, unless the study has tolerances, for which `optimize` leaves a reserve. The limit is
             `min(result.certify().limits, key=lambda limit: limit.margin).name`.
 
@@ -301,7 +304,7 @@ class Result(OfStudy):
             With the largest tolerances proved so far.
 
         """
-        return largest(self, options)
+        return largest(self, options)[0]
 
     def is_certified_by(self, certificate: MachineCertificate) -> bool:
         """Whether a certificate is one of this design at these poses, as `certify` returned it."""

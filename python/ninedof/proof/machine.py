@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
-from typing import TypedDict, Unpack
+from typing import Any, TypedDict, Unpack
 
 import numpy as np
 
@@ -67,18 +67,10 @@ def certify(
     """
     values = options_of(certify, CertifyArguments, options, gap=0.05, time_limit=300.0, slack=1e-6, threads=0)
     region = study.objective.region
-    gap, seconds = finite("gap", values["gap"], 1e-9), finite("time_limit", values["time_limit"], 0.0)
-    slack = finite("slack", values["slack"], 0.0, 0.01)
-    built = tolerances_of(values["tolerance"], study)
-    threads = whole("threads", values["threads"], 0, MOST)
+    gap, seconds, slack, built, threads, condition_number = checked_numbers(values, study, configurations)
     resume, progress, keep = values["resume"], values["progress"], values["keep"]
-    if (condition_number := values["condition_number"]) is not None:
-        condition_number = finite("condition_number", condition_number, 1.0)
     if keep is not None and not callable(keep):
         raise ValueError(f"keep: got {shown(keep)}, expected a callable of one argument")
-    size, most = max(built.joints, built.legs), LARGEST_TOLERANCE * study.zp(configurations[0])
-    if not size < most:
-        raise ValueError(f"tolerance: got {size:g}, expected less than a tenth of the machine's height, {most:.6g}")
     only_neutral = region is None and len(configurations) == 1
     where = _where(study, only_neutral)
     digest = machine_digest(study, geometry, configurations, characteristic_length, built)
@@ -149,6 +141,22 @@ def certify(
         machine, settings(list(limits_of_index.values())), _state_of(resume), keep_state, progress
     )
     return certificate(state, state.interrupted)
+
+
+def checked_numbers(
+    values: Mapping[str, Any], study: Study, configurations: Configuration
+) -> tuple[float, float, float, Tolerances, int, float | None]:
+    """Return the gap, seconds, slack, tolerances, threads and bound of the condition number that `certify` takes."""
+    gap, seconds = finite("gap", values["gap"], 1e-9), finite("time_limit", values["time_limit"], 0.0)
+    slack = finite("slack", values["slack"], 0.0, 0.01)
+    built = tolerances_of(values["tolerance"], study)
+    threads = whole("threads", values["threads"], 0, MOST)
+    if (condition_number := values["condition_number"]) is not None:
+        condition_number = finite("condition_number", condition_number, 1.0)
+    size, most = max(built.joints, built.legs), LARGEST_TOLERANCE * study.zp(configurations[0])
+    if not size < most:
+        raise ValueError(f"tolerance: got {size:g}, expected less than a tenth of the machine's height, {most:.6g}")
+    return gap, seconds, slack, built, threads, condition_number
 
 
 def open_limits(

@@ -203,7 +203,7 @@ class MachineCertificate(Worded):
         met = size[limit.side == "min"]
         if limit.answer == UNDECIDED:
             if math.isinf(limit.value[limit.side == "max"]):
-                return f"Undecided: {name}: the worst value met is {met}, and nothing bounds it yet."
+                return f"Undecided: {name}: the worst value met so far is {met}, and nothing bounds it yet."
             return f"Undecided: {name}: the worst value is between {' and '.join(size)}."
         poses = [pose.worded(self.unit) for pose in limit.at]
         at = f", at {poses[0]}" if len(poses) == 1 else f", between {' and '.join(poses)}" if poses else ""

@@ -100,14 +100,18 @@ def has_kept() -> None:
         command.kept = True
 
 
-def ended_by_time(without: str = "") -> None:
-    """Note that the time ended the run; `without` is an option that is left out where it goes on."""
+def ended_by_time(without: str = "", instead: Sequence[str] = ()) -> None:
+    """Note that the time ended the run; `without` is an option that is left out where it goes on.
+
+    `instead` are words in its place.
+    """
     if (command := _RUNNING.get()) is not None and command.again is not None:
         command.why = "the time is over"
         if without:
             after = [word == without for word in ["", *command.again]]
             pairs = zip(command.again, after, strict=False)
             command.again = [w for w, value in pairs if not value and w != without and not w.startswith(f"{without}=")]
+            command.again += instead
 
 
 def how_to_go_on(interrupted: bool) -> str:

@@ -3,9 +3,11 @@
 import io
 import json
 import shutil
+import time
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
@@ -55,7 +57,8 @@ def test_a_machine_is_written_for_the_checker(run, tmp_path, capsys):
     assert main_status("check", file) == 0
     out, err = capsys.readouterr()
     assert "Proved: the machine keeps every limit at every pose" in out
-    assert "minutes" in err  # that a machine may take; the line may be folded
+    assert err.startswith("check: reading the certificate")
+    assert len(err.splitlines()) == 1
     assert status(run, "--certificate", file, "--tolerance", "0.01") == 2
     words = " ".join(capsys.readouterr().err.split())
     assert main_status("check", file, "--time", 0) == 3
@@ -63,6 +66,9 @@ def test_a_machine_is_written_for_the_checker(run, tmp_path, capsys):
     assert said == (
         "Incomplete: not checked to its end, as the time is over: nothing wrong was found, and nothing is proved"
     )
+    assert main_status("check", run) == 2
+    words_of_folder = " ".join(capsys.readouterr().err.split())
+    assert f"to write one, type: ninedof certify {run} --certificate FILE" in words_of_folder
     assert main_status("check", run / "certify.json") == 1
     said = " ".join(capsys.readouterr().out.split())
     assert "a file of `certify` or `admissible` with --certificate FILE" in said
@@ -88,15 +94,17 @@ def test_what_time_was_too_short_for_has_the_value_met_and_says_so(tmp_path, mon
     nd.save(nd.optimize(study, starts=1), tmp_path / "run")
     for module in ("ninedof.proof.machine", "ninedof.cli.commands.runs.certify"):
         monkeypatch.setattr(import_module(module), "FOR_LIMITS", 0.0)
-    assert status(tmp_path / "run", "--time", 0) == 3
-    out = capsys.readouterr().out
+    assert status(tmp_path / "run", "--time", 0.01) == 3
+    out, err = capsys.readouterr()
+    assert err.endswith(f"to go on, type: ninedof certify {tmp_path / 'run'} --time 0.04\n")  # a longer time
     (row,) = [line.split() for line in out.splitlines() if "force" in line and "undecided" in line]
     met = float(row[row.index("met") - 1])
     assert 0.0 < met <= max(one.value for one in nd.sheet(nd.load(tmp_path / "run")).limits)
     assert "∞" not in out
     said = " ".join(out.split())
+    assert f"the worst value met so far is {met:.5g}" in said
     assert "and nothing bounds it yet." in said
-    assert "Each limit had 0 s, and begins anew: a longer --time may decide it." in said
+    assert "Each limit had 0.01 s, and begins anew: a longer --time may decide it." in said
     at = said.split("The worst condition number met is ")[1].split("° from neutral")[0]
     found, pose = at.split(", at p = (")
     p, o, turn = (part.split(")")[0] for part in pose.split("("))
@@ -170,6 +178,57 @@ def test_an_interrupted_search_for_tolerances_tells_the_largest_so_far(run, monk
     out = " ".join(capsys.readouterr().out.split())
     assert f"interrupted: the largest tolerances proved so far: {words}" in out
     assert asked[-1].joints == (4.0 if proofs else 1.0) * asked[0].joints
+
+
+@pytest.mark.parametrize(
+    ("most", "answer", "words"),
+    [
+        (0.01, "violated", "The largest tolerances that were proved, to 5 %: joints 0.009"),
+        (0.01, "undecided", "joints 0.009"),
+        (0.0, "undecided", "No tolerance was proved. The time ended the search: a longer --time may prove some."),
+    ],
+)
+def test_a_search_for_tolerances_that_time_ended_says_so(run, tmp_path, monkeypatch, capsys, most, answer, words):
+    def unproved(study, design, built, seconds, **_):
+        time.sleep(seconds / 9.0)
+        return [] if built.joints <= most else [SimpleNamespace(answer=answer)]
+
+    monkeypatch.setattr(import_module("ninedof.optimize.reserve"), "open_limits", unproved)
+    shutil.copytree(run, tmp_path / "run")
+    status(tmp_path / "run", "--tolerance", "max", "--time", 0)
+    out = " ".join(capsys.readouterr().out.split())
+    assert words in out
+    assert ("to 5 %" in out) == (answer == "violated")
+    assert ("The time ended the search: a longer --time" in out) == (answer == "undecided")
+
+
+def test_the_largest_tolerances_are_not_below_those_of_the_study(run, monkeypatch):
+    """The first proof is of them, with the time that `certify` has."""
+    built, proofs = nd.Tolerances(0.02, 0.01), []
+
+    def proved(study, design, tolerances, seconds, **_):
+        proofs.append((tolerances, seconds))
+        return [] if tolerances.joints <= built.joints else [SimpleNamespace(answer="violated")]
+
+    monkeypatch.setattr(import_module("ninedof.optimize.reserve"), "open_limits", proved)
+    result = nd.load(run)
+    result = replace(result, study=replace(result.study, tolerances=built))
+    assert result.largest_tolerance(time_limit=24.0) == built
+    assert proofs[0] == (built, 24.0)
+    assert {seconds for _, seconds in proofs[1:]} == {2.0}
+
+
+@pytest.mark.parametrize(
+    "bad", ["--gap=0", "--time=-1", "--condition=0.5", "--slack=1", "--threads=-1", "--tolerance=9"]
+)
+@pytest.mark.parametrize("tolerance", [(), ("--tolerance", "max")])
+def test_a_bad_option_is_refused_before_anything_is_written(run, monkeypatch, capsys, bad, tolerance):
+    monkeypatch.setattr(import_module("ninedof.cli.commands.runs.certify"), "save_certificate", None)
+    monkeypatch.setattr(import_module("ninedof.cli.commands.runs.certify"), "largest_tolerance", None)
+    assert status(run, *tolerance, bad) == 2
+    out, err = capsys.readouterr()
+    assert f"ninedof: {bad.partition('=')[0]}: got " in err
+    assert not out
 
 
 @pytest.mark.slow(sanitized=True)

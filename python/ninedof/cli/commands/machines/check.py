@@ -10,6 +10,7 @@ from ninedof.cli.options import Options, argument, option, struct
 from ninedof.cli.screen import DONE, NO_RESULT, REFUSED, bold
 from ninedof.proof.optimum import check_certificate
 from ninedof.proof.optimum_proof import FILE
+from ninedof.records.proofs import certificate_file
 from ninedof.workspace.certified_record import CERTIFICATE
 
 PLACE = 4
@@ -40,9 +41,12 @@ def check(options: _Options) -> Answer:
     if path.is_dir():
         path = next((file for name in (FILE, CERTIFICATE) if (file := path / name).exists()), path)
     if path.is_dir():
-        raise ValueError(f"{path}: got a folder without {FILE} and {CERTIFICATE}, expected that {MAKERS}")
-    with options.screen.bar("boxes", "reading the certificate") as bar:
-        bar.phase("a machine is one box, which may take minutes")  # the share of the file says nothing of its time
+        how = ""
+        if certificate_file(path).exists():  # certify.json, which is not replayed
+            how = f"; to write one, type: ninedof certify {path} --certificate FILE (with tolerances --tolerance 0 too)"
+        raise ValueError(f"{path}: got a folder without {FILE} and {CERTIFICATE}, expected that {MAKERS}{how}")
+    with options.screen.bar("boxes", "check") as bar:
+        bar.phase("reading the certificate")  # shown at once: a machine is one box, which may take minutes
         result = check_certificate(path, time_limit=options.time, progress=bar)
     lines = [*result.study, UNIT] if result.study else []
     parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in lines)] if lines else []

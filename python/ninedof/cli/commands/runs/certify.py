@@ -11,8 +11,10 @@ import ninedof as nd
 from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.options import THREADS, Options, argument, option, struct, word_or_number
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
+from ninedof.optimize.reserve import largest as largest_tolerance
+from ninedof.optimize.reserve import machine_of
 from ninedof.proof.admissible_set import as_drawn
-from ninedof.proof.machine import FOR_LIMITS, tolerances_of
+from ninedof.proof.machine import FOR_LIMITS, checked_numbers
 from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import UNDECIDED, outward
 from ninedof.records.proofs import certificate_file, save_certificate
@@ -66,14 +68,17 @@ def certify(options: _Options) -> Answer:
         raise ValueError(
             f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
         )
+    largest, timed = tolerance == LARGEST, False
+    numbers = {**how, "gap": options.gap, "tolerance": None if largest else tolerance}
+    *_, built, _, _ = checked_numbers(numbers, result.study, machine_of(result)[1])  # before anything is written
     file = certificate_file(run)
     try:
         earlier = nd.load_certificate(run) if file.exists() else None
     except ValueError as error:
         raise ValueError(f"{error}; once it is removed, the proof begins anew") from None
     goes_on()
-    largest = tolerance == LARGEST
-    built = _largest_of(result, how, screen) if largest else tolerances_of(tolerance, result.study)
+    if largest:
+        built, timed = _largest_of(result, how, screen)
     if options.certificate is not None:
         require_replayable(result.study, built)
     if earlier is not None and earlier.tolerances != built:  # a proof of other machines is kept, and not gone on with
@@ -103,12 +108,15 @@ def certify(options: _Options) -> Answer:
     sentences = certificate.sentences() + result.study.tool.remark(result.study.unit)
     sentences += architecture_sentences(result, result.study.unit)
     if largest:
-        sentences.append(_largest(certificate))
+        sentences.append(_largest(certificate, timed))
     elif tolerance == 0.0:
         sentences += as_drawn(result.study)
+    longest = max(options.time, FOR_LIMITS)
+    longer: list[str] = []
     if any(one.answer == UNDECIDED for one in certificate.limits):
+        longer = ["--time", f"{4.0 * longest:g}"]
         sentences.append(
-            f"Each limit had {max(options.time, FOR_LIMITS):g} s, and begins anew: a longer --time may decide it. "
+            f"Each limit had {longest:g} s, and begins anew: a longer --time may decide it. "
             f"`ninedof sheet {run}` has the worst values that a search meets, unproved."
         )
     answer = Answer([certificate_table(certificate), *sentences], data)
@@ -121,15 +129,15 @@ def certify(options: _Options) -> Answer:
         data |= {"certificate": str(options.certificate)}
     status = DONE if certificate.proved and not certificate.left_count else NO_RESULT
     if certificate.left_count and not certificate.interrupted:
-        ended_by_time()
+        ended_by_time(without="--time" if longer else "", instead=longer)
     return Answer([], data, INTERRUPTED if certificate.interrupted else status)
 
 
-def _largest_of(result: nd.Result, how: dict[str, Any], screen: Screen) -> nd.Tolerances:
-    """Return the largest tolerances; an interruption prints those proved so far."""
+def _largest_of(result: nd.Result, how: dict[str, Any], screen: Screen) -> tuple[nd.Tolerances, bool]:
+    """Return the largest tolerances, and if time decided; an interruption prints those proved so far."""
     try:
         with screen.bar("boxes", "certify") as bar:
-            return result.largest_tolerance(**how, progress=bar)
+            return largest_tolerance(result, {**how, "progress": bar})
     except KeyboardInterrupt as stop:
         so_far = next((one for one in stop.args if one), None)
         words = _tolerance_words(so_far, result.study.unit) if so_far else "none"
@@ -142,9 +150,13 @@ def _tolerance_words(built: nd.Tolerances, unit: str) -> str:
     return f"joints {joints}, legs {legs}"
 
 
-def _largest(certificate: nd.MachineCertificate) -> str:
+def _largest(certificate: nd.MachineCertificate, timed: bool) -> str:
     if built := certificate.tolerances:
-        return f"The largest tolerances that were proved, to 5 %: {_tolerance_words(built, certificate.unit)}."
+        words = _tolerance_words(built, certificate.unit)
+        longer = " The time ended the search: a longer --time may prove larger ones." * timed
+        return f"The largest tolerances that were proved{'' if timed else ', to 5 %'}: {words}.{longer}"
+    if timed:
+        return "No tolerance was proved. The time ended the search: a longer --time may prove some."
     tight = min(certificate.limits, key=lambda limit: limit.margin)
     return (
         f"No tolerance was proved: {tight.name.replace('_', ' ')} leaves no reserve. `[tolerances]` in a study makes "
@@ -165,7 +177,7 @@ def certificate_table(certificate: nd.MachineCertificate) -> Table:
         margin = f"within {certificate.slack:g}" if on_limit else margin_words(one.margin, one.kind)
         proved = f"{word} {one.worded(9 if on_limit else 6)}"
         if not math.isfinite(one.value[one.side == "max"]):
-            proved, margin = f"{one.outward(one.value[one.side == 'min'], one.side == 'min', 6)} met", ""
+            proved, margin = f"{one.outward(one.value[one.side == 'min'], one.side == 'min', 6)} met so far", ""
         name = with_unit(one.name.replace("_", " "), one.unit(unit, certificate.force_unit))
         rows.append((name, limit, proved, margin, one.answer))
     high = certificate.condition[1]
