@@ -192,15 +192,7 @@ class AdmissibleSet(Worded, Saved):
         if missing:
             raise ValueError(f"design: got no {missing[0]}, expected a value of {', '.join(self.vary)}")
         x = [finite(name, values[name]) for name in self.vary]
-        half: list[float] = []
-        if proportions is not None:
-            widths = angles_in_radians(
-                self.study, table("proportions", proportions), lambda name, x: finite(f"proportions.{name}", x)
-            )
-            if set(widths) != set(self.vary):
-                raise ValueError(f"proportions: got {shown(list(proportions))}, expected {', '.join(self.vary)}")
-            half = [widths[name] for name in self.vary]
-
+        half = [] if proportions is None else half_widths(self.of, proportions)
         progress_argument(progress)
 
         def room(of: DesignRange, boxes: int) -> tuple[Room, int]:
@@ -278,6 +270,18 @@ class AdmissibleSet(Worded, Saved):
     def _boxes(self, state: int) -> Floats:
         chosen = self.state == state
         return np.stack([self.low[chosen], self.high[chosen]], axis=-1)
+
+
+def half_widths(of: DesignRange, proportions: Mapping[str, float]) -> list[float]:
+    """Return the half widths of a box in the order of the variables that vary; raise unless each has one."""
+    widths = angles_in_radians(
+        of.study, table("proportions", proportions), lambda name, x: finite(f"proportions.{name}", x)
+    )
+    if set(widths) != set(of.vary):
+        raise ValueError(f"proportions: got {shown(list(proportions))}, expected {', '.join(of.vary)}")
+    if not min(widths.values()) > 0.0:
+        raise ValueError(f"proportions: got {min(widths.values()):g}, expected numbers above 0")
+    return [widths[name] for name in of.vary]
 
 
 def room_words(of: DesignRange, room: Mapping[str, tuple[float, float]]) -> str:

@@ -127,12 +127,15 @@ def test_a_run_gives_the_other_variables(run, study, tmp_path):
         ("--vary a2 --proportions a2=1", "--proportions: got it without --around"),
         ("--around --proportions a2=2;b1=1", "--proportions: got 'a2=2;b1=1', expected NAME=NUMBER,NAME=NUMBER"),
         ("--around --proportions a2=2,a2=1", "--proportions: got 'a2=2,a2=1', expected NAME=NUMBER,NAME=NUMBER"),
+        (f"{ASKED} 0.1 --around --proportions a2=2,b9=1", "--proportions: got ['a2', 'b9'], expected a2, b1"),
+        (f"{ASKED} 0.1 --around --proportions a2=2,b1=-1", "--proportions: got -1, expected numbers above 0"),
         ("--around --proportions a2=2,b1=1", "--proportions: got ['a2', 'b1'], expected a2, b1, zp, zs"),
     ],
 )
 def test_what_is_refused(run, study, line, words):
-    status, _, err = run(f"admissible {study} {line}")
+    status, out, err = run(f"admissible {study} {line}")
     assert status == 2
+    assert not out  # nothing was searched
     assert words in " ".join(err.split())
 
 

@@ -157,10 +157,20 @@ def test_lengths_that_poses_need_and_that_limits_permit_have_two_names_in_files(
         assert not [part for part in parts if part not in text]
 
 
-def test_an_undecided_design_and_tolerances_that_are_not_looked_at_are_told(folder, words):
+def test_an_undecided_design_and_tolerances_that_are_not_looked_at_are_told(folder, words, monkeypatch):
     free = replace(STUDY, variables={**STUDY.variables, "zp": (300.0, 500.0)}, starts=2)
     nd.save(nd.optimize(free), folder / "free")
-    assert "The design of the run is not decided itself" in words("admissible ./free --vary zp --time 0")
+    line = "admissible ./free --vary zp --time 0"
+    said = words(line)
+    assert "The time ended the search: a longer --time may decide more." in said
+    assert "The design of the run is not decided itself yet." in said
+    assert said.endswith(f"the time is over; to go on, type: ninedof {line.replace('./', f'{folder}/')}")
+    real = nd.admissible
+    monkeypatch.setattr(nd, "admissible", lambda *of, **how: replace(real(*of, **how), interrupted=True))
+    said = words(line)
+    assert "The design of the run is not decided itself yet." in said
+    assert "interrupted; to go on" in said
+    monkeypatch.undo()
     rows = [nd.Actuator("A", 100.0, 900.0)]
     replace(free, actuators=rows, constraints={}, tolerances={"legs": 0.01}).save(folder / "rows.toml")
     remark = "Of machines as they are drawn: the tolerances of the study are not looked at"

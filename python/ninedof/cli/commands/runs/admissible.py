@@ -11,11 +11,12 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import SCHEDULER, THREADS, VARIABLES, Options, argument, changes_option, option, struct
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
-from ninedof.proof.admissible_set import UNDECIDED, NoRoom, as_drawn, room_words
+from ninedof.proof.admissible import ENOUGH
+from ninedof.proof.admissible_set import UNDECIDED, NoRoom, as_drawn, half_widths, room_words
 from ninedof.proof.design_range import MOST_VARIED, design_range
 from ninedof.records.load import split
 from ninedof.records.proofs import admissible_file, load_admissible
-from ninedof.support.running import goes_on
+from ninedof.support.running import ended_by_time, goes_on
 from ninedof.support.store import folder_of
 from ninedof.support.units import amount
 from ninedof.tables import Table, columns
@@ -76,11 +77,10 @@ def admissible(options: _Options) -> Answer:
     if not vary:
         return _around_alone(screen, of, options, at)
     question = design_range(of, vary, at, options.condition)
+    if options.proportions is not None:
+        half_widths(question, _proportions(options.proportions))
     file = None if folder is None else admissible_file(folder, question)
     earlier = None if file is None else load_admissible(file, question)
-    if file is not None and earlier is None and file.exists():  # that of another question
-        other = file.replace(file.with_name(f"{file.stem}-earlier{file.suffix}"))
-        screen.print(f"the designs of another question are kept as {other}")
     goes_on()
     how = _how(options) | {"at": at, "condition_number": options.condition, "resume": earlier}
     bars = screen.bar("boxes" if options.scheduler is None else "points", "designs")
@@ -88,13 +88,20 @@ def admissible(options: _Options) -> Answer:
         designs = nd.admissible(of, vary, **how, executor=executor, progress=bar)
     data: dict[str, Any] = {name: getattr(designs, name) for name in ("shares", "excluded", "designs", "boxes")}
     screen.print(*designs.sentences())
+    ended = designs.seconds - (earlier.seconds if earlier else 0.0) >= how["time_limit"] and not designs.interrupted
+    if ended and designs.shares[UNDECIDED] > ENOUGH:
+        screen.print("The time ended the search: a longer --time may decide more.")
+        if file is not None:
+            ended_by_time()
     own = isinstance(of, nd.Result) and not at
     if own and designs.state_of([[designs.of.at[name] for name in designs.vary]]) == [UNDECIDED]:
-        ended = designs.seconds >= how["time_limit"]
-        why = " yet" if ended else ": an optimum reaches limits or ends of ranges exactly"
+        why = " yet" if ended or designs.interrupted else ": an optimum reaches limits or ends of ranges exactly"
         screen.print(f"The design of the run is not decided itself{why}.")
     if file is not None:
         file.parent.mkdir(parents=True, exist_ok=True)
+        if earlier is None and file.exists():  # that of another question
+            other = file.replace(file.with_name(f"{file.stem}-earlier{file.suffix}"))
+            screen.print(f"the designs of another question are kept as {other}")
         designs.save(file)
         figures = _draw(designs, file) if len(designs.vary) > 1 else []
         screen.print(f"designs {file}" + (f", figure {figures[0].stem} (PNG, SVG, PDF)" if figures else ""))
