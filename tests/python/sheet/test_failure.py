@@ -16,6 +16,7 @@ from ninedof.design.region_poses import posed
 from ninedof.robot.geometry import LEGS
 from ninedof.sheet.failure.failure import SETS
 from ninedof.sheet.failure.tables import free_table, loads_table, locked_table, pairs_table
+from ninedof.sheet.tables import pose_of
 
 DESIGN = Path(__file__).resolve().parents[3] / "examples" / "04_design.toml"
 RNG = np.random.default_rng(14)
@@ -126,6 +127,8 @@ def test_a_region_no_random_pose_is_worse_and_shares():
     rows = {row[0]: row for group in locked_table(one, one.locked).texts() for row in group}
     assert [rows[leg][-2] for leg in ("l1", "l2", "l3")] == ["-"] * 3  # five freedoms have no such share
     assert "with six freedoms and" in one.summary()
+    pose = pose_of(one, one.healthy.pose)
+    assert f"Nine legs at work: worst condition number met {one.healthy.value:.6f}, at {pose}." in one.summary()
 
 
 def test_control_is_lost_with_opposite_legs_of_a_region_locked():
@@ -146,6 +149,7 @@ def test_what_is_said():
     g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     one = nd.failure(g, nd.Configuration.neutral([3.9828], 2.3745), loads=[0, 0, 0, 0, 0, -10.0])
     text = one.summary()
+    assert "Nine legs at work: worst condition number met " in text
     assert "l1 free: the platform turns about" in text
     assert "not borne" in text
     assert "<table" in one._repr_html_()

@@ -24,8 +24,8 @@ def failure_parts(failure: Any) -> Iterator[Part]:
     """Yield the tables and sentences of a failure."""
     yield from list(region_words(failure))[:2]  # the last is of lengths
     healthy = failure.healthy
-    where = "neutral pose" if healthy.pose == 0 else f"pose {healthy.pose}"
-    yield f"Nine legs at work: condition number at most {healthy.value:.6f} ({where})."
+    where = pose_of(failure, healthy.pose) if healthy.pose else "the neutral pose"
+    yield f"Nine legs at work: worst condition number met {healthy.value:.6f}, at {where}."
     yield locked_table(failure, failure.locked)
     yield (
         "Locked: at its length at the pose. An external leg takes the motion of its platform joint along the leg, "
@@ -137,7 +137,7 @@ def _pairs_beside(failure: Any) -> Iterator[str]:
         some = [one for one in failure.pairs if one.freedoms == count]
         worst = max(some, key=lambda one: one.remaining)
         number = _words(worst.remaining)
-        yield f"{words} freedoms left, condition number at most {number} ({' and '.join(worst.legs)})."
+        yield f"{words} freedoms left, worst condition number met {number} ({' and '.join(worst.legs)})."
 
 
 def _direction(v: Floats) -> str:
