@@ -206,9 +206,10 @@ class DesignAtPoses(Chosen):
         if len(c) > 1:
             first = f"{len(c)} poses of the study; pose 0 is the neutral one"
             if self._region:
-                count = len({self.first(k) for k in range(len(c))})
-                first = f"{count} poses: the neutral one, pose 0, and those of the region that ruled its condition "
-                first += "number or a limit; extremes over the region: ninedof sheet"
+                alike = len(c) - len({self.first(k) for k in range(len(c))})
+                first = f"{len(c)} poses{f', {len(c) - alike} of them distinct' * bool(alike)}: the neutral one, "
+                first += "pose 0, and those of the region that ruled its condition number or a limit; extremes over "
+                first += "the region: ninedof sheet"
             last = [f"pose {k}: {self.words(c[k])}" for k in sorted(set(used))]
         else:
             first, last = f"at {self.words(c[0])}", []

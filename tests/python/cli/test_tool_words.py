@@ -1,5 +1,6 @@
 """Every command about a machine with a tool says that p is the tool's point."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -28,6 +29,7 @@ COMMANDS = {
     "modes {0}/run --lengths 500,500,500,300,300,300,300,300,300",
     "certify {0}/run --time 0.1",
     "failure {0}/run --no-pairs",
+    "payload {0}/run --force 900",
     "sheet {0}/run",
 }
 
@@ -61,7 +63,12 @@ def test_all_poses_of_a_region_study_are_said_to_be_those_that_ruled(folder, run
     assert len(nd.load(folder / "doubled").best.configurations) == len(ruled) + 2
     for name in ("run", "doubled"):
         out = " ".join(run(f"accuracy {folder / name} --all-poses")[1].split())
-        assert f"{len(ruled) + 1} poses: the neutral one, pose 0, and those of the region that ruled its" in out
+        count = (
+            f"{len(ruled) + 1} poses" if name == "run" else f"{len(ruled) + 2} poses, {len(ruled) + 1} of them distinct"
+        )
+        assert out.startswith(f"{count}: the neutral one, pose 0, and those of the region that ruled its")
+        last = max(int(number) for number in re.findall(r"pose (\d+): p = ", out))
+        assert last < int(count.split()[0])
         assert "extremes over the region: ninedof sheet" in out
 
 
