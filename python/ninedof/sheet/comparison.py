@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from typing import Any
 
 from ninedof.design.study import LENGTH
@@ -25,6 +26,7 @@ from ninedof.tables.table import plain_text
 
 MOST = 3  # designs: more do not fit on 80 columns
 NAMES = ("A", "B", "C")
+WIDE = 20  # characters of an entry of a study; longer ones stand below the table
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -66,7 +68,7 @@ class Comparison:
             Line(name, values, DEGREES if name.endswith(ANGLES) else SHORT, self.unit if _long(name) else "")
             for name, values in numbers.items()
         ]
-        out: list[Any] = [Table("Numbers over the poses of each study", columns, lines)]
+        out: list[Any] = [Table("Numbers over the poses or the region of each study", columns, lines)]
         for name, one in of_each:
             out.append(f"{name}, {over(one)}, worst at {pose_of(one, one.condition_number.pose)}")
         if any(one.tool for one in self.sheets):
@@ -82,9 +84,14 @@ class Comparison:
             if labels:
                 out.append(f"{name} breaks {', '.join(labels)}")
         if self.differences:
-            entries = [[key, *map(_short_entry, values)] for key, values in self.differences.items()]
+            long = {key for key, values in self.differences.items() if max(map(len, map(_entry, values))) > WIDE}
+            entries = [
+                [key, *("below" if key in long and value is not None else _entry(value) for value in values)]
+                for key, values in self.differences.items()
+            ]
             own = ", lengths in the unit of each" if len({one.unit for one in self.sheets}) > 1 else ""
             out.append(Table(f"What differs in the studies{own}", self._columns("", WORDS), entries))
+            out += [_long_words(self.names, key, self.differences[key]) for key in self.differences if key in long]
         return out
 
     def _columns(self, first: str, form: str = RIGHT) -> list[Column]:
@@ -259,6 +266,20 @@ def _limit_cells(row: LimitRow | None, of: Sheet) -> tuple[str, str, str]:
     return allowed, value, f"{'broken ' * row.violated}{margin_words(row.margin, row.unit)}"
 
 
-def _short_entry(value: Any) -> str:
-    text = "-" if value is None else str(value)
-    return text if len(text) <= 20 else f"{text[:17]}..."
+def _entry(value: Any) -> str:
+    return "-" if value is None else str(value)
+
+
+def _long_words(names: Sequence[str], key: str, values: Sequence[Any]) -> str:
+    """Return the values of an entry, of lists of rows the first row that differs."""
+    rows = [[] if value is None else value for value in values]
+    if any(
+        not isinstance(row, list | tuple) or not all(isinstance(x, list | tuple | dict) for x in row) for row in rows
+    ):
+        return f"{key}: {', '.join(f'{name} {_entry(value)}' for name, value in zip(names, values, strict=True))}"
+    k, first = next((k, row) for k, row in enumerate(zip_longest(*rows)) if any(x != row[0] for x in row))
+    words = (
+        f"{name} {'none' if x is None else x} ({len(row)} in all)"
+        for name, x, row in zip(names, first, rows, strict=True)
+    )
+    return f"{key}, no. {k + 1}, the first that differs: {', '.join(words)}"

@@ -99,6 +99,24 @@ def test_a_change_of_nothing_changes_nothing_and_what_differs_in_the_studies(mac
     assert all(one == pytest.approx(other, rel=1e-9) for one, other in both.numbers.values())
     assert both.differences == {"constraints.leg_ratio.max": (3.0, 2.9)}
     assert "outside" not in str(both)
+    assert str(both).startswith("Numbers over the poses or the region of each study\n")
+
+
+def test_long_entries_of_studies_are_told_apart_by_the_first_that_differs(machine):
+    """Cut to 20 characters, two lists of loads were the same "[[0.0, 0.0, 0.0, ..."."""
+    rows = [[0.0, 0.0, 0.0, 0.0, 0.0, 90.0], [0.0, 0.0, 0.0, 5.0, 0.0, 90.0]]
+    one, two = (replace(machine, study=replace(machine.study, loads={"wrenches": rows[:k]})) for k in (1, 2))
+    words = (
+        "loads.wrenches, no. {}, the first that differs: A {} ({} in all), B [0.0, 0.0, 0.0, {}, 0.0, 90.0] ({} in all)"
+    )
+    assert words.format(2, "none", 1, "5.0", 2) in str(nd.compare(one, two))
+    assert words.format(1, "none", 0, "0.0", 1) in str(nd.compare(machine, one))
+    named = [
+        replace(machine, study=replace(machine.study, about={"project": f"Polishing machine no. {k}"})) for k in "XY"
+    ]
+    assert "about.project: A Polishing machine no. X, B Polishing machine no. Y" in " ".join(
+        str(nd.compare(*named)).split()
+    )
 
 
 def test_changes_that_do_not_fit_are_refused(machine):
