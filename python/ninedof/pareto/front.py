@@ -166,7 +166,7 @@ def front_table(front: Front) -> Table:
         Column("objective", "", ".6f"),
         Column("neutral\ncondition number", "", ".6f"),
         Column("price\n% for 1 %", "", ".2g" if front.of_tolerances else ".3f"),
-        Column("limits reached, or why there is no design"),
+        Column("limits reached"),
     ]
     rows = [
         (
@@ -181,7 +181,12 @@ def front_table(front: Front) -> Table:
         for number, row in enumerate(front.table(), start=1)
     ]
     steep = max((price or 0.0 for price in front.prices), default=0.0) >= MOST_GAIN
-    notes = ["price: slope of the objective at that limit; a steep one holds for much less than 1 %"] * steep
+    reasons: dict[str, list[str]] = {}
+    for number, row in enumerate(front.table(), start=1):
+        if _without_design(row) and row["reason"]:
+            reasons.setdefault(f"{row['status']}: {row['reason']}", []).append(str(number))
+    notes = [f"no. {', '.join(numbers)} {words}" for words, numbers in reasons.items()]
+    notes += ["price: slope of the objective at that limit; a steep one holds for much less than 1 %"] * steep
     return Table(f"{front.study.words} against {limit}", columns, rows, notes)
 
 
@@ -192,12 +197,16 @@ def limit_text(front: Front, value: float) -> str:
 
 def _row_words(front: Front, row: Mapping[str, Any]) -> str:
     """Return what a row of the table of a front reached, or why it has no design."""
-    if row["objective"] is None or row["status"] != Status.OPTIMAL:
-        return f"{row['status']}: {row['reason']}"
+    if _without_design(row):
+        return f"{row['status']}{', see below' * bool(row['reason'])}"
     active = ", ".join(row["active"]) or "nothing"
     if row["dominated"]:
         return f"{active} (no better than a {'larger tolerance' if front.of_tolerances else 'tighter limit'})"
     return f"{active} ({front.limit_name} without effect)" if row["price"] == 0.0 < row["limit"] else active
+
+
+def _without_design(row: Mapping[str, Any]) -> bool:
+    return row["objective"] is None or row["status"] != Status.OPTIMAL
 
 
 class Preferred(NamedTuple):

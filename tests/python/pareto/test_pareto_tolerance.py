@@ -47,8 +47,9 @@ def test_each_tolerance_is_as_good_as_solved_alone(front):
 def test_a_tolerance_too_large_names_the_limits(front):
     row = front.table()[0]
     assert (row["status"], row["objective"], row["price"]) == ("infeasible", None, None)
-    assert "leg ratio max" in row["reason"]
-    assert "infeasible: not proved of every machine" in front_table(front).rows[0][-1]
+    assert "the greatest leg ratio" in row["reason"]
+    assert front_table(front).rows[0][-1] == "infeasible, see below"
+    assert front_table(front).notes[0].startswith("no. 1 infeasible: not proved of every machine")
 
 
 def test_prices_are_the_slope(front):

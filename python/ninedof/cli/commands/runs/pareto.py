@@ -103,8 +103,10 @@ def _dearest(run: nd.Result) -> str:
     prices = run.prices or {}
     names = [name for name in prices if split_label(name)[0] in names_with_max() or name == CONDITION_LIMIT]
     if not names:
+        own = [one.label for one in run.study.limits if "max" in one.sides]
         raise ValueError(
             "--against: got none, expected the limit to sweep: no limit with a max has a price in this run"
+            f"; with a max its study has {', '.join(own) or 'none'}"
         )
     return max(names, key=lambda name: prices[name])
 
