@@ -161,6 +161,12 @@ def label(name: str, at: str) -> str:
     return name if at == AT[0] else f"{name} at {at}"
 
 
+def limit_words(name: str, side: str) -> str:
+    """Return a side of a limit in words: "the greatest stroke ratio" for "stroke_ratio", "max"."""
+    plain = name.replace("_", " ")
+    return plain if plain == "no singularity" else f"the {'greatest' if side == 'max' else 'least'} {plain}"
+
+
 def split_label(text: str) -> tuple[str, str]:
     """Return the name and the place of a label."""
     name, _, at = text.partition(" at ")

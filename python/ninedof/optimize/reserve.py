@@ -10,6 +10,7 @@ from typing import Any
 
 from ninedof.design.duty import LARGEST_TOLERANCE, Tolerances, tolerances_like
 from ninedof.design.limit_numbers import with_scaled_limits
+from ninedof.design.limits import limit_words
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.region_poses import Placing, o_is_placed
 from ninedof.design.study import Study
@@ -139,11 +140,17 @@ class Reserve(StudyTable):
     @property
     def words(self) -> list[str]:
         """The reserve in sentences."""
-        parts = [f"{name.replace('_', ' ')} {100.0 * abs(1.0 - share):.2g} %" for name, share in self.shares.items()]
+        parts = [f"{_words(name)} {100.0 * abs(1.0 - share):.2g} %" for name, share in self.shares.items()]
         others = "verdict, prices and what is left to gain are of the study with it; a smaller reserve may be enough"
         out = [f"reserve for the tolerances: {', '.join(parts)}; {others}"] if parts else []
         note = "proved of every machine within the tolerances" if self.proved else self.note
         return [*out, note] if note else out
+
+
+def _words(name: str) -> str:
+    """Return a label and side, "stroke_ratio max", in words."""
+    label, _, side = name.rpartition(" ")
+    return limit_words(label, side)
 
 
 def with_reserve(
@@ -222,7 +229,7 @@ def _without(study: Study, result: Any, first: Any, reserve: Reserve, lacking: I
             reserve = Reserve(note=reserve.note)
         return replace(_of(study, result, first), reserve=reserve)
     if result.best is not None:
-        reason = f"{UNPROVED}: {', '.join(name.replace('_', ' ') for name in lacking)}"
+        reason = f"{UNPROVED}: {', '.join(_words(name) for name in lacking)}"
     else:
         reason = f"with a reserve for the tolerances: {result.reason}"
     none = replace(result, status=type(result.status).INFEASIBLE, reason=reason, candidates=(), region=None)

@@ -9,6 +9,7 @@ from typing import Any
 
 from ninedof import _core
 from ninedof.design.duty import Tolerances
+from ninedof.design.limits import limit_words
 from ninedof.proof.point_rule import PointRule
 from ninedof.sheet.pose_words import words_of_pose
 from ninedof.support.arguments import Vector, flag, number, table, text, whole
@@ -172,9 +173,9 @@ class MachineCertificate(Worded):
         yield f"Proved: at every pose of {self.where}{how}, {', '.join(legs)}."
         if self.limits and self.limits[0].answer == PROVED:
             yield "Proved: none of these poses is singular, and the machine never leaves its side of a singularity."
-        names = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
+        names = [limit_words(one.name, one.side) for one in self.limits[1:] if one.answer == PROVED]
         if names:
-            yield f"Proved, up to {self.slack:g} of each: the limit{'s' * (len(names) > 1)} {', '.join(names)}."
+            yield f"Proved, up to {self.slack:g} of each: the limit{'s' * (len(names) > 1)} of {', '.join(names)}."
 
     def _of_condition(self) -> Iterator[str]:
         """Yield the worst condition number met, and what is not proved of it."""

@@ -282,7 +282,7 @@ def test_a_run_with_a_reserve_says_so_and_its_tolerances_are_proved(tmp_path, ca
     replace(nd.Study.paper(), tolerances=nd.Tolerances(joints=0.0001)).save(file)
     assert main_status("optimize", file, "--starts", 2, "--out", folder, "--no-figures") == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "reserve for the tolerances: radius ratio max" in said
+    assert "reserve for the tolerances: the greatest radius ratio" in said
     assert "proved of every machine within the tolerances" in said
     page = nd.report(folder, folder / "page.html").read_text()  # beside what is searched, nothing said so
     assert "Proved: every machine within the tolerances keeps the limits at every pose." in page

@@ -211,5 +211,5 @@ def _around(screen: Screen, designs: nd.AdmissibleSet, options: _Options) -> dic
     ends = [
         (f"{name} {side}", end) for name, two in room.ended_by.items() for side, end in zip(SIDES, two, strict=True)
     ]
-    screen.print(Table("What ends each side; a limit: designs beyond break it there", columns("", "ended by"), ends))
+    screen.print(Table("What ends each side; designs beyond a limit break it", columns("", "ended by"), ends))
     return {"around": {name: list(ends) for name, ends in room.items()}, "ended_by": room.ended_by}
