@@ -106,8 +106,8 @@ def _sentence(text: str) -> str:
     return ended[0].upper() + ended[1:] if first.isalpha() and len(first) > 1 else ended
 
 
-def of_front(front: Front, record: Any) -> Page:
-    """Return the page of a trade-off."""
+def of_front(front: Front, record: Any, run: str = "RUN") -> Page:
+    """Return the page of a trade-off; `run` is the run in its commands."""
     limit = front.limit_name.replace("_", " ")
     sentence = f"What does each value of {limit} cost? The study below is solved once for each."
     sections = {
@@ -124,9 +124,9 @@ def of_front(front: Front, record: Any) -> Page:
         sheet, body = None, None
         if first is not None and k == first.number:
             start, shown, sheet = len(machines), result.best, result.sheet()
-            body, words = quick_body(result, f"RUN#{k}")
+            body, words = quick_body(result, f"{run}#{k}")
             hint = f"Point {k}. {words}"
-            sentence = f"Of point {k}, {first.words}. Each point has its own: ninedof sheet RUN#1 for the first."
+            sentence = f"Of point {k}, {first.words}. Each point has its own: ninedof sheet {run}#1 for the first."
             sections["sheet"] = joined(paragraphs([sentence]), sheet_html(sheet))
         title = f"point {k}: {limit} {limit_text(front, x)}"
         machines.append(design_machine(title, result.best, result.study, sheet, body))

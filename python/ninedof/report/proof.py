@@ -83,8 +83,9 @@ def _two(proofs: list[str], searched: list[str], meaning: str, status: str) -> H
 def _checked(result: Result) -> Iterator[str]:
     best = result.best
     if best is not None and result.status == Status.OPTIMAL:
-        most = f"{best.constraint_violation:.1e}"
-        yield f"Checked: no limit or bound is violated at the poses imposed by more than {most}."
+        most = best.constraint_violation
+        more = f" by more than {most:.1e}" * (most > 0.0)
+        yield f"Checked: no limit or bound is violated at the poses imposed{more}."
         yield (
             f"Checked: no direction lowers the objective to first order and keeps the limits; the residual is "
             f"{best.optimality_residual:.1e}, at most 1e-6."

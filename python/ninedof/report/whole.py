@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -39,18 +40,19 @@ def page_of_path(place: Path, point: str, run: str | os.PathLike[str]) -> str:
     """Return the page of a run folder, or of one point of it; `run` names both."""
     folder = folder_of(place)
     name = folder.resolve().name + (f"#{point}" if point else "")
+    typed = shlex.quote(str(folder)) + (f"#{point}" if point else "")  # in a shell # within a word is no comment
     record = load_record(place)
     contents = None if record.kind in FROM_RECORD and not point else load(run)
     if isinstance(contents, Result):
         whole = load(place) if point else None
         again = origin.of_front(whole, record, point) if isinstance(whole, Front) else None
         certificate = _certificate_of(contents, run)
-        page_ = of_result(contents, record, f"RUN#{point}" if point else "RUN", again, certificate)
+        page_ = of_result(contents, record, typed, again, certificate)
         if record.kind == "comparison" and not point:
             published = html_of(comparison_table(record.results["designs"]))
             page_.sections["answer"] = joined(published, page_.sections["answer"])
     elif isinstance(contents, Front):
-        page_ = of_front(contents, record)
+        page_ = of_front(contents, record, typed)
     elif isinstance(contents, WorkspaceMap):
         page_ = of_workspace(contents, record)
     else:

@@ -83,6 +83,9 @@ def test_a_run_has_every_section_and_the_numbers_of_the_result(page, folder, res
     assert "optimal" in words
     assert "a box of half edges 0.2, 0.2, 0.1 m, tilts of at most 5 degrees" in words
     assert re.sub(r"[_ ]", "", result.agreement[:30]) in re.sub(r"[_ ]", "", words)
+    most = result.best.constraint_violation
+    assert f"no limit or bound is violated at the poses imposed{f' by more than {most:.1e}' if most else ''}." in words
+    assert "RUN" not in words
     found = result.sheet()
     for leg in found.legs:
         assert f"{leg.longest:.5f}" in words
@@ -233,16 +236,16 @@ def test_a_front_has_a_machine_for_each_point(tmp_path):
     assert scene["machines"][scene["start"]]["name"] == "point 2: footprint 40"  # the other limit has no effect
     assert "Of point 2, the least objective; the front has no knee." in words
     assert "Point 2. " in words
-    assert "ninedof workspace RUN#2 " in words
+    assert f"ninedof workspace {tmp_path / 'front'}#2 " in words
     for leg in front.results[1].sheet().legs:
         assert f"{leg.longest:.5f}" in words
     assert f"{front.objectives[2]:.6f}" in words
-    assert front.results[0].reason.split(";")[0].replace("_", " ") in words
+    assert front.results[0].reason.split(";")[0] in words
     point = nd.report(f"{tmp_path / 'front'}#2")
     assert point.name == "report-2.html"
     words = read(point)[2]
     assert "front#2" in words
-    assert "ninedof workspace RUN#2 " in words
+    assert f"ninedof workspace {tmp_path / 'front'}#2 " in words
     assert "ninedof pareto study.toml --against footprint --value 1.0 --value 40.0 --value 60.0" in words
     assert "optimize study.toml" not in words
     assert "same bits" not in words
