@@ -18,7 +18,7 @@ from ninedof.sheet.request import duty_of, leg_limits_argument, leg_limits_of
 from ninedof.statics.dynamics import inverse_dynamics
 from ninedof.support.arguments import Vector, instance, vector
 from ninedof.support.text import short_repr
-from ninedof.support.units import amount
+from ninedof.support.units import amount, kind_unit
 
 
 @short_repr
@@ -41,6 +41,8 @@ class PathPayload(NamedTuple):
     """Name of the length unit; "" without one."""
     force_unit: str = ""
     """"N": the payload is in kilograms. "": what goes with the unit of forces."""
+    limit: float = np.nan
+    """The force or power that the leg reaches; NaN where no limit is reached."""
 
     @property
     def words(self) -> str:
@@ -50,10 +52,12 @@ class PathPayload(NamedTuple):
         at = f"at t = {amount(f'{self.time:.6g}', 's' * bool(self.unit))}"
         if self.kind == "singular":
             return f"no payload along the path: singular {at}"
+        kind = FORCES if self.kind == "force" else self.kind
+        reached = f"{self.kind} of {amount(f'{self.limit:g}', kind_unit(kind, self.unit, self.force_unit))}"
         if not self.fits:
-            return f"no payload along the path: {self.leg} exceeds its {self.kind} {at} without one"
+            return f"no payload along the path: {self.leg} exceeds its {reached} {at} without one"
         mass = mass_words(self.mass, self.force_unit)
-        return f"largest payload along the path {mass}: {self.leg} reaches its {self.kind} {at} first"
+        return f"largest payload along the path {mass}: {self.leg} reaches its {reached} {at} first"
 
 
 def payload_along(
@@ -133,4 +137,5 @@ def payload_along(
             shares = np.nan_to_num(np.stack([own / ends, -own / ends], axis=2), nan=0.0)
     load, k, _, leg = map(int, np.unravel_index(int(np.argmax(shares)), shares.shape))
     kind = "force" if limits[0][leg] <= at_power[k, leg] else "power"
-    return PathPayload(1.0 / share, share < np.inf, LEGS[leg], kind, float(motion.time[k]), load, *units)
+    limit = float(limits[kind == "power"][leg])
+    return PathPayload(1.0 / share, share < np.inf, LEGS[leg], kind, float(motion.time[k]), load, *units, limit)

@@ -65,7 +65,7 @@ def test_given_limits_take_the_place_of_the_study(machine):
     motion = nd.follow(machine, line(machine))
     weak = nd.payload_along(machine, motion, power=1.0)
     assert (weak.mass, weak.fits, weak.kind) == (0.0, False, "power")
-    assert "exceeds its power at t = " in weak.words
+    assert "exceeds its power of 1 N mm/s at t = " in weak.words
     slow = nd.follow(machine, line(machine, 1e6))
     assert nd.payload_along(machine, slow, force=700.0).mass < nd.payload_along(machine, slow).mass
     both = nd.payload_along(machine, motion)

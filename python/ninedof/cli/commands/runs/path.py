@@ -41,7 +41,8 @@ from ninedof.records.record import run_folder, write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.sheet.pose_words import turn_deg, vector_words
-from ninedof.sheet.request import masses_of, masses_words
+from ninedof.sheet.request import Weight, masses_of, masses_words
+from ninedof.sheet.tables import load_words, weight_words
 from ninedof.support.store import Store
 from ninedof.support.units import amount, per, unit_entry
 
@@ -123,6 +124,7 @@ def path(options: _Options) -> None:
         *_faster(result, chosen.duty.speeds),
         *_payload(chosen, result),
     ]
+    parts += _acting(result, masses, np.hstack([_rows(moment), _rows(force)]), chosen.tool)
     stated = [*stated, *masses_words(chosen.duty, options.mass)]
     parts += [f"from the study: {', '.join(stated)}"] if stated else []
     write = partial(write_run, result, directory, question=question, results={"motion": motion}, limits=of_study)
@@ -173,6 +175,24 @@ def _faster(motion: nd.Followed, speeds: nd.Speeds) -> Iterator[Any]:
         if size > most * (1.0 + SLACK) and (speeds.linear > 0.0 or speeds.angular > 0.0):
             reached, stated = (amount(f"{shown * x:.4g}", unit) for x in (size, most))
             yield bold("faster than the study", f": {name} speed {reached}, [speeds] has {stated}")
+
+
+def _rows(vectors: Any) -> Any:
+    """Return forces or moments of several loads as rows; of one, one row; zeros for None."""
+    return np.zeros((1, 3)) if vectors is None else np.asarray(vectors, float).reshape(-1, 3)
+
+
+def _acting(motion: nd.Followed, masses: nd.Masses | None, loads: Any, tool: nd.Tool) -> Iterator[str]:
+    """Yield a line on the loads and masses behind the forces."""
+    unit, force_unit = motion.unit, motion.force_unit
+    words = [load_words(k, row, unit, force_unit) for k, row in enumerate(loads, start=1) if row.any()]
+    if masses is not None:
+        own = Weight(masses.platform, masses.centre, motion.gravity) if masses.platform else None
+        legs = any((masses.cylinder, masses.rod, masses.internal_point))
+        words += [one.removeprefix("each with ") for one in weight_words(own, tool, legs, force_unit)]
+        words += ["inertia too"]
+    if words:
+        yield f"acting: {'; '.join(words)}"
 
 
 def _payload(chosen: Chosen, motion: nd.Followed) -> Iterator[str]:
