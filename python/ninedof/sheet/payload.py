@@ -133,9 +133,10 @@ def largest_payload(
     if force is None:
         force = leg_limits_of(duty, FORCES)
         if np.isinf(force).all():
+            own_study = getattr(design, "study", None)
             raise ValueError(
-                "force: got none, expected a number (--force at the terminal): there is no study with a limit of force "
-                "at its poses"
+                "force: got none, expected a number (--force at the terminal): "
+                f"{'there is no study' if own_study is None else 'the study has no limit of force at its poses'}"
             )
         others = [one for one in others if one.kind != FORCES or one.at != "poses"]
     push = leg_limits_argument("force", force)

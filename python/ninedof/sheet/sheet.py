@@ -124,6 +124,8 @@ class Sheet:
     """By way of moving: "shift", "turn", "internal"."""
     accuracy: Accuracy | None
     stiffness: Stiffness | None
+    leg_stiffness: tuple[float, ...]
+    """Of each leg, force/length, behind `stiffness`; empty without it."""
     limits: tuple[LimitRow, ...]
     """Each limit of the study beside the value at the study's own poses, of a region at its worst poses too; empty
     where the input has no study."""
@@ -339,8 +341,10 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         question.masses = masses_for_core(bodies)
         question.gravity = duty.loads.gravity if weight is None else weight.gravity
     question.errors = _tolerances(values["leg_errors"], values["joint_errors"])
-    if values["leg_stiffness"] is not None:
-        question.leg_stiffness = _of_each("leg_stiffness", values["leg_stiffness"], 9)
+    of_legs = values["leg_stiffness"]
+    locked = None if of_legs is None else _of_each("leg_stiffness", of_legs, 9)
+    if locked is not None:
+        question.leg_stiffness = locked
     question.characteristic_length = length if np.isfinite(length) else None
     looked = look_over(design, c, question, count) if poses is None else Looked(c)
     c, region = looked.configurations, looked.search
@@ -365,6 +369,7 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         stiffness=Stiffness(*(extreme(x, np.argmin) for x in numbers["stiffness"].T))
         if "stiffness" in numbers
         else None,
+        leg_stiffness=() if locked is None else tuple(locked.tolist()),
         limits=() if study is None else limit_rows(posed(_judged(duty, design), looked.worst), design.variables),
         region=region,
         unit=duty.unit if values["unit"] is None else unit_argument(values["unit"]),

@@ -88,11 +88,22 @@ def limits_table(sheet: Any) -> Table:
 def worst_table(sheet: Any) -> Table:
     """Return the worst values with their poses, which the notes describe."""
     title = "At the neutral pose" if len(sheet.configurations) == 1 else f"Worst {over(sheet)}"
-    columns = [Column(), *columns_of("value", "pose"), Column()]
+    columns = [Column(), *columns_of("value", "pose")]
     rows = list(_worst_rows(sheet))
     used = sorted({row[2] for row in rows if row and row[2]})
-    cells = [(*row[:2], "" if row[2] is None else row[2] or "neutral", row[3]) if row else () for row in rows]
-    return Table(title, columns, cells, [f"pose {k}: {pose_of(sheet, k)}" for k in used])
+    cells = [(*row[:2], "" if row[2] is None else row[2] or "neutral") if row else () for row in rows]
+    remarks = [f"{row[0]}: {row[3]}" for row in rows if row and row[3]]
+    return Table(
+        title, columns, cells, [*remarks, *_stiffness_words(sheet), *(f"pose {k}: {pose_of(sheet, k)}" for k in used)]
+    )
+
+
+def _stiffness_words(sheet: Any) -> Iterator[str]:
+    """Yield the stiffness of the legs that was given."""
+    if sheet.leg_stiffness:
+        ends = dict.fromkeys(f"{end(sheet.leg_stiffness):g}" for end in (min, max))
+        of_each = amount(" to ".join(ends), per(sheet.force_unit or "force", sheet.unit))
+        yield f"stiffness: of each leg {of_each}, as given; all are locked"
 
 
 def _worst_rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
@@ -123,9 +134,9 @@ def _worst_rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
         yield "error of O", amount(f"{errors.internal_point.value:.4g}", unit), errors.internal_point.pose, ""
         yield ()
     if sheet.stiffness is not None:
-        shifting, turning = sheet.stiffness
-        yield "least stiffness", amount(f"{shifting.value:.4g}", per("force", unit)), shifting.pose, ""
-        text = amount(f"{turning.value:.4g}", times("force", unit))
+        (shifting, turning), force = sheet.stiffness, sheet.force_unit or "force"
+        yield "least stiffness", amount(f"{shifting.value:.4g}", per(force, unit)), shifting.pose, ""
+        text = amount(f"{turning.value:.4g}", times(force, unit))
         yield "least turning stiffness, per rad", text, turning.pose, ""
 
 

@@ -36,10 +36,10 @@ def words(run, folder):
 
 def test_a_load_that_carries_the_payload_is_told(words, run):
     out = words("payload ./run --force 300")
-    assert "without these loads" in out
-    alone = float(out.partition("without these loads ")[2].split(":")[0])
+    assert "without the loads" in out
+    alone = float(out.partition("without the loads ")[2].split(";")[0])
     assert alone < float(out.partition("largest payload ")[2].split(",")[0])
-    assert "without these loads" not in words("payload ./run --force 300 --load 0,0,0,0,0,-90")
+    assert "without the loads" not in words("payload ./run --force 300 --load 0,0,0,0,0,-90")
 
 
 def test_masses_of_options_and_of_the_study_are_told_apart(words, folder, run):
@@ -53,6 +53,11 @@ def test_masses_of_options_and_of_the_study_are_told_apart(words, folder, run):
     plain = words(path.format("./run", 4))
     assert "poses from t = 0 to 1 s; O:" in plain
     assert "from the study: [loads] run folder" in plain
+    load = "acting: load 1: moment (0, 0, 0) {0}, force (0, 0, 90){1}"
+    assert load.format("force mm", " from the study") in plain
+    line = words(path.format("./legs --mass 9 --centre 0 0 5", 5))
+    weight = "; the weight of a mass of 9 kg, centre (0, 0, 5) in the frame of the plate, gravity (0, 0, -9.81) m/s²; "
+    assert load.format("N mm", f" N{weight}the weights of the legs and of O; inertia too") in line
     out = words("forces ./run --mass 9 --centre 0 0 5")
     assert "each with the weight of a mass of 9 kg, centre (0, 0, 5) in the frame of the plate" in out
     assert "from the study: [loads] Forces (N)" in out
@@ -81,6 +86,7 @@ def test_a_fixed_design_has_no_starts_that_agree_and_its_bounds_are_of_the_neutr
 
 
 def test_what_is_refused_names_the_way(words):
+    assert "(--force at the terminal): the study has no limit of force at its poses" in words("payload ./run")
     out = words("sweep ./run --over a2=500:600:3 --out ./swept")
     assert "which has a [tool], expected coordinates of the configuration; a changed design" in out
     assert "`ninedof evaluate RUN --set`" in out
@@ -88,6 +94,12 @@ def test_what_is_refused_names_the_way(words):
         "evaluate ./run --set zp=abc"
     )
     assert "expected NAME=VALUE without a plus" in words("evaluate ./run --set zp=+5")
+
+
+def test_a_front_without_a_limit_names_those_of_the_study(words, folder):
+    out = words("pareto ./run --no-figures --no-report --out ./no-price")
+    assert "no limit with a max has a price in this run; with a max its study has " in out
+    assert "leg_length, radius_ratio" in out
 
 
 def test_a_front_says_which_limit_it_is_against_where_it_was_not_told(words):
@@ -122,6 +134,12 @@ def test_forces_are_newtons_and_powers_watts_where_masses_are_stated(words, fold
     assert (units["force"], units["power"], units["moment"], units["stiffness"]) == ("N", "N mm/s", "N mm", "N/mm")
     assert "a mass of 3 kg" in words("forces ./heavy")
     assert "Forces (N), + pushes" in words("forces ./heavy")
+    stiff = words("sheet ./heavy --leg-stiffness 1e4 --mass 5 --centre 0 0 20")
+    assert "a mass of 5 kg, centre (0, 0, 20) in the frame of the plate" in stiff
+    assert "stiffness: of each leg 10000 N/mm, as given" in stiff
+    assert "force/mm" not in stiff
+    assert "force mm" not in stiff
+    assert "reaches its force of 700 N at t = " in along or "reaches its power of 200000 N mm/s at t = " in along
     said = words("payload ./heavy")
     assert " kg: " in said
     assert "gravity (0, 0, -9.81) m/s²; beside it" in said

@@ -49,11 +49,11 @@ def payload(options: _Options) -> Answer:
     loads = loads_option(options.load) or None
     centre = options.centre or (0.0, 0.0, 0.0)
     result = largest_payload(chosen.machine, options.force, options.pull, centre, loads)
-    parts = [*_parts(result, chosen), _meant(result, chosen, centre, loads)]
+    parts = [*chosen.tool.remark(chosen.unit), *_parts(result, chosen), _meant(result, chosen, centre, loads)]
     if result.fits and result.without_loads < result.mass:
-        words = "a load counts as always there, so that one upward carries"
+        words = "loads count as always there, also one that carries a part of the payload"
         mass = amount(f"{result.without_loads:.6g}", "kg" * bool(result.force_unit))
-        parts.append(f"without these loads {mass}: {words}")
+        parts.append(f"without the loads {mass}; {words}")
     if options.force is None:
         parts.append(f"from the study: force {_of_kinds(result.limits[0].tolist(), result.force_unit)}")
     if result.not_looked_at:

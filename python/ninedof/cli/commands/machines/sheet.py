@@ -8,6 +8,8 @@ from typing import Any
 
 import ninedof as nd
 from ninedof.cli.options import (
+    CENTRE,
+    GRAVITY,
     JOINT_ERROR,
     LEG_ERROR,
     LEG_STIFFNESS,
@@ -15,11 +17,13 @@ from ninedof.cli.options import (
     MASS,
     ONE_DESIGN,
     Options,
+    Three,
     argument,
     loads_option,
     option,
     several,
     struct,
+    triple,
     typed,
 )
 from ninedof.cli.posed import named_design
@@ -33,10 +37,10 @@ MARK = "leg,shortest"  # begins a table of legs
 EXAMPLES = """
   ninedof sheet runs/20260101-120000 --csv legs.csv
   ninedof sheet runs/20260101-120000 --load "0 0 0 0 0 -100" --leg-error 0.01 --leg-stiffness 2e4
-  ninedof sheet runs/20260101-120000 --mass 5 --centre "0 0 20" --twist "0 0 1 200 0 0"
+  ninedof sheet runs/20260101-120000 --mass 5 --centre 0 0 20 --twist "0 0 1 200 0 0"
   ninedof sheet design.toml --speed 200 --turn-deg 30 --json"""
 
-VECTORS = {"twist": "wx wy wz vx vy vz", "twist_rate": "ax ay az ax ay az", "centre": "x y z", "gravity": "x y z"}
+VECTORS = {"twist": "wx wy wz vx vy vz", "twist_rate": "ax ay az ax ay az"}
 
 
 @struct
@@ -53,8 +57,8 @@ class _Options(Options):
     twist_rate: str | None = option("Its time derivative, 0 by default.")
     load: list[str] | None = option(LOAD)
     mass: float | None = option(MASS)
-    centre: str | None = option('Its centre "x y z" in the frame of the plate; of the study, or its origin.')
-    gravity: str | None = option('Force per mass "x y z", base axes; of the study, or "0 0 -9.81": newtons for kg.')
+    centre: Three | None = triple(CENTRE)
+    gravity: Three | None = triple(GRAVITY)
     leg_error: float | None = option(LEG_ERROR)
     joint_error: float | None = option(JOINT_ERROR)
     leg_stiffness: float | None = option(LEG_STIFFNESS)
@@ -78,6 +82,8 @@ def sheet(options: _Options) -> None:
         internal=options.internal,
         loads=loads_option(options.load) or None,
         mass=options.mass,
+        centre=options.centre,
+        gravity=options.gravity,
         leg_errors=options.leg_error,
         joint_errors=options.joint_error,
         leg_stiffness=options.leg_stiffness,
