@@ -168,6 +168,7 @@ def front_table(front: Front) -> Table:
         Column("price\n% for 1 %", "", ".2g" if front.of_tolerances else ".3f"),
         Column("limits reached"),
     ]
+    points = list(enumerate(front.table(), start=1))
     rows = [
         (
             str(number),  # RUN#1 names the first
@@ -178,11 +179,11 @@ def front_table(front: Front) -> Table:
             ),
             _row_words(front, row),
         )
-        for number, row in enumerate(front.table(), start=1)
+        for number, row in points
     ]
     steep = max((price or 0.0 for price in front.prices), default=0.0) >= MOST_GAIN
     reasons: dict[str, list[str]] = {}
-    for number, row in enumerate(front.table(), start=1):
+    for number, row in points:
         if _without_design(row) and row["reason"]:
             reasons.setdefault(f"{row['status']}: {row['reason']}", []).append(str(number))
     notes = [f"no. {', '.join(numbers)} {words}" for words, numbers in reasons.items()]

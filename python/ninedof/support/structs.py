@@ -140,6 +140,7 @@ class Named:
 
     def __new__(cls, *_: Any, **arguments: Any) -> Self:
         """Check the names; the dataclass takes the values."""
+        # The type of this base says nothing of fields: those that have it are dataclasses.
         known_keys(cls.__name__, arguments, [one.name for one in fields(cls) if one.init])  # type: ignore[arg-type]
         return super().__new__(cls)
 
