@@ -7,6 +7,7 @@ status is 130, 143 or 129. A second Ctrl-C ends the process at once.
 from __future__ import annotations
 
 import os
+import re
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -23,13 +24,22 @@ from ninedof.support.extras import MissingExtra
 from ninedof.support.running import how_to_go_on
 from ninedof.support.starting import ending
 from ninedof.support.text import escaped, one_line
+from ninedof.support.units import DEG, plain_name
 
 PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # What typer raises for options that it cannot read; without a type, as it has no name there.
 ClickException = BadParameter.__mro__[2]
 SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
-# Arguments whose option has another name.
-OPTIONS = {"at": "set", "condition_number": "condition", "time_limit": "time"}
+# Arguments whose option has another name, and options whose values name what they are of: --set zp=480.
+OPTIONS = {
+    "at": "set",
+    "changes": "set",
+    "characteristic_length": "lc",
+    "condition_number": "condition",
+    "radius": "circle",
+    "time_limit": "time",
+}
+NAMING = ("--set", "--vary", "--over")
 ONE_PRESS = 0.1  # seconds: a terminal and a program in between may both hand on one Ctrl-C
 
 
@@ -127,8 +137,21 @@ def _is_ours(error: Exception) -> bool:
 
 
 def as_typed(message: str, arguments: Sequence[str]) -> str:
-    """Return a message on an argument that begins with its name, "leg_mass: got 0", with the option as it was typed."""
-    name, _, rest = message.partition(": ")
-    option = typed(OPTIONS.get(name, name))
-    is_typed = name in OPTIONS or any(word == option or word.startswith(f"{option}=") for word in arguments)
-    return f"{option}: {rest}" if is_typed else message
+    """Return a message that begins with names of arguments, "leg_mass: got 0", with the options as they were typed."""
+    names, colon, rest = message.partition(": ")
+    known = [_as_option(name, arguments) or name for name in names.split(", ")]
+    return f"{', '.join(known)}{colon}{rest}"
+
+
+def _as_option(name: str, arguments: Sequence[str]) -> str:
+    """Return --vary a2 for vary.a2, --set zp for zp where --set zp=480 was typed; nothing for what was not."""
+    if not (parts := re.fullmatch(r"(\w+)(?:\.(\w+)|\['(\w+)'\])?", name)):
+        return ""
+    argument, *of = (part for part in parts.groups() if part)
+    own = OPTIONS.get(argument, argument)
+    for option in (typed(own), typed(f"{own}{DEG}")):
+        if any(word == option or word.startswith(f"{option}=") for word in arguments):
+            return " ".join([option, *of])
+    words = [word for one in arguments for word in one.split("=")]
+    pairs = [(option, word) for option, word in zip(words, words[1:], strict=False) if option in NAMING]
+    return next((f"{option} {word}" for option, word in pairs if name in (word, plain_name(word))), "")

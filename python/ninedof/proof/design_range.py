@@ -189,6 +189,8 @@ def _asked(of: Study | HasDesign, at: Mapping[str, float | str] | None) -> tuple
 
 def _ends(name: str, ends: object) -> tuple[float, float]:
     low, high = (finite(f"vary.{name}", end) for end in items(f"vary.{name}", ends, "(low, high)", 2))
+    if not low < high:
+        raise ValueError(f"vary.{name}: got ({low:g}, {high:g}), expected low < high")
     return low, high
 
 
@@ -199,10 +201,7 @@ def _range(study: Study, name: str, ends: tuple[float, float] | None) -> tuple[f
     if not isinstance(bounds, tuple):
         ends_too = f"its ends too, (low, high) or --vary {name}=LOW:HIGH"
         raise ValueError(f"vary.{name}: got a variable that is fixed in the study, expected {ends_too}")
-    low, high = _ends(name, bounds)
-    if not low < high:
-        raise ValueError(f"vary.{name}: got ({low:g}, {high:g}), expected low < high")
-    return low, high
+    return _ends(name, bounds)
 
 
 class Existence(NamedTuple):

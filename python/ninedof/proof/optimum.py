@@ -174,6 +174,6 @@ def check_certificate(
     try:
         data = path_argument("path", path).read_bytes()
     except OSError as error:
-        raise ValueError(f"certificate: got {path!s}, expected a file that can be read ({error.strerror})") from None
+        raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
     seconds = LONGEST if time_limit is None else finite("time_limit", time_limit, least=0.0)
     return from_core(CertificateCheck, _core.check_certificate(data, progress_argument(progress), seconds))

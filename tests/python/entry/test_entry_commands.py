@@ -30,6 +30,11 @@ def options(command):
     } - NOT_TRIED
 
 
+def several(command):
+    """The options that take more than one value."""
+    return {option for p in COMMANDS[command].params if p.nargs > 1 for option in p.opts}
+
+
 def arguments(command):
     return [p for p in COMMANDS[command].params if p.param_type_name == "argument"]
 
@@ -48,6 +53,15 @@ def test_what_a_command_needs_is_required():
     assert needed >= {(name, "design") for name in ("sheet", "export", "accuracy", "best", "modes", "singularity")}
 
 
+@pytest.mark.parametrize("command", ["sheet", "accuracy", "forces", "modes", "stiffness", "best"])
+def test_a_line_without_a_bad_value_is_answered(command, capsys):
+    for line in LINES[command]:
+        with pytest.raises(SystemExit) as end:
+            main([command, *filled(line, several(command))])
+        assert not end.value.code, line
+        capsys.readouterr()
+
+
 def attacks(command):
     """Command lines with one bad value, the option that has it, and what it is."""
     pick = random.Random(command)
@@ -62,9 +76,7 @@ def attacks(command):
             for label in labels:
                 if command == "view" and label == "zero":
                     continue  # any free port: it shows the design until Ctrl-C
-                made = filled(line)
-                made[k] = BAD[label]
-                yield [command, *made], option, label
+                yield [command, *filled(line, several(command), (k, BAD[label]))], option, label
 
 
 def fault_of(status, out, err):

@@ -1,5 +1,7 @@
 """The commands: for each a line that does little, and what is put in the place of every value."""
 
+import re
+
 import entry_things as it
 
 # A line with every option that takes a value; those that exclude each other are in several lines.
@@ -128,8 +130,11 @@ BAD = {
 }
 
 
-def filled(line):
-    """The words of a line, its places filled."""
+def filled(line, several=(), bad=(None, "")):
+    """The words of a line, its places filled; `bad` is the place of a bad value and the value.
+
+    Options that take `several` values have them in one word, divided by commas or colons; a bad one is the first.
+    """
     places = {
         "study": it.study_file,
         "design": it.design_file,
@@ -140,4 +145,9 @@ def filled(line):
         "page": lambda: it.fresh(".html"),
         "xml": lambda: it.fresh(".xml"),
     }
-    return [str(places[word[1:-1]]()) if word.startswith("{") else word for word in line.split()]
+    words, made = line.split(), []
+    for k, word in enumerate(words):
+        values = re.split("[,:]", word) if k and words[k - 1] in several else [word]
+        values = [str(places[one[1:-1]]()) if one.startswith("{") else one for one in values]
+        made += [bad[1], *values[1:]] if k == bad[0] else values
+    return made
