@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from itertools import zip_longest
 from typing import Any
 
+from ninedof.design.actuators import LEG_KINDS, price_words
 from ninedof.design.study import LENGTH
 from ninedof.sheet.rows import LimitRow, limit_amount
 from ninedof.sheet.sheet import Sheet, sheet
@@ -48,6 +49,8 @@ class Comparison:
     of the design, angles in radians."""
     sheets: tuple[Sheet, ...] = field(repr=False)
     """The sheet of each design."""
+    actuators: tuple[Any, ...] = ()
+    """The `Combination` of rows that the study of each design chose, None without a choice; () if none has one."""
 
     @property
     def broken(self) -> tuple[tuple[str, ...], ...]:
@@ -73,6 +76,8 @@ class Comparison:
             out.append(f"{name}, {over(one)}, worst at {pose_of(one, one.condition_number.pose)}")
         if any(one.tool for one in self.sheets):
             out.append("p is the point of the tool where a study has one, height p its height; zp is that of the plate")
+        if self.actuators:
+            out.append(Table("Actuators", self._columns("legs", WORDS), self._actuator_rows()))
         if self.limits:
             rows = [row for label, entry in self.limits.items() for row in _limit_rows(label, entry, self.sheets)]
             out.append(Table("Limits", self._columns("limit"), rows))
@@ -96,6 +101,17 @@ class Comparison:
 
     def _columns(self, first: str, form: str = RIGHT) -> list[Column]:
         return [Column(first), *(Column(name, "", form) for name in self.names)]
+
+    def _actuator_rows(self) -> list[list[str]]:
+        """Return for each kind of legs the row chosen, its lengths, the limits that it sets, and its price."""
+        each = list(zip(self.actuators, self.sheets, strict=True))
+        out = []
+        for kind in LEG_KINDS:
+            limits = [f"{kind}_{what}" for what in ("length", "force", "rate")]
+            cells = [_row_cells(getattr(one, kind, None), limits, of) for one, of in each]
+            heads = (kind, "  from", "  limits set", "  price of one")
+            out += [[head, *values] for head, values in zip(heads, zip(*cells, strict=True), strict=True)]
+        return [*out, ["price of all nine", *(_price(one) for one in self.actuators)]]
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values; angles of limits in radians."""
@@ -166,7 +182,31 @@ def compare(*designs: Any, names: Sequence[str] | None = None) -> Comparison:
         _differences([getattr(design, "study", None) for design in designs]),
         tuple(map(_outside, designs)),
         sheets,
+        _chosen(designs),
     )
+
+
+def _chosen(designs: Sequence[Any]) -> tuple[Any, ...]:
+    """Return the rows of each design; one that is changed and not optimized has those of its study."""
+    rows = [(getattr(one, "study", None), choice.chosen) for one in designs if (choice := _choice(one))]
+    own = [getattr(one, "study", None) for one in designs]
+    return tuple(next((row for of, row in rows if of == study), None) for study in own) if rows else ()
+
+
+def _choice(design: Any) -> Any:
+    return getattr(design, "actuators", None)
+
+
+def _row_cells(row: Any, limits: Sequence[str], of: Sheet) -> tuple[str, str, str, str]:
+    if row is None:
+        return "-", "", "", ""
+    known = {limit.name for limit in of.limits}
+    sets = ", ".join(name.rpartition("_")[2] for name in limits if name in known)
+    return row.name, amount(f"{row.shortest:g} to {row.longest:g}", of.unit), sets, _price(row)
+
+
+def _price(of: Any) -> str:
+    return "-" if of is None or of.price is None else price_words(of.price)
 
 
 def _beside(entries: Sequence[Mapping[str, Any]], missing: Any = None) -> dict[str, tuple[Any, ...]]:

@@ -175,6 +175,16 @@ def test_after_an_interruption_of_the_set_nothing_is_asked_around(run, study, tm
     assert "interrupted; to go on, type: ninedof admissible " in err
 
 
+def test_without_a_folder_nothing_is_kept_to_go_on_with(run, study, monkeypatch):
+    found = nd.admissible(nd.Study.load(study), ("a2", "b1"), at={"zp": 5.0, "zs": 3.0}, time_limit=0.0)
+    monkeypatch.setattr(nd, "admissible", lambda *_, **__: replace(found, interrupted=True))
+    status, out, err = run(f"admissible {study} {ASKED} 0.05")
+    assert status == 130
+    assert "Without --out nothing of it is kept." in out
+    assert err.startswith("ninedof: interrupted; to begin anew, type: ninedof admissible ")
+    assert err.endswith(" --out designs\n")
+
+
 def test_around_alone_names_the_limit_that_leaves_no_room(run, study):
     status, out, _ = run(f"admissible {study} --around --set a2=7.5 --set b1=3 --set zp=5 --set zs=3 --json")
     assert status == 0

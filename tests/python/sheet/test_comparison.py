@@ -92,6 +92,27 @@ def test_values_outside_of_the_bounds_of_their_study_are_named(machine):
 
 
 @pytest.mark.slow(sanitized=True)
+def test_the_actuators_of_machines_stand_beside_each_other(machine):
+    """The rows chosen, their lengths, the limits that they set, prices; a change keeps the rows of its study."""
+    long, short = nd.Actuator("long", 2.0, 9.0, price=120.5), nd.Actuator("short", 0.2, 2.5, price=80.0)
+    variables = machine.study.variables | {"a2": 5.0, "b1": 2.5, "zp": 4.0, "zs": 2.4}
+    study = replace(machine.study, variables=variables, constraints={}, objective={"poses": [{}]}, starts=1)
+    chosen = nd.optimize(replace(study, actuators=[long, short]))
+    names = [row.name for row in chosen.actuators.chosen.rows.values()]
+    price = 3 * sum({"long": 120.5, "short": 80.0}[name] for name in names)
+    both = nd.compare(chosen, machine, chosen.with_changes(zp="+1%"))
+    text = [" ".join(line.replace("│", " ").split()) for line in str(both).splitlines()]
+    for kind, name in zip(("external", "upper", "lower"), names, strict=True):
+        row = {"long": long, "short": short}[name]
+        k = text.index(f"{kind} {name} - {name}")
+        assert text[k + 1] == f"from {row.shortest:g} to {row.longest:g} mm {row.shortest:g} to {row.longest:g} mm"
+        assert text[k + 2] == "limits set length length"
+        assert text[k + 3] == f"price of one {row.price:g} {row.price:g}"
+    assert f"price of all nine {price:g} - {price:g}" in text
+    assert both.to_dict()["actuators"][1] is None
+    assert "Actuators" not in str(nd.compare(machine, machine))
+
+
 def test_a_change_of_nothing_changes_nothing_and_what_differs_in_the_studies(machine):
     same = machine.with_changes(b1=machine.variables["b1"])
     other = replace(same, study=replace(same.study, constraints=LIMITS | {"leg_ratio": (None, 2.9)}))

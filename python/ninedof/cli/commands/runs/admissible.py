@@ -24,6 +24,7 @@ from ninedof.tables import Table, columns
 PLACE = 4
 TIME, RESOLUTION = 300.0, 0.01
 SIDES = ("down", "up")
+DESIGNS = Path("designs")  # --out that is named where none was given
 WORDS = {"exists": "yes", "none": "no"}
 Ranges = Mapping[str, tuple[float, float] | None]
 EXAMPLES = """
@@ -81,7 +82,7 @@ def admissible(options: _Options) -> Answer:
         half_widths(question, _proportions(options.proportions))
     file = None if folder is None else admissible_file(folder, question)
     earlier = None if file is None else load_admissible(file, question)
-    goes_on()
+    goes_on(DESIGNS if file is None else None)
     how = _how(options) | {"at": at, "condition_number": options.condition, "resume": earlier}
     bars = screen.bar("boxes" if options.scheduler is None else "points", "designs")
     with executor_at(options.scheduler) as executor, bars as bar:
@@ -93,6 +94,8 @@ def admissible(options: _Options) -> Answer:
         screen.print("The time ended the search: a longer --time may decide more.")
         if file is not None:
             ended_by_time()
+    if file is None and designs.interrupted:
+        screen.print("Without --out nothing of it is kept.")
     own = isinstance(of, nd.Result) and not at
     if own and designs.state_of([[designs.of.at[name] for name in designs.vary]]) == [UNDECIDED]:
         why = " yet" if ended or designs.interrupted else ": an optimum reaches limits or ends of ranges exactly"
