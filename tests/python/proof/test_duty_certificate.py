@@ -16,6 +16,7 @@ import ninedof as nd
 
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0, "theta_z": 0.0}
 LIMITS = {"force": (None, 85.0), "rate": (None, 1.6), "power": (None, 112.0), "lower_force": (None, 83.0)}
+WEIGHTS = "gravity 0.4, 0, -9.81, mass of the platform 3, centre {} in the frame of the plate, of O 0.1"
 REGION = {"box": (0.1, 0.05, 0.05)}  # O is carried
 
 
@@ -35,11 +36,21 @@ def test_a_set_with_limits_of_forces_and_rates_is_replayed(lines, verdict):
     check = verdict(lines)
     assert check.proved, check.words
     assert "force at most 85" in check.study
-    assert "gravity 0.4, 0, -9.81, mass of the platform 3 at 0.1, -0.2, 0.3, of O 0.1" in check.study
+    assert WEIGHTS.format("(0.1, -0.2, 0.3)") in check.study
     assert "load of the moment 30, -20, 5, the force 20, 10, -20, the force on O 0, 0, 0" in check.study
     assert "speeds up to 0.7 and 0.4 rad (22.9183 deg) per time, O carried" in check.study
     for state in ("inside", "outside"):
         assert sum(f" {state}" in line for line in lines) > 20
+
+
+@pytest.mark.parametrize("rotation", [(0.0, 0.0, 0.0), (0.3, -0.2, 0.7)])
+def test_the_centre_of_the_mass_is_shown_in_the_frame_of_the_plate(tmp_path, rotation):
+    """As the study and the sheet have it; the file has it in the frame of the tool."""
+    tool = {"position": (0.5, 0.0, -0.3), "rotation": rotation}
+    study = nd.Study(variables=SIZES, constraints=LIMITS, objective={"region": REGION}, tool=tool, **DUTY)
+    designs = nd.admissible(study, ("a2", "b1"), resolution=0.9, time_limit=0.1)
+    check = nd.check_certificate(designs.save_certificate(tmp_path / "designs.certificate"))
+    assert WEIGHTS.format("(0.1, -0.2, 0.3)") in check.study
 
 
 @pytest.mark.slow

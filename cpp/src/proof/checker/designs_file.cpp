@@ -258,6 +258,23 @@ std::vector<std::string> robot_of(const DesignsFile& file) {
   return out;
 }
 
+/// A point of the tool's frame in that of the plate, six digits of it: for people, no part of a proof.
+std::string in_plate(const std::array<double, 6>& tool, const Triple& point) {
+  const Triple turn{tool[3], tool[4], tool[5]};
+  const double angle = std::hypot(turn[0], turn[1], turn[2]);
+  const double s = angle > 0.0 ? std::sin(angle) / angle : 1.0;
+  const double c = angle > 0.0 ? (1.0 - std::cos(angle)) / (angle * angle) : 0.5;
+  const auto crossed = [&](const Triple& v) {
+    return Triple{turn[1] * v[2] - turn[2] * v[1], turn[2] * v[0] - turn[0] * v[2], turn[0] * v[1] - turn[1] * v[0]};
+  };
+  const Triple once = crossed(point), twice = crossed(once);
+  Triple at{};
+  for (std::size_t k = 0; k < 3; ++k) at[k] = tool[k] + point[k] + s * once[k] + c * twice[k];
+  const double rounding = 1e-12 * (std::hypot(tool[0], tool[1], tool[2]) + std::hypot(point[0], point[1], point[2]));
+  const auto shown = [&](double x) { return digits(std::abs(x) > rounding ? x : 0.0, std::chars_format::general, 6); };
+  return "(" + shown(at[0]) + ", " + shown(at[1]) + ", " + shown(at[2]) + ")";
+}
+
 std::vector<std::string> designs_of(const DesignsFile& file) {
   std::vector<std::string> out{file.family + " designs with 0 < zs < zp"};
   for (const Bound& one : file.variables) out.push_back(said(one.name, one.range));
@@ -283,8 +300,9 @@ std::vector<std::string> designs_of(const DesignsFile& file) {
 std::vector<std::string> question_of(const DesignsFile& file) {
   std::vector<std::string> out = file.space.present() ? robot_of(file) : designs_of(file);
   if (const DutyLines& duty = file.duty; !duty.internal.empty()) {
-    out.push_back("gravity " + plain(duty.gravity) + ", mass of the platform " + digits(duty.platform) + " at " +
-                  plain(duty.centre) + ", of O " + digits(duty.internal_point));
+    out.push_back("gravity " + plain(duty.gravity) + ", mass of the platform " + digits(duty.platform) + ", centre " +
+                  in_plate(file.tool, duty.centre) + " in the frame of " +
+                  (file.space.present() ? "its joints" : "the plate") + ", of O " + digits(duty.internal_point));
     for (int leg = 0; leg < 9; ++leg)
       if (const auto& m = duty.legs[static_cast<std::size_t>(leg)]; m != std::array<double, 4>{})
         out.push_back(std::string(name_of_leg(leg)) + ": mass of the cylinder " + digits(m[0]) + " at " + digits(m[1]) +
