@@ -12,6 +12,7 @@ import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import pairwise
 from threading import current_thread, main_thread
 from time import monotonic
 from traceback import walk_tb
@@ -153,5 +154,5 @@ def _as_option(name: str, arguments: Sequence[str]) -> str:
         if any(word == option or word.startswith(f"{option}=") for word in arguments):
             return " ".join([option, *of])
     words = [word for one in arguments for word in one.split("=")]
-    pairs = [(option, word) for option, word in zip(words, words[1:], strict=False) if option in NAMING]
+    pairs = [(option, word) for option, word in pairwise(words) if option in NAMING]
     return next((f"{option} {word}" for option, word in pairs if name in (word, plain_name(word))), "")

@@ -87,11 +87,11 @@ def _over_poses(result: nd.InternalPoint, now: Floats, words: str, small: bool) 
 
 def _words(at: DesignAtPoses, result: nd.InternalPoint, now: Floats, words: str) -> Iterator[str]:
     """Yield O and the criterion at one pose, as they are and at the best."""
+    here, there = (amount(vector_words(c.internal_point[0]), at.unit) for c in (at.c, result.configuration))
     if not np.isnan(now[0]):
-        yield f"O now {_point(at.c.internal_point[0], at.unit)}: {words} {now[0]:.6g}"
+        yield f"O now {here}: {words} {now[0]:.6g}"
     if not np.isnan(result.value[0]):
-        place = _point(result.configuration.internal_point[0], at.unit)
-        yield f"best O {place}: {words} {result.value[0]:.6g}"
+        yield f"best O {there}: {words} {result.value[0]:.6g}"
     yield f"{result.status[0]}; limits reached: {', '.join(result.active[0]) or 'nothing'}"
 
 
@@ -107,14 +107,10 @@ def _table(at: DesignAtPoses, result: nd.InternalPoint, now: Floats, words: str,
         place, centre = (
             ["-" if math.isnan(x) else fixed(x, decimals) for x in row] for row in (c.position[k], points[k])
         )
-        values = ("-" if math.isnan(x) else f"{x:.4g}" for x in (now[k], result.value[k]))
+        values = ("-" if math.isnan(x) else f"{x:#.4g}" for x in (now[k], result.value[k]))
         status = str(result.status[k])
         why = ", ".join([*([] if status == "found" else [status]), *result.active[k]])
         rows.append((str(k), *place, *values, *centre, why))
     if not any(row[-1] for row in rows):
         heads, rows = heads[:-1], [row[:-1] for row in rows]
     return Table(f"Best places of O by {words}", heads, rows)
-
-
-def _point(values: Floats, unit: str) -> str:
-    return amount(vector_words(float(f"{x:.4g}") for x in values), unit)
