@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 HEIGHT = 2.75  # inches
 REACH = 1.5  # half a panel of a plan, in sizes of its plate
 AXIS, ARCS = 0.15, (0.45, 0.75)  # of a plan, in sizes of its plate: of the axes, radii of the angles
-LETTER, LINE = 4.3, 8.5  # points, of a letter and a line of the smallest words
+LETTER, LINE = 4.8, 9.5  # points, of a letter and a line of the smallest words
 LEADERS = (1.0, 2.5, 3.5, 5.0, 7.0)
 """Distances of the name of a leg, the first beside it."""
 JOINTS = {
@@ -219,6 +219,7 @@ class _Panel:
         for tool in points[13:]:
             self.line(np.array([p, tool]), color=style.REGION, lw=1.6)
             self.axes.plot(*tool, "v", color=style.REGION, ms=5.0, mec="white", mew=0.5, zorder=7)
+            self.places.words.append(rectangle(tool, 7.0 * self.point, 7.0 * self.point))
             self.write("tool", self.beside(tool, "tool", tool - p)[:36], style.REGION)  # near it, whatever it covers
         for name, start, end in legs:
             self._name(name, start, end)

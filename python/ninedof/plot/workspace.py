@@ -30,6 +30,7 @@ LOWER = 1.93  # inches, the height of the lower row
 USUAL, MORE = 95, 0.5  # the colours end at this percentile, or at the greatest value if it is so little above it
 BOUNDARY = 2.2  # points
 DASHED = (0, (3, 1.5))
+REGION = (0, (8, 2))  # in grey print the boundary of the estimate beside it is as dark
 
 Look = tuple[str, str, Any]
 """Words, colour, dashes."""
@@ -44,7 +45,7 @@ KINDS: dict[str, Look] = {  # limits, by a part of their names; others look like
     "force": ("leg force", "#332288", (0, (4.0, 0.8, 1.0, 0.8))),
     "rate": ("leg rate", "#661100", (0, (2.0, 0.8, 1.0, 0.8))),
     "power": ("leg power", "#DDAA33", (0, (4.0, 0.8, 2.0, 0.8))),
-    "condition_number": ("condition number", style.INK, "-"),
+    "condition_number": ("condition number", style.INK, (0, (7.0, 0.8, 0.9, 0.8))),
     "det": ("singularity", "#CC3311", (0, (1.5, 0.6))),
     "region": ("region", "#000000", (0, (2.0, 1.6))),  # grey is a colour of the condition number
     "box": ("box of the map", "#000000", (0, (2.0, 1.6))),
@@ -296,7 +297,7 @@ def _marks(axes: Any, section: Section, turn: Any, unit: str, region: str) -> No
             low, high = turn(section.box)
             axes.add_patch(Rectangle(low, *(high - low), **line, ls=dashes))
     if section.region is not None:
-        axes.plot(*turn(section.region).T, color=region, lw=1.3, path_effects=[style.rim(2.4)], zorder=6)
+        axes.plot(*turn(section.region).T, color=region, lw=1.3, ls=REGION, path_effects=[style.rim(2.4)], zorder=6)
     if section.home is not None:
         axes.plot(*turn(section.home), **style.HOME)
     s = section.plane
@@ -309,7 +310,7 @@ def _marks(axes: Any, section: Section, turn: Any, unit: str, region: str) -> No
 def _legend(figure: Any, keys: list[Any], sections: Sequence[Section], region: str, columns: int) -> None:
     ring = {"lw": 0.9, "marker": "o", "ms": 7, "mfc": "none", "ls": ""}
     marks = {
-        "region": style.key(region, lw=1.3, label="region of the study"),
+        "region": style.key(region, lw=1.3, ls=REGION, label="region of the study"),
         "ball": style.key(style.INK, **ring, label="largest ball"),
         "box": style.key(style.INK, lw=0.9, ls=DASHED, label="largest box"),
         "home": style.key(**style.HOME, label="home"),

@@ -177,6 +177,44 @@ def test_bad_input_is_named():
 # --- The drawing ------------------------------------------------------------------------------------------------------
 
 
+def cylinder_machine():
+    """A machine in inches with joints apart and a tool beside the axis."""
+    names = ("base_external", "base_internal", "platform_external", "platform_internal")
+    radii, angles = (24.0, 13.9712, 4.7201, 5.5381), (0.0, -168.6636, -72.5753, 123.4541)
+    turns = [np.radians(start - 120.0 * np.arange(3)) for start in angles]
+    g = nd.Geometry(
+        **{
+            name: radius * np.column_stack([np.cos(turn), np.sin(turn), np.zeros(3)])
+            for name, radius, turn in zip(names, radii, turns, strict=True)
+        }
+    )
+    tool = nd.Tool(position=(0.5, 0.0, -3.0))
+    return *tool.robot(g, nd.Configuration.neutral(15.0209, 8.7622)), "in", tool
+
+
+def hexagon(a2, b1, zp, zs):
+    return nd.Geometry.hexagonal(0.0, a2, b1, 0.0), nd.Configuration.neutral(zp, zs), "mm", None
+
+
+@pytest.mark.parametrize(
+    "machine",
+    [hexagon(850.0, 292.9081, 483.347, 319.3246), hexagon(850.0, 227.9324, 373.7127, 257.029), cylinder_machine()],
+    ids=["requirement", "actuators", "a tool"],
+)
+def test_names_in_the_front_view_cover_no_other_name_and_no_tool(machine):
+    figure = plot.drawing(*machine)
+    front = figure.axes[2]
+    figure.canvas.draw()
+    boxes = {text.get_text(): text.get_window_extent() for text in front.texts if text.get_text()}
+    names = [name for name in boxes if len(name) <= 4]
+    assert set(LEGS) | {"O"} <= set(names)
+    over = [(a, b) for k, a in enumerate(names) for b in names[:k] if boxes[a].overlaps(boxes[b])]
+    assert not over
+    for mark in [line for line in front.lines if line.get_marker() == "v"]:
+        at = front.transData.transform(mark.get_xydata()[0])
+        assert not [name for name in names if boxes[name].contains(*at)]
+
+
 @pytest.mark.slow(sanitized=True)
 @pytest.mark.parametrize("geometry", ["coupled", "hexagonal", "inner joints"])
 def test_the_drawing_has_every_dimension_of_the_plates_and_the_heights(geometry):

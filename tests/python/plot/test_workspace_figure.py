@@ -50,6 +50,16 @@ def test_bounds_are_drawn_in_the_style_of_their_limits():
     assert len({str(KINDS[kind][2]) for kind in "lqr"}) == 3  # kinds differ without colours
 
 
+def test_no_two_kinds_of_bounds_are_alike_in_black_and_white():
+    dashes = [str(look[2]) for name, look in KINDS.items() if name != "box"] + [str(OTHER[1])]  # box or region
+    assert len(set(dashes)) == len(dashes)
+    outline = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]])
+    drawn = replace(section(np.full((8, 8), 4.0), 1), region=outline)
+    (legend,) = plot.workspace(space(names=["l1 low"]), [drawn]).legends
+    (line,) = [line for line in legend.get_lines() if line.get_label() == "region of the study"]
+    assert line.is_dashed()  # the boundary of the estimate is not
+
+
 def test_the_legend_names_no_limit_that_the_boundary_does_not_meet():
     drawn = section(np.full((8, 8), 4.0), 1)
     drawn.plane.state[3, 3], drawn.plane.limit[3, 3] = 1, 0  # a cell that no line passes

@@ -213,6 +213,14 @@ def test_a_report_has_at_most_four_pages_and_no_table_is_torn_or_cut(browser, tm
     assert browser.run(OVERLAP) == 0
 
 
+@pytest.mark.parametrize(("kind", "columns"), [("optimization", "auto"), ("workspace", "4")])
+def test_what_was_asked_is_in_columns_on_paper(browser, pages, kind, columns):
+    """In one column the record of a path or a workspace filled pages; commands are lines."""
+    browser.open(pages[kind], PAPER, 1000, media="print")
+    of = "[...document.querySelectorAll('#again > pre')].map((e) => getComputedStyle(e).columnCount)"
+    assert browser.run(of)[-1] == columns
+
+
 def test_no_third_of_the_page_is_empty(browser, pages):
     browser.open(pages["optimization"], 1280, 800)
     right = "Math.max(...[...document.querySelectorAll('section .table, section figure, section p')].map("
