@@ -31,15 +31,10 @@ PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # What typer raises for options that it cannot read; without a type, as it has no name there.
 ClickException = BadParameter.__mro__[2]
 SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
-# Arguments whose option has another name, and options whose values name what they are of: --set zp=480.
-OPTIONS = {
-    "at": "set",
-    "changes": "set",
-    "characteristic_length": "lc",
-    "condition_number": "condition",
-    "radius": "circle",
-    "time_limit": "time",
-}
+# Arguments whose option has another name; of those that are something else too, where the option was typed.
+OPTIONS = {"at": "set", "condition_number": "condition", "time_limit": "time"}
+IF_TYPED = OPTIONS | {"changes": "set", "characteristic_length": "lc", "radius": "circle"}
+# Options whose values name what they are of: --set zp=480.
 NAMING = ("--set", "--vary", "--over")
 ONE_PRESS = 0.1  # seconds: a terminal and a program in between may both hand on one Ctrl-C
 
@@ -149,9 +144,9 @@ def _as_option(name: str, arguments: Sequence[str]) -> str:
     if not (parts := re.fullmatch(r"(\w+)(?:\.(\w+)|\['(\w+)'\])?", name)):
         return ""
     argument, *of = (part for part in parts.groups() if part)
-    own = OPTIONS.get(argument, argument)
+    own = IF_TYPED.get(argument, argument)
     for option in (typed(own), typed(f"{own}{DEG}")):
-        if any(word == option or word.startswith(f"{option}=") for word in arguments):
+        if argument in OPTIONS or any(word == option or word.startswith(f"{option}=") for word in arguments):
             return " ".join([option, *of])
     words = [word for one in arguments for word in one.split("=")]
     pairs = [(option, word) for option, word in pairwise(words) if option in NAMING]

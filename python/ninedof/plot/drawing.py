@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 HEIGHT = 2.75  # inches
 REACH = 1.5  # half a panel of a plan, in sizes of its plate
 AXIS, ARCS = 0.15, (0.45, 0.75)  # of a plan, in sizes of its plate: of the axes, radii of the angles
-LETTER, LINE = 4.8, 9.5  # points, of a letter and a line of the smallest words
+LETTER, LINE = 4.3, 8.5  # points, of a letter and a line of the smallest words
 LEADERS = (1.0, 2.5, 3.5, 5.0, 7.0)
 """Distances of the name of a leg, the first beside it."""
 JOINTS = {
@@ -229,7 +229,7 @@ class _Panel:
         share = 0.5 + 0.05 * np.array([0, -1, 1, -2, 2, -3, 3, -4, 4, -5, 5, -6, 6])[:, None]
         x, z = (end - start) / max(float(np.linalg.norm(end - start)), 1e-300)
         on_leg, out = np.tile(start + share * (end - start), (2, 1)), 6.5 * self.point * np.array([z, -x])
-        colour, size = style.LEG_COLOURS[name[0]], np.array([LETTER * len(name), LINE]) * self.point
+        colour, size = style.LEG_COLOURS[name[0]], np.array([LETTER * len(name) + 2.0, LINE + 1.0]) * self.point
         aside = np.repeat([out, -out], len(share), axis=0)
         for reach in LEADERS:
             spots = on_leg + reach * aside

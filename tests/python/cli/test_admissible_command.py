@@ -111,8 +111,8 @@ def test_a_run_gives_the_other_variables(run, study, tmp_path):
     ("line", "words"),
     [
         ("--vary a3", "--vary: got 'a3', expected variables of the study: a1, a2"),
-        ("--vary a1", "vary.a1: got a variable that is fixed in the study, expected its ends too, (low, high)"),
-        ("--vary a2=8:2", "vary.a2: got (8, 2), expected low < high"),
+        ("--vary a1", "--vary a1: got a variable that is fixed in the study, expected its ends too, (low, high)"),
+        ("--vary a2=8:2", "--vary a2: got (8, 2), expected low < high"),
         ("--vary a2=1", "--vary: got a2=1, expected NAME or NAME=LOW:HIGH"),
         ("--vary a2", "--set: got no b1, expected a value"),
         ("--vary a2 --set b1=x", "--set: got 'b1=x', expected NAME=VALUE"),
