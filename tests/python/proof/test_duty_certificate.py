@@ -43,7 +43,7 @@ def test_a_set_with_limits_of_forces_and_rates_is_replayed(lines, verdict):
         assert sum(f" {state}" in line for line in lines) > 20
 
 
-@pytest.mark.parametrize("rotation", [(0.0, 0.0, 0.0), (0.3, -0.2, 0.7)])
+@pytest.mark.parametrize("rotation", [(0.0, 0.0, 0.0), (0.3, -0.2, 0.7), (3.0, 0.5, 0.0)])
 def test_the_centre_of_the_mass_is_shown_in_the_frame_of_the_plate(tmp_path, rotation):
     """As the study and the sheet have it; the file has it in the frame of the tool."""
     tool = {"position": (0.5, 0.0, -0.3), "rotation": rotation}

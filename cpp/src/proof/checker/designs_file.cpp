@@ -1,8 +1,10 @@
 #include "proof/checker/designs_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "proof/checker/line_words.hpp"
+#include "proof/checker/linear.hpp"
 
 namespace ninedof::checker::sets {
 namespace {
@@ -258,21 +260,30 @@ std::vector<std::string> robot_of(const DesignsFile& file) {
   return out;
 }
 
-/// A point of the tool's frame in that of the plate, six digits of it: for people, no part of a proof.
-std::string in_plate(const std::array<double, 6>& tool, const Triple& point) {
-  const Triple turn{tool[3], tool[4], tool[5]};
-  const double angle = std::hypot(turn[0], turn[1], turn[2]);
-  const double s = angle > 0.0 ? std::sin(angle) / angle : 1.0;
-  const double c = angle > 0.0 ? (1.0 - std::cos(angle)) / (angle * angle) : 0.5;
+/// The centre of the platform's mass as the study has it, in the frame of the plate; the file has it in the tool's. Six
+/// digits of it: for people, no part of a proof.
+std::string centre_of_mass(const DesignsFile& file) {
+  const Triple turn{file.tool[3], file.tool[4], file.tool[5]}, &point = file.duty.centre;
+  const Linear squared = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2];
+  const Linear s = of_angle_squared(squared, 1), c = of_angle_squared(squared, 2);
+  const bool known = s.r < 1.0 && c.r < 1.0;  // not of a turn by more than that of poses
   const auto crossed = [&](const Triple& v) {
     return Triple{turn[1] * v[2] - turn[2] * v[1], turn[2] * v[0] - turn[0] * v[2], turn[0] * v[1] - turn[1] * v[0]};
   };
   const Triple once = crossed(point), twice = crossed(once);
-  Triple at{};
-  for (std::size_t k = 0; k < 3; ++k) at[k] = tool[k] + point[k] + s * once[k] + c * twice[k];
-  const double rounding = 1e-12 * (std::hypot(tool[0], tool[1], tool[2]) + std::hypot(point[0], point[1], point[2]));
-  const auto shown = [&](double x) { return digits(std::abs(x) > rounding ? x : 0.0, std::chars_format::general, 6); };
-  return "(" + shown(at[0]) + ", " + shown(at[1]) + ", " + shown(at[2]) + ")";
+  Triple at = point;
+  double size = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (known) at[k] += file.tool[k] + s.c * once[k] + c.c * twice[k];
+    size = std::max({size, std::abs(file.tool[k]), std::abs(point[k])});
+  }
+  const auto shown = [&](double x) {
+    return digits(std::abs(x) > 1e-12 * size ? x : 0.0, std::chars_format::general, 6);
+  };
+  return "(" + shown(at[0]) + ", " + shown(at[1]) + ", " + shown(at[2]) + ") in the frame of " +
+         (file.space.present() ? "its joints"
+          : known              ? "the plate"
+                               : "the tool");
 }
 
 std::vector<std::string> designs_of(const DesignsFile& file) {
@@ -301,8 +312,7 @@ std::vector<std::string> question_of(const DesignsFile& file) {
   std::vector<std::string> out = file.space.present() ? robot_of(file) : designs_of(file);
   if (const DutyLines& duty = file.duty; !duty.internal.empty()) {
     out.push_back("gravity " + plain(duty.gravity) + ", mass of the platform " + digits(duty.platform) + ", centre " +
-                  in_plate(file.tool, duty.centre) + " in the frame of " +
-                  (file.space.present() ? "its joints" : "the plate") + ", of O " + digits(duty.internal_point));
+                  centre_of_mass(file) + ", of O " + digits(duty.internal_point));
     for (int leg = 0; leg < 9; ++leg)
       if (const auto& m = duty.legs[static_cast<std::size_t>(leg)]; m != std::array<double, 4>{})
         out.push_back(std::string(name_of_leg(leg)) + ": mass of the cylinder " + digits(m[0]) + " at " + digits(m[1]) +
