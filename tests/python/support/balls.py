@@ -4,18 +4,17 @@ A `Form` is an array; the last axis of its `x` holds each number in the middle o
 along the coordinates over the box.
 """
 
-import math
-from functools import cache
-
 import numpy as np
-from flint import arb
+from flint import arb, arb_mat
 
+UNIT = arb(0, 1)
 _balls = np.frompyfunc(arb, 1, 1)
-_square = np.frompyfunc(lambda v: (v.abs_lower() * v.abs_lower()).union(v.abs_upper() * v.abs_upper()), 1, 1)
-_root = np.frompyfunc(lambda v: v.sqrt() if v > 0 else arb(0).union(v.abs_upper().sqrt()), 1, 1)
-_share = np.frompyfunc(lambda v, size: v / size if size > 0 else arb(0, 1), 2, 1)
-_sign = np.frompyfunc(lambda v: 1 if v > 0 else -1 if v < 0 else arb(0, 1), 1, 1)
-_upper = np.frompyfunc(lambda v: v.abs_upper(), 1, 1)
+_root = np.frompyfunc(lambda v: v.nonnegative_part().sqrt(), 1, 1)
+_share = np.frompyfunc(lambda v, size: (v / size).intersection(UNIT) if size > 0 else UNIT, 2, 1)
+_meet = np.frompyfunc(lambda v, w: v.intersection(w) if v.is_finite() and w.is_finite() else w, 2, 1)
+_sign, _sine = np.frompyfunc(arb.sgn, 1, 1), np.frompyfunc(arb.sinc, 1, 1)
+_larger, _either = np.frompyfunc(arb.max, 2, 1), np.frompyfunc(arb.union, 2, 1)
+_size = np.vectorize(lambda v: float(v.abs_upper()), otypes=[float])
 
 
 def balls(values):
@@ -32,11 +31,9 @@ class Form:
     @classmethod
     def coordinates(cls, middles, ends, free):
         """Numbers between their ends, of which some are free."""
-        x = np.full((len(ends), 2 + len(free)), arb(0), object)
-        for k, (low, high) in enumerate(ends):
-            x[k, :2] = arb(middles[k]), arb(low).union(arb(high))
-        for slope, k in enumerate(free):
-            x[k, 2 + slope] = arb(1)
+        x = balls(np.zeros((len(ends), 2 + len(free))))
+        x[:, 0], x[:, 1] = balls(middles), [arb(low).union(arb(high)) for low, high in ends]
+        x[free, 2 + np.arange(len(free))] = arb(1)
         return cls(x)
 
     def __getitem__(self, key):
@@ -79,24 +76,25 @@ class Form:
         out[..., :2] = f(self.x[..., :2])
         return Form(out)
 
-    def root(self):
-        return self.of(np.sqrt, lambda v: 0.5 / np.sqrt(v))
-
-    def log(self):
-        return self.of(np.log, lambda v: 1 / v)
-
     def sum(self, axis=-1):
         return Form(self.x.sum(axis - 1 if axis < 0 else axis))
 
     def norm(self):
         """Of the vectors along the last axis, at zero too, where its slope is that along some unit vector."""
-        size = np.asarray(_root(_square(self.x[..., :2]).sum(-2)))
+        size = np.asarray(_root((self.x[..., :2] * self.x[..., :2]).sum(-2)))
         out = (_share(self.x[..., 1], size[..., 1:])[..., None] * self.x).sum(-2)
         out[..., :2] = size
         return Form(out)
 
     def unit(self):
         return self / self.norm()[..., None]
+
+    def max(self):
+        """The greatest of a vector; its slopes are those of any number that may be it."""
+        most = _larger.reduce(self.x[:, :2])
+        out = _either.reduce(self.x[~(self.x[:, 1] < most[1])])
+        out[:2] = most
+        return Form(out)
 
     def reshape(self, *shape):
         return Form(self.x.reshape(*shape, self.x.shape[-1]))
@@ -110,20 +108,18 @@ class Form:
         return self.x[..., 0].astype(float)
 
     def moves(self, half):
-        """How far each coordinate moves each number, upper bounds."""
-        return _upper(self.x[..., 2:]) * half
+        """About how far each coordinate moves each number."""
+        return _size(self.x[..., 2:] * half)
 
-    def ends(self, half):
-        """Lower and upper bounds of each number, the better ones of the mean value theorem and of the ball alone."""
-        reach = self.moves(half).sum(-1) if len(half) else 0 * self.x[..., 0]
-        both = np.stack([self.x[..., 0] - reach, self.x[..., 0] + reach, self.x[..., 1]], -1).reshape(-1, 3)
-        out = [[_low(low, v), -_low(-high, -v)] for low, high, v in both]
-        return np.moveaxis(np.array(out).reshape(*self.x.shape[:-1], 2), -1, 0)
+    def over(self, half):
+        """Balls of the numbers over the box: what the mean value theorem and the formula itself both allow."""
+        return _meet(self.x[..., 0] + (self.x[..., 2:] * half * UNIT).sum(-1), self.x[..., 1])
 
-
-def _low(*bounds):
-    """A float with the sign of the best lower bound of a number that is known."""
-    return max((float(b.lower()) for b in bounds if b.is_finite() and bounds[-1].is_finite()), default=-math.inf)
+    def tight(self, half):
+        """The same numbers, over the box as the mean value theorem has them."""
+        out = self.x.copy()
+        out[..., 1] = self.over(half)
+        return Form(out)
 
 
 def stack(forms, join=np.stack):
@@ -144,35 +140,28 @@ def det(rows):
     return dot(rows[..., 0, :], cross(rows[..., 1, :], rows[..., 2, :]))
 
 
-def solve(columns, right):
-    """x of sum x_k column_k = right, by Cramer's rule after a change of axes to near the identity."""
-    change = np.linalg.pinv(np.nan_to_num(columns.middle))
-    columns, right = columns @ change, right @ change
-    minors = stack([cross(columns[(k + 1) % 3], columns[(k + 2) % 3]) for k in range(3)])
-    return dot(minors, right[..., None, :]) / dot(minors[0], columns[0])
+def solve(a, b):
+    """x of a x = b, a being near the identity after a change of rows; nan where its balls may be singular."""
+    change = arb_mat(np.linalg.pinv(np.nan_to_num(a.middle)).tolist())
+    a, b = ([change * arb_mat(layer.tolist()) for layer in np.moveaxis(one.x, -1, 0)] for one in (a, b))
+    inverse = [layer.inv(nonstop=True) for layer in a[:2]]
+    x = [inverse[k] * b[k] for k in (0, 1)]
+    slopes = [inverse[1] * (right - left * x[1]) for left, right in zip(a[2:], b[2:], strict=True)]
+    return Form(np.stack([np.array(layer.tolist(), object) for layer in (*x, *slopes)], -1))
+
+
+def _sinc(v):
+    """Its slope is -v / 3 + v^3 / 30 at most, and -v / 3 at least: it is -t sin(v t), t from 0 to 1, summed."""
+    return v.of(_sine, lambda v: v**3 * (arb(1, 1) / 60) - v * (arb(1) / 3))
 
 
 def turn(a):
     """The rotation matrix of a rotation vector."""
     k = stack([stack([0 * a[0], -a[2], a[1]]), stack([a[2], 0 * a[0], -a[0]]), stack([-a[1], a[0], 0 * a[0]])])
-    s, c = (dot(a, a).of(lambda u, n=n: _series(u, n), lambda u, n=n: _series(u, n, 1)) for n in (1, 2))
-    return k * s + k @ k * c + np.eye(3)
+    s, c = _sinc(a.norm()), _sinc(a.norm() * 0.5)
+    return k * s + k @ k * (c * c * 0.5) + np.eye(3)
 
 
 def about_z(angle):
     c, s = angle.of(np.cos, lambda v: -np.sin(v)), angle.of(np.sin, np.cos)
     return stack([stack([c, -s, 0 * c]), stack([s, c, 0 * c]), stack([0 * c, 0 * c, 0 * c + 1])])
-
-
-@np.vectorize(otypes=[object])
-def _series(u, shift, order=0):
-    """The sum of (-u)^n / (2n + shift)!, or its derivative: sin(v)/v and (1 - cos v)/v^2 of u = v^2 up to 100."""
-    total = arb(0) if abs(u) < 100 else arb.nan()
-    for n in range(30, order - 1, -1):
-        total = total * u + _term(n, shift, order)
-    return total + arb(0, 1e-20)
-
-
-@cache
-def _term(n, shift, order):
-    return arb((-1) ** n * n**order) / math.factorial(2 * n + shift)

@@ -61,10 +61,18 @@ def logarithms(v):
     transverse = (1.5 * u * u * eta * eta * h2 / (n * stretch), 1.5 * slant, 1.5 * stretch * w1)
     out = []
     for g2, f2, w2 in (axial, transverse):
-        g, w = g2.root(), w2.root()
-        top = 0.5 * (((g + w) * (g + w) + f2).root() + ((g - w) * (g - w) + f2).root())
-        out += [top.log(), (g * w / top).log()]
+        g, w = root(g2), root(w2)
+        top = 0.5 * (root((g + w) * (g + w) + f2) + root((g - w) * (g - w) + f2))
+        out += [log(top), log(g * w / top)]
     return out
+
+
+def root(v):
+    return v.of(np.sqrt, lambda x: 0.5 / np.sqrt(x))
+
+
+def log(v):
+    return v.of(np.log, lambda x: 1 / x)
 
 
 def excluded(ends, target, weights):
@@ -78,7 +86,7 @@ def excluded(ends, target, weights):
     ]
     a, b = (arb(w) for w in weights[:2])
     mix = sum(w * row for w, row in zip((1 - a, -(1 - b), a, -b), logarithms(v), strict=True))
-    return (mix - arb(target).log()).ends(np.array(half))[0] >= 0.0
+    return (mix - arb(target).log()).over(np.array(half)) >= 0
 
 
 def closed(ends, target, weights, depth=15):
