@@ -1,40 +1,18 @@
 """Certificates of workspaces: replayed by the checker; changed ones are refused, or what they say is true."""
 
-import zlib
-
 import numpy as np
 import pytest
-from forged import lines_of, spelled, verdict_of, with_word
+from forged import spelled, verdict_of, with_word
+from forged_workspace import AXES, BOX, LEGS, drawn_volume, leaves_of, parts_of, proof_of, sealed
 
 import ninedof as nd
 
-FIRST = b"ninedof certificate of a workspace 1\nchecksum "
 INCH = 1.0 / 25.4
-LEGS = {"leg_limits": (2.5, 6.5)}
-BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])
-HOME = nd.Configuration.neutral(zp=4.8, zs=2.4)
-AXES = np.array([[0.96, 0.0, 0.28], [0.0, 1.0, 0.0], [-0.28, 0.0, 0.96]])
-
-
-def sealed(head, tree):
-    body = "".join(f"{line}\n" for line in head).encode() + tree
-    return FIRST + f"{zlib.crc32(body):x}\n".encode() + body
-
-
-def parts_of(data):
-    """The lines below the checksum, and the tree."""
-    size = int(data[data.index(b"\ntree ") + 6 :].split(b"\n", 1)[0])
-    return lines_of(data[: len(data) - size]), data[len(data) - size :]
 
 
 @pytest.fixture
 def verdict(tmp_path):
     return lambda data: verdict_of(data, tmp_path)
-
-
-def proof_of(robot, box=BOX, gap=0.3, **question):
-    question.setdefault("home", HOME)
-    return nd.certified_workspace(robot, box, gap=gap, **question)
 
 
 QUESTIONS = {
@@ -105,29 +83,6 @@ def data(published):
     return proof_of(published, near, criteria=LEGS | {"condition_number": 5.0}).certificate.tobytes()
 
 
-def drawn_volume(lines, rng):
-    """The volume that the question of a file has, by random positions, and four times the largest standard error."""
-    rows = {}
-    for line in lines:
-        key, *words = line.split(" ")
-        rows.setdefault(key, []).append(words)
-    robot = nd.Geometry(*np.array([[float.fromhex(x) for x in words] for words in rows["joint"]]).reshape(4, 3, 3))
-    low, high = np.array([float.fromhex(x) for x in rows["space"][0]]).reshape(2, 3)
-    p = rng.uniform(low, high, (6000, 3))
-    q = np.array([float.fromhex(x) for x in rows["rotation"][0]]).reshape(3, 3)
-    lower, upper = robot.base_internal.mean(axis=0), p + q @ robot.platform_internal.mean(axis=0)
-    s = lower + float.fromhex(rows["internal_point"][0][4]) * (upper - lower)
-    poses = nd.Configuration(p, np.broadcast_to(q, (len(p), 3, 3)), s)
-    bounds = {words[0]: [float.fromhex(x) if "x" in x else np.inf for x in words[1:3]] for words in rows["limit"]}
-    lengths = nd.leg_lengths(robot, poses)
-    kept = np.ones(len(p), bool)
-    for k, name in enumerate(["l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"]):
-        kept &= (bounds[name][0] <= lengths[:, k]) & (lengths[:, k] <= bounds[name][1])
-    length = float.fromhex(rows["characteristic_length"][0][0])
-    kept &= nd.condition_number(robot, poses, length) <= bounds["condition_number"][1]
-    return kept.mean() * np.prod(high - low), 4.0 * np.prod(high - low) * np.sqrt(0.25 / len(p))
-
-
 @pytest.mark.slow
 def test_digits_edited_at_random_are_refused_or_true(data, verdict):
     head, tree = parts_of(data)
@@ -157,16 +112,6 @@ def test_bytes_of_the_tree_edited_at_random_prove_nothing_else(data, verdict):
             proved += 1
             assert found.words == original.words
     assert proved < 35
-
-
-def leaves_of(tree):
-    """Where each leaf begins."""
-    at = 0
-    while at < len(tree):
-        code = tree[at]
-        if code > 5:
-            yield at
-        at += 1 if code < 3 else 9 if code < 6 else 5 if code == 18 else 1
 
 
 def test_what_a_box_is_called_has_to_be_true(data, verdict):
