@@ -8,13 +8,14 @@ import math
 from itertools import combinations, product
 
 import numpy as np
-from balls import balls, cross, dot, solve, stack
+from balls import balls, cross, det, dot, solve, stack
 from flint import arb
 
 KINDS = {"external": slice(0, 3), "upper": slice(3, 6), "lower": slice(6, 9)}
 # Pairs of legs that may meet: 0 to 2 external ones, then each external one with the six internal ones.
 PAIRS = np.array([(0, 1), (1, 2), (2, 0), *product(range(3), range(3, 9))])
 SPACED = np.array(list(combinations(range(6), 2)))
+LOCKED = 4.0
 LENGTH, DUTY = "<> zp", ("force", "rate", "power")
 
 
@@ -128,30 +129,43 @@ def cone(body, joints):
     return "<", 1, margins
 
 
-def condition(w, m, kept):
-    """Of S, the squares of the rates for a twist with O free: rates are A t + B o with the velocity o of O."""
+def condition(w, m, kept, locked=None):
+    """Of S, the squares of the rates for a twist with O free: rates are A t + B o with the velocity o of O.
+
+    The rate of a locked leg is 0: for an upper bound O gives way along it, for a lower one it counts a few times.
+    """
     (length,), rates = m.file["characteristic_length"], m.at[0].rates
     twists, inner = rates[:, :6] * np.array([1] * 3 + [1 / arb(length)] * 3, object), rates[:, 6:]
+    weight = np.array([[LOCKED if k == locked else 1.0] for k in range(9)])
+    twists, inner = twists * weight, inner * weight
     a, b = twists.middle, inner.middle
     best = -np.linalg.lstsq(b, a, rcond=None)[0]
     vectors = np.linalg.eigh((a + b @ best).T @ (a + b @ best))[1]
     # Columns, of which t S t is at most the squares: those of any o are.
-    by = (twists @ vectors + inner @ (best @ vectors)).tight(m.half)
+    by = most = (twists @ vectors + inner @ (best @ vectors)).tight(m.half)
+    if locked is not None:
+        most = by - inner @ (inner[locked][:, None] * by[locked][None]) * LOCKED**-2
     if not kept:
-        return broken_condition(w, by[:, 5], by[:, 0], inner, *(balls(vectors[:, k]) for k in (5, 0)))
-    mu = (dot(by[:, 5], by[:, 5]) + dot(by[:, 0], by[:, 0]) * arb(w.bound) ** 2) * 0.5
+        return broken_condition(
+            w, by[:, 5], most[:, 0], inner, (weight**2)[3:].sum(), *(balls(vectors[:, k]) for k in (5, 0))
+        )
+    mu = (dot(most[:, 5], most[:, 5]) + dot(by[:, 0], by[:, 0]) * arb(w.bound) ** 2) * 0.5
     exact = mu * (balls(vectors).T @ balls(vectors))  # floats are not quite orthogonal
     # K^2 [A B]^T [A B] - mu: its Schur complement is K^2 S - mu, and B^T B is positive.
     whole = stack([by.T, inner.T], np.concatenate)
     lower = (whole @ whole.T) * arb(w.bound) ** 2
     lower.x[:6, :6] -= exact.x
-    return stack([dominant(exact - by.T @ by), dominant(lower)], np.concatenate)
+    return stack([dominant(exact - most.T @ most), dominant(lower)], np.concatenate)
 
 
-def broken_condition(w, x, y, inner, u, v):
+def fault_tolerance(w, m, kept):
+    return stack([condition(w, m, kept, locked) for locked in range(3, 9)], np.concatenate)
+
+
+def broken_condition(w, x, y, inner, trace, u, v):
     slopes = dot(inner.T, x)  # half the gradient of |A t + B o|^2 along o
     c = inner.T @ inner
-    least = dot(c[0], cross(c[1], c[2])) * (arb(1) / 9)  # of its eigenvalues, whose sum is six
+    least = det(c) * (4 / arb(trace) ** 2)  # of its eigenvalues, by their product and sum
     small = dot(slopes, slopes) / least
     return (dot(y, y) * (arb(w.bound) ** 2 * (u @ u)) - (dot(x, x) - small) * (v @ v))[None]
 
@@ -208,6 +222,7 @@ LIMITS = {  # the sides that a limit can have and its units, the number of poses
     "between": ("", 0, lambda w, m, kept: stack([m.zp - m.zs, m.zs])),
     "singularity_free": (">", 1, determinants),
     "condition_number": ("<", 1, condition),
+    "fault_tolerant": ("<", 1, fault_tolerance),
     "leg_clearance": ("> zp", 1, clearance),
     "height": plain(lambda w, m: m.zp, "<>", 0),
     "zs_fraction": plain(lambda w, m: m.zs / m.zp, "<>", 0),

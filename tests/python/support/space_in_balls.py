@@ -68,7 +68,7 @@ class Space:
                 still.append((want, k))
                 parts = [negative(row, m.half) for row in margins]
                 lost += sum(most for _, most in parts)
-                if want.name in ("condition_number", "leg_clearance"):  # not broken where one margin is negative
+                if want.name in ("condition_number", "fault_tolerant", "leg_clearance"):  # they have two lists
                     parts = [negative(row, m.half) for row in want.margins(want, m, False)]
                 broken = max(broken, *(least for least, _ in parts))
             low, high = max(low, 1 - lost), high + 1 - broken

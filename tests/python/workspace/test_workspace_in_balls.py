@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import space_in_balls
-from forged import line_of, spelled, with_word
+from forged import line_of, spelled, verdict_of, with_word
 from forged_workspace import AXES, LEGS, drawn_volume, leaves_of, nodes_of, parts_of, proof_of, sealed
 
 CARRIED = {"internal_point": {"platform": (0.0, 0.0, -2.2)}}
@@ -17,6 +17,7 @@ QUESTIONS = {
         "criteria": LEGS
         | {"singularity_free": True, "base_cone": {"max": 1.1, "axis": (0.1, 0, 1)}, "platform_cone": 1.0},
     },
+    "a leg lost": {"criteria": {"fault_tolerant": 10.0}, "box": ([0.1, 0.1, 4.5], [0.2, 0.2, 4.6]), "gap": 0.95},
     "condition": {"criteria": {"condition_number": 4.2}, "box": ([0.2, 0.2, 4.0], [0.3, 0.3, 4.2]), "gap": 0.95},
 }
 
@@ -123,3 +124,14 @@ def test_an_edited_digit_is_refused_or_what_is_proved_is_true(data):
             volume, error = drawn_volume(forged, rng)
             assert own.lower() - error <= volume <= own.upper() + error, head[n]
     assert refused > 0
+
+
+def test_a_leg_lost_is_too_much_for_a_tighter_bound(published, tmp_path):
+    """Both checkers find the greatest number of this box between 4.6 and 5."""
+    box, criteria = ([0.1, 0.1, 4.5], [0.12, 0.12, 4.52]), {"fault_tolerant": 10.0}
+    head, tree = parts_of(proof_of(published, box, 0.95, criteria=criteria).certificate.tobytes())
+    n = line_of(head, "limit fault_tolerant")
+    for bound, words in ((4.6, "refused: a box does not have"), (5.0, "proved")):
+        forged = sealed(with_word(head, n, 3, spelled(bound)), tree)
+        assert space_in_balls.check(forged)[0].startswith(words)
+        assert verdict_of(forged, tmp_path).proved == (words == "proved")
