@@ -12,8 +12,6 @@
 namespace bench {
 namespace {
 
-constexpr double length = 1.3;  // characteristic
-
 /// Long stacks: the overhead of a call is not measured.
 constexpr std::size_t pieces = 4, stack_size = 4096;
 

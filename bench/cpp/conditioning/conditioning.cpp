@@ -4,11 +4,7 @@
 #include "support/over_poses.hpp"
 
 namespace bench {
-namespace {
-
-constexpr double length = 1.3;  // characteristic
-
-}  // namespace
+namespace {}  // namespace
 
 Figures conditioning() {
   const Poses poses = shared_poses();

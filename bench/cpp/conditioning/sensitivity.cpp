@@ -9,7 +9,6 @@
 namespace bench {
 namespace {
 
-constexpr double length = 1.3;  // characteristic
 constexpr std::size_t coordinates = 3 * ninedof::point_count + 1;
 
 /// The fourteen points and the characteristic length as numbers.

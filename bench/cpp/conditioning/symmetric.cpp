@@ -11,14 +11,14 @@ namespace {
 
 using Dual = ninedof::Dual<7>;
 
-const ninedof::HexagonalFamily family;
+const ninedof::HexagonalFamily symmetric_family;
 
 /// The first joints of the family, those of the platform rotated to the base axes.
 template <class T>
 ninedof::AxisDesign<T> axis_design(const std::array<T, 7>& x) {
   using std::cos;
   using std::sin;
-  const ninedof::Orbits<T> o = family.orbits<T>(x);
+  const ninedof::Orbits<T> o = symmetric_family.orbits<T>(x);
   const T c = cos(o.theta_z), s = sin(o.theta_z);
   const auto turned = [&](const ninedof::Xyz<T>& u) {
     return ninedof::Xyz<T>{c * u.x - s * u.y, s * u.x + c * u.y, u.z};
@@ -51,7 +51,8 @@ bool differences_hold(const Variables& x) {
 Figures symmetric() {
   const auto designs = std::make_shared<const std::vector<Variables>>(random_designs());
   auto poses = std::make_shared<std::vector<Pose>>();
-  for (const Variables& x : *designs) poses->push_back({family.geometry(x), family.configuration(x)});
+  for (const Variables& x : *designs)
+    poses->push_back({symmetric_family.geometry(x), symmetric_family.configuration(x)});
 
   const auto svd = [](const Pose& p) { return plain::condition_number(p.geometry, p.configuration, 1.0); };
   const auto differences = [](const Variables& x) {

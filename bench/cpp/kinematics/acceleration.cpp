@@ -6,8 +6,6 @@
 namespace bench {
 namespace {
 
-constexpr double length = 1.3;  // characteristic
-
 ninedof::Vec9 stacked(const ninedof::Acceleration& a) {
   ninedof::Vec9 out;
   out << a.alpha, a.pddot, a.sddot;

@@ -7,8 +7,6 @@
 namespace bench {
 namespace {
 
-constexpr double length = 1.3;  // characteristic; not 1, so that an omission is detected
-
 ninedof::Vec9 stacked(const ninedof::Velocity& v) {
   ninedof::Vec9 out;
   out << v.omega, v.pdot, v.sdot;

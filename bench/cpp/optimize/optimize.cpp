@@ -7,7 +7,6 @@ namespace bench {
 namespace {
 
 constexpr std::size_t random_start_count = 200;
-constexpr int multi_start_count = 64;
 
 using ninedof::Candidate;
 using ninedof::Formulation;

@@ -15,7 +15,6 @@ using ninedof::Candidate;
 using ninedof::Problem;
 using ninedof::Result;
 
-constexpr int multi_start_count = 64;
 constexpr double free_triples_optimum = 2.3430924;  // to the digits given
 
 Problem symmetric_problem(Bounds radius, Bounds height) {
@@ -78,7 +77,7 @@ void require_answer(const char* study, const Problem& problem, const Result& r) 
     require(margin.value >= -1e-8, std::string(study) + ": violates " + margin.name);
 }
 
-void require_same(const Result& one, const Result& two) {
+void require_same_answer(const Result& one, const Result& two) {
   require(one.candidates.size() == two.candidates.size() &&
               one.candidates.front().variables == two.candidates.front().variables,
           "studies: the threads change the answer");
@@ -144,9 +143,9 @@ Figures studies() {
   const Result one = solve(triples, 1), poses = solve(cube, 2);
   require_answer("free triples", triples, one);
   require_close("free triples", one.candidates.front().objective, free_triples_optimum, 1e-7);
-  require_same(one, solve(triples, 2));
+  require_same_answer(one, solve(triples, 2));
   require_answer("27 poses", cube, poses);
-  require_same(poses, solve(cube, 1));
+  require_same_answer(poses, solve(cube, 1));
 
   const auto on = [](const Problem& p, int threads) { return [=](std::size_t) { solve(p, threads); }; };
   return {{look_at_one_pose(),

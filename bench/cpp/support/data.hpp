@@ -13,6 +13,9 @@ namespace bench {
 constexpr std::size_t blocks = 16;       // timed one by one
 constexpr std::size_t block_size = 256;  // items between two looks at the clock, which costs some 25 ns
 
+constexpr double length = 1.3;  // characteristic; not 1, so that an omission is detected
+constexpr int multi_start_count = 64;
+
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}

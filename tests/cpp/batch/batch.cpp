@@ -40,10 +40,6 @@ struct Stack {
   batch::Configurations view() const { return view(0, static_cast<long>(each.size())); }
 };
 
-Vec3 cube(Random& random, double half) {
-  return {random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half)};
-}
-
 Configuration some_pose(Random& random) {
   return {Vec3(0.0, 0.0, 3.0) + cube(random, 0.7), exp_rotation(cube(random, 2.5)),
           Vec3(0.0, 0.0, 1.5) + cube(random, 0.5)};

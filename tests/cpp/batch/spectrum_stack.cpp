@@ -19,10 +19,6 @@ namespace {
 
 using Poses = std::vector<PosedPoints>;
 
-Vec3 cube(Random& random, double half) {
-  return {random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half)};
-}
-
 Poses some_poses(const Geometry& g, Random& random, std::size_t count) {
   Poses out;
   for (std::size_t k = 0; k < count; ++k)

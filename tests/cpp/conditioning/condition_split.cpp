@@ -41,12 +41,12 @@ long double at(const T& f, const Point& t) {
 }
 
 /// A box of positions about a pose of a random robot, O half way.
-struct Case {
+struct SplitCase {
   Geometry robot;
   Configuration home;
   double half;
 
-  explicit Case(Sampler& draw, double size) : robot(geometry(draw)), half(size) {
+  explicit SplitCase(Sampler& draw, double size) : robot(geometry(draw)), half(size) {
     home.position = Vec3(0.3 * draw(), 0.3 * draw(), 4.5 + 0.5 * draw());
     home.internal_point = Vec3(0.2 * draw(), 0.2 * draw(), 2.3 + 0.3 * draw());
   }
@@ -129,12 +129,12 @@ TEST_SUITE("condition_split") {
   TEST_CASE_TEMPLATE("the bound above M^T M is above it, and the minimum gives it", T, PoseForm, CurvedForm) {
     Sampler draw;
     for (int trial = 0; trial < 500; ++trial) {
-      const Case one(draw, std::pow(10.0, -1.5 + draw()));
+      const SplitCase one(draw, std::pow(10.0, -1.5 + draw()));
       Moves unused;
       const SplitGramOf<T> split = split_gram(AsBuilt{one.robot}, 1.0, one.template pose<T>(), unused);
       REQUIRE(split.known);
       const Point t = draw.point();
-      Case point = one;
+      SplitCase point = one;
       point.home.position += one.half * Vec3(t[0], t[1], t[2]);
       point.home.internal_point += 0.5 * one.half * Vec3(t[0], t[1], t[2]);
       point.half = 0.0;
@@ -156,7 +156,7 @@ TEST_SUITE("condition_split") {
   TEST_CASE_TEMPLATE("with a leg locked the bound is above M^T M of J' without its column", T, PoseForm, CurvedForm) {
     Sampler draw;
     for (int trial = 0; trial < 500; ++trial) {
-      const Case one(draw, std::pow(10.0, -1.5 + draw()));
+      const SplitCase one(draw, std::pow(10.0, -1.5 + draw()));
       const int locked = 3 + trial % 6;
       Moves unused;
       const SplitGramOf<T> split = split_gram(AsBuilt{one.robot}, 1.0, one.template pose<T>(), unused, locked);
@@ -194,7 +194,7 @@ TEST_SUITE("condition_split") {
     Sampler draw;
     int everywhere = 0, parts = 0, nowhere = 0;
     for (int trial = 0; trial < 2'000; ++trial) {
-      const Case one(draw, std::pow(10.0, -2.0 + draw()));
+      const SplitCase one(draw, std::pow(10.0, -2.0 + draw()));
       const int locked = trial % 7 == 0 ? -1 : 2 + trial % 7;
       const double limit = one.condition({}, locked) * (1.0 + draw() * one.half);
       if (!(limit > 1.0)) continue;

@@ -53,7 +53,7 @@ Eigen::VectorXd numbers(const Robot& robot, double lc) {
   out[axis::coordinates] = lc;
   return out;
 }
-Eigen::VectorXd values(const Eigen::VectorXd& x) {
+Eigen::VectorXd six_values(const Eigen::VectorXd& x) {
   axis::Flat flat;
   std::copy_n(x.begin(), flat.size(), flat.begin());
   return four(hexapod_spectrum(axis::design_of(flat), x[axis::coordinates]));
@@ -147,14 +147,15 @@ TEST_SUITE("hexapod") {
     for (int n = 0; n < 200; ++n) {
       const Eigen::VectorXd x = numbers(random_symmetric_robot(random), random.log_uniform(0.5, 2.0));
       const Exact e = exact(x);
-      CHECK(matrix_error(e.value, values(x)) <= 8.0 * eps);
+      CHECK(matrix_error(e.value, six_values(x)) <= 8.0 * eps);
       for (int row = 0; row < 4; ++row) {
         // Away from equal pairs and from zero.
         const int pair = row / 2 * 2;
         if (e.value[pair + 1] < 0.05 * e.value[pair] || e.value[pair + 1] > 0.95 * e.value[pair]) continue;
         ++checked;
         for (Eigen::Index k = 0; k < x.size(); ++k) {
-          const double expected = difference([&](const Eigen::VectorXd& at) { return values(at)[row]; }, x, k, 1e-4);
+          const double expected =
+              difference([&](const Eigen::VectorXd& at) { return six_values(at)[row]; }, x, k, 1e-4);
           CAPTURE(row);
           CAPTURE(k);
           CHECK(std::abs(e.gradient(row, k) - expected) <= 1e-7 * std::max(1.0, std::abs(expected)));
@@ -181,7 +182,7 @@ TEST_SUITE("hexapod") {
       for (Eigen::Index k = 0; k < x.size(); ++k) {
         CAPTURE(k);
         const double product =
-            difference([](const Eigen::VectorXd& at) { return values(at)[0] * values(at)[1]; }, x, k, 1e-4);
+            difference([](const Eigen::VectorXd& at) { return six_values(at)[0] * six_values(at)[1]; }, x, k, 1e-4);
         const double got = e.gradient(0, k) * e.value[1] + e.gradient(1, k) * e.value[0];
         CHECK(std::abs(got - product) <= 1e-7 * std::max(1.0, std::abs(product)));
       }

@@ -17,8 +17,6 @@ using namespace designs;
 
 namespace {
 
-constexpr Eigen::Index coordinates = 3 * point_count + 1;  // the points', then the characteristic length
-
 std::vector<LegSet> all_sets() {
   std::vector<LegSet> out;
   for (int k = 0; k < 9; ++k) {
@@ -35,15 +33,9 @@ Eigen::VectorXd left(const Mat69& j, const LegSet& locked) {
   return Eigen::JacobiSVD<Eigen::MatrixXd>(j(Eigen::all, columns)).singularValues();
 }
 
-Points points_of(const Eigen::VectorXd& x) {
-  Points at;
-  for (int k = 0; k < point_count; ++k) at[at_index(k)] = x.segment<3>(3 * k);
-  return at;
-}
-
 Spectrum spectrum_at(const Eigen::VectorXd& x, int leg) {
   const Points at = points_of(x);
-  return locked_spectrum(at, nine_legs(at), x[coordinates - 1], leg);
+  return locked_spectrum(at, nine_legs(at), x[point_coordinates - 1], leg);
 }
 
 }  // namespace
@@ -81,15 +73,15 @@ TEST_SUITE("locked_legs") {
     int compared = 0;
     for (int n = 0; n < cases(20); ++n) {
       const Robot r = random_robot(random);
-      Eigen::VectorXd x(coordinates);
+      Eigen::VectorXd x(point_coordinates);
       const Points at = points(r.geometry, r.configuration);
       for (int k = 0; k < point_count; ++k) x.segment<3>(3 * k) = at[at_index(k)];
-      x[coordinates - 1] = random.log_uniform(0.5, 2.0);
+      x[point_coordinates - 1] = random.log_uniform(0.5, 2.0);
       const int leg = 3 + n % 6;
       const Spectrum s = spectrum_at(x, leg);
       const auto sigma = [&](const Eigen::VectorXd& y) { return Eigen::VectorXd(spectrum_at(y, leg).sigma); };
-      Eigen::MatrixXd expected(6, coordinates);
-      for (Eigen::Index k = 0; k < coordinates; ++k) expected.col(k) = difference(sigma, x, k, 1e-4);
+      Eigen::MatrixXd expected(6, point_coordinates);
+      for (Eigen::Index k = 0; k < point_coordinates; ++k) expected.col(k) = difference(sigma, x, k, 1e-4);
       for (int k = 0; k < 6; ++k) {
         const double above = k > 0 ? s.sigma[k - 1] - s.sigma[k] : infinity;
         const double below = k < 5 ? s.sigma[k] - s.sigma[k + 1] : infinity;
@@ -99,7 +91,7 @@ TEST_SUITE("locked_legs") {
         add_spectrum_gradient(points_of(x), nine_legs(points_of(x)), s, k, k, 0.5 / s.sigma[k], g);
         for (int point = 0; point < point_count; ++point)
           CHECK((g.point[at_index(point)] - expected.row(k).segment<3>(3 * point).transpose()).norm() <= 1e-6);
-        CHECK(std::abs(g.length - expected(k, coordinates - 1)) <= 1e-6);
+        CHECK(std::abs(g.length - expected(k, point_coordinates - 1)) <= 1e-6);
       }
     }
     CHECK(compared > cases(30));

@@ -15,22 +15,14 @@ using namespace designs;
 
 namespace {
 
-constexpr Eigen::Index coordinates = 3 * point_count + 1;  // the points', then the characteristic length
-
 Eigen::VectorXd flat(const Points& at, double lc) {
-  Eigen::VectorXd x(coordinates);
+  Eigen::VectorXd x(point_coordinates);
   for (int k = 0; k < point_count; ++k) x.segment<3>(3 * k) = at[static_cast<std::size_t>(k)];
-  x[coordinates - 1] = lc;
+  x[point_coordinates - 1] = lc;
   return x;
 }
 Eigen::VectorXd flat(const PointGradient& g) {
   return flat(g.point, g.length);
-}
-
-Points points_of(const Eigen::VectorXd& x) {
-  Points at;
-  for (int k = 0; k < point_count; ++k) at[static_cast<std::size_t>(k)] = x.segment<3>(3 * k);
-  return at;
 }
 
 /// The robot with its platform frame rotated to the base axes.
@@ -47,11 +39,11 @@ Robot robot_of(const Eigen::VectorXd& x) {
 /// Singular values of M, descending, and M^T M, which does not depend on a basis.
 Eigen::VectorXd sigma(const Eigen::VectorXd& x) {
   const Robot r = robot_of(x);
-  return singular_values(r.geometry, r.configuration, x[coordinates - 1]).cwiseInverse().reverse();
+  return singular_values(r.geometry, r.configuration, x[point_coordinates - 1]).cwiseInverse().reverse();
 }
-Mat6 gram(const Eigen::VectorXd& x) {
+Mat6 gram_of(const Eigen::VectorXd& x) {
   const Robot r = robot_of(x);
-  const Mat6 m = conditioning_matrix(r.geometry, r.configuration, x[coordinates - 1]);
+  const Mat6 m = conditioning_matrix(r.geometry, r.configuration, x[point_coordinates - 1]);
   return m.transpose() * m;
 }
 
@@ -84,7 +76,7 @@ TEST_SUITE("sensitivity") {
       const double lc = random.log_uniform(0.3, 3.0);
       const Case c(r, lc);
       CHECK(matrix_error(c.s.sigma, sigma(c.x)) <= 32.0 * eps * c.s.sigma[0] / c.s.sigma[5]);
-      CHECK(matrix_error(gram(c.x) * c.s.twist, c.s.twist * c.s.sigma.cwiseAbs2().asDiagonal()) <= 64.0 * eps);
+      CHECK(matrix_error(gram_of(c.x) * c.s.twist, c.s.twist * c.s.sigma.cwiseAbs2().asDiagonal()) <= 64.0 * eps);
       const Robot same = robot_of(c.x);
       for (Eigen::Index k = 0; k < 6; ++k) {
         const Vec6 t = c.s.twist.col(k);
@@ -101,8 +93,8 @@ TEST_SUITE("sensitivity") {
     int compared = 0;
     for (int n = 0; n < 60; ++n) {
       const Case c(random_robot(random), random.log_uniform(0.5, 2.0));
-      Eigen::MatrixXd expected(6, coordinates);
-      for (Eigen::Index k = 0; k < coordinates; ++k) expected.col(k) = difference(sigma, c.x, k, 1e-4);
+      Eigen::MatrixXd expected(6, point_coordinates);
+      for (Eigen::Index k = 0; k < point_coordinates; ++k) expected.col(k) = difference(sigma, c.x, k, 1e-4);
       for (int k = 0; k < 6; ++k) {
         // Close to equal singular values finite differences are inaccurate.
         const double above = k > 0 ? c.s.sigma[k - 1] - c.s.sigma[k] : infinity;
@@ -125,8 +117,8 @@ TEST_SUITE("sensitivity") {
       // Symmetric robots have exactly equal singular values.
       const Robot robot = n % 2 == 0 ? random_robot(random) : random_symmetric_robot(random);
       const Case c(robot, random.log_uniform(0.5, 2.0));
-      for (Eigen::Index k = 0; k < coordinates; ++k) {
-        const Mat6 moved = difference(gram, c.x, k, 1e-4);
+      for (Eigen::Index k = 0; k < point_coordinates; ++k) {
+        const Mat6 moved = difference(gram_of, c.x, k, 1e-4);
         const Mat6 expected = c.s.twist.transpose() * moved * c.s.twist;
         for (int a = 0; a < 6; ++a)
           for (int b = a; b < 6; ++b) {
@@ -148,7 +140,7 @@ TEST_SUITE("sensitivity") {
     for (int n = 0; n < 100; ++n) {
       const Case c(random_symmetric_robot(random), random.log_uniform(0.5, 2.0));
       const Eigen::VectorXd along =
-          Eigen::VectorXd::NullaryExpr(coordinates, [&] { return random.normal(); }).normalized();
+          Eigen::VectorXd::NullaryExpr(point_coordinates, [&] { return random.normal(); }).normalized();
       const auto ahead = [&](double h) { return sigma(c.x + h * along); };
       for (int k = 0; k < 5; ++k) {
         if (c.s.sigma[k] - c.s.sigma[k + 1] > 1e-9) continue;

@@ -15,20 +15,20 @@ using namespace support;
 namespace {
 
 using Real = oracle::Real;
-using Vector = Eigen::Matrix<Real, 3, 1>;
+using Vector3 = Eigen::Matrix<Real, 3, 1>;
 
 /// Leg lengths at time t of the motion Q(t) = exp(t omega + t^2 alpha / 2) Q, which has angular velocity omega and
 /// angular acceleration alpha at t = 0: the commutator terms of the exponential are of third order.
 oracle::Vector lengths_at(const Robot& robot, const Motion& m, Real t) {
   const auto& [g, c] = robot;
   const auto moved = [t](const Vec3& from, const Vec3& v, const Vec3& a) {
-    return Vector(from.cast<Real>() + t * v.cast<Real>() + t * t / 2 * a.cast<Real>());
+    return Vector3(from.cast<Real>() + t * v.cast<Real>() + t * t / 2 * a.cast<Real>());
   };
-  const Vector p = moved(c.position, m.v.pdot, m.a.pddot), s = moved(c.internal_point, m.v.sdot, m.a.sddot);
-  const Vector turn = moved(Vec3::Zero(), m.v.omega, m.a.alpha);
+  const Vector3 p = moved(c.position, m.v.pdot, m.a.pddot), s = moved(c.internal_point, m.v.sdot, m.a.sddot);
+  const Vector3 turn = moved(Vec3::Zero(), m.v.omega, m.a.alpha);
   const auto joint = [&](const Vec3& u) {
-    const Vector start = c.rotation.cast<Real>() * u.cast<Real>();
-    return t == 0 ? Vector(p + start) : Vector(p + Eigen::AngleAxis<Real>(turn.norm(), turn.normalized()) * start);
+    const Vector3 start = c.rotation.cast<Real>() * u.cast<Real>();
+    return t == 0 ? Vector3(p + start) : Vector3(p + Eigen::AngleAxis<Real>(turn.norm(), turn.normalized()) * start);
   };
   oracle::Vector out(9);
   for (std::size_t i = 0; i < 3; ++i) {

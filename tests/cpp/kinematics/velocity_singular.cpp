@@ -15,7 +15,7 @@ Vec3 mean(const Triple& t) {
 }
 
 /// A point in the plane of a triple, away from its centre.
-Vec3 in_plane(const Triple& t) {
+Vec3 in_the_plane(const Triple& t) {
   return mean(t) + 0.31 * (t[1] - t[0]) - 0.17 * (t[2] - t[0]);
 }
 
@@ -40,7 +40,7 @@ TEST_SUITE("velocity_singular") {
     Random random(68);
     for (int n = 0; n < 300; ++n) {
       auto [g, c] = random_robot(random);
-      c.internal_point = in_plane(g.base_internal());
+      c.internal_point = in_the_plane(g.base_internal());
       CHECK(implausible(jacobian(g, c)));
       CHECK(implausible(forward_velocity(g, c, random.matrix<Vec9>()).sdot));
     }
@@ -66,7 +66,7 @@ TEST_SUITE("velocity_singular") {
     Random random(69);
     for (int n = 0; n < 300; ++n) {
       auto [g, c] = random_robot(random);
-      c.internal_point = c.position + c.rotation * in_plane(g.platform_internal());
+      c.internal_point = c.position + c.rotation * in_the_plane(g.platform_internal());
       CHECK(implausible(jacobian(g, c)));
     }
   }

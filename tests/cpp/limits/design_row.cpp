@@ -82,27 +82,29 @@ bool breaks_the_law(const DesignRow& row) {
   return false;
 }
 
-DesignRow sound;
+DesignRow sound_design;
 
-using Plant = void (*)(DesignRow&);
-constexpr std::array<Plant, 4> plants{
+using DesignPlant = void (*)(DesignRow&);
+constexpr std::array<DesignPlant, 4> design_plants{
     [](DesignRow& row) {
-      row.number = [](const Touched<double>& x, int item) { return sound.number(x, item) * (1.0 + 1e-6); };
+      row.number = [](const Touched<double>& x, int item) { return sound_design.number(x, item) * (1.0 + 1e-6); };
     },
     [](DesignRow& row) {
       row.slopes = [](const Touched<double>& x, int item) {
-        DesignSlopes out = sound.slopes(x, item);
+        DesignSlopes out = sound_design.slopes(x, item);
         for (double* by : {&out.a.x(), &out.b.x(), &out.a.z(), &out.zp, &out.zs}) *by *= 1.0 + 1e-5;
         return out;
       };
     },
     [](DesignRow& row) {
       row.enclosure = [](const Touched<Interval>& x, int item) {
-        return sound.enclosure(x, item) * Interval(1.0 + 1e-6);
+        return sound_design.enclosure(x, item) * Interval(1.0 + 1e-6);
       };
     },
     [](DesignRow& row) {
-      row.form = [](const Touched<DesignForm>& x, int item) { return sound.form(x, item) * DesignForm(1.0 + 1e-6); };
+      row.form = [](const Touched<DesignForm>& x, int item) {
+        return sound_design.form(x, item) * DesignForm(1.0 + 1e-6);
+      };
     },
 };
 
@@ -116,11 +118,11 @@ TEST_SUITE("design_row") {
       ++rows;
       CAPTURE(std::string(row.info.name));
       CHECK_FALSE(breaks_the_law(*row.design));
-      sound = *row.design;
-      for (std::size_t k = 0; k < plants.size(); ++k) {
+      sound_design = *row.design;
+      for (std::size_t k = 0; k < design_plants.size(); ++k) {
         CAPTURE(k);
-        DesignRow wrong = sound;
-        plants[k](wrong);
+        DesignRow wrong = sound_design;
+        design_plants[k](wrong);
         CHECK(breaks_the_law(wrong));
       }
     }
@@ -131,10 +133,10 @@ TEST_SUITE("design_row") {
     for (const LimitRow& row : limit_rows()) {
       if (row.design == nullptr || !row.design->picks_widest) continue;
       CAPTURE(std::string(row.info.name));
-      sound = *row.design;
-      DesignRow wrong = sound;
+      sound_design = *row.design;
+      DesignRow wrong = sound_design;
       wrong.joints = [](Joints joints, Side side, int item) {
-        const auto [a, b] = sound.joints(joints, side, item);
+        const auto [a, b] = sound_design.joints(joints, side, item);
         return side == Side::high ? std::pair(a, b) : std::pair((a + 1) % 6, b);
       };
       CHECK(breaks_the_law(wrong));

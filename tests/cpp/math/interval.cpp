@@ -24,7 +24,7 @@ bool inside(const Interval& outer, const Interval& inner) {
 
 /// The closed form at the published sides, over a number type.
 template <class T>
-AxisSpectrum<T> published(const T& zp, const T& zs) {
+AxisSpectrum<T> published_sides(const T& zp, const T& zs) {
   const T a(5.8124), b(2.9062), none(0.0);
   const AxisDesign<T> d{{0.5 * a, 0.25 * a, none},
                         {0.5 * a, -0.25 * a, none},
@@ -79,20 +79,20 @@ TEST_SUITE("interval") {
 
   TEST_CASE("the closed form over intervals encloses its values and gradients over a box") {
     const Interval zp(3.95, 4.0), zs(2.40, 2.44);
-    const auto box = published(zp, zs);
-    const auto slopes = published(Dual<2, Interval>::variable(zp, 0), Dual<2, Interval>::variable(zs, 1));
+    const auto box = published_sides(zp, zs);
+    const auto slopes = published_sides(Dual<2, Interval>::variable(zp, 0), Dual<2, Interval>::variable(zs, 1));
     const auto curved = [&](double p, double s) {
       using First = Dual<2, Interval>;
       Dual<2, First> x(First::variable(p, 0)), y(First::variable(s, 1));
       x.gradient[0] = First(1.0);
       y.gradient[1] = First(1.0);
-      return published(x, y).axial_max.gradient[0].gradient[1];
+      return published_sides(x, y).axial_max.gradient[0].gradient[1];
     };
     for (double a : {0.0, 0.3, 1.0})
       for (double b : {0.0, 0.6, 1.0}) {
         const double p = zp.lo + a * width(zp), s = zs.lo + b * width(zs);
-        const auto value = published(p, s);
-        const auto gradient = published(Dual<2>::variable(p, 0), Dual<2>::variable(s, 1));
+        const auto value = published_sides(p, s);
+        const auto gradient = published_sides(Dual<2>::variable(p, 0), Dual<2>::variable(s, 1));
         CHECK(contains(box.axial_max, value.axial_max));
         CHECK(contains(box.transverse_min, value.transverse_min));
         for (std::size_t k = 0; k < 2; ++k) {
@@ -101,7 +101,7 @@ TEST_SUITE("interval") {
         }
         const double h = 1e-5;
         const auto slope = [&](double at) {
-          return published(Dual<2>::variable(p, 0), Dual<2>::variable(at, 1)).axial_max.gradient[0];
+          return published_sides(Dual<2>::variable(p, 0), Dual<2>::variable(at, 1)).axial_max.gradient[0];
         };
         CHECK(middle(curved(p, s)) == doctest::Approx((slope(s + h) - slope(s - h)) / (2.0 * h)).epsilon(1e-6));
       }

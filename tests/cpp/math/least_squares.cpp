@@ -20,7 +20,7 @@ Eigen::MatrixXd matrix(Random& random, Eigen::Index rows, Eigen::Index cols, Eig
   return left * Eigen::MatrixXd::NullaryExpr(rank, cols, normal);
 }
 
-double largest(const Eigen::MatrixXd& a) {
+double largest_entry(const Eigen::MatrixXd& a) {
   return a.size() == 0 ? 0.0 : a.cwiseAbs().maxCoeff();
 }
 
@@ -36,12 +36,13 @@ TEST_SUITE("least_squares") {
           CAPTURE(cols);
           CAPTURE(rank);
           const Eigen::MatrixXd a = matrix(random, rows, cols, rank), known = matrix(random, rows, 1, 1);
-          const double tolerance = 1e-10 * (1.0 + largest(a)) * (1.0 + largest(known));
+          const double tolerance = 1e-10 * (1.0 + largest_entry(a)) * (1.0 + largest_entry(known));
           const Eigen::VectorXd any = least_squares(a, known), least = least_norm(a, known);
-          CHECK(largest(a.transpose() * (a * any - known)) < tolerance * (1.0 + largest(any)));
-          CHECK(largest(a.transpose() * (a * least - known)) < tolerance * (1.0 + largest(least)));
+          CHECK(largest_entry(a.transpose() * (a * any - known)) < tolerance * (1.0 + largest_entry(any)));
+          CHECK(largest_entry(a.transpose() * (a * least - known)) < tolerance * (1.0 + largest_entry(least)));
           // Of least norm: A^T y for some y, so that projecting on the rows changes nothing.
-          CHECK(largest(a.transpose() * least_norm_transposed(a, least) - least) < 1e-9 * (1.0 + largest(least)));
+          CHECK(largest_entry(a.transpose() * least_norm_transposed(a, least) - least) <
+                1e-9 * (1.0 + largest_entry(least)));
         }
   }
 
@@ -58,7 +59,7 @@ TEST_SUITE("least_squares") {
       const Vec9 x = random.matrix<Vec9>();
       const auto found = solve_regular(a, a * x, 1e-9);
       REQUIRE(found);
-      CHECK(largest(*found - x) < 1e-9);
+      CHECK(largest_entry(*found - x) < 1e-9);
       a.col(4) = a.col(7) - a.col(1);
       CHECK_FALSE(solve_regular(a, x, 1e-9));
     }
@@ -76,7 +77,7 @@ TEST_SUITE("least_squares") {
       const Eigen::VectorXd z = least_norm(Eigen::MatrixXd(free), Eigen::VectorXd(-wanted));
       CHECK((eliminate(free, kept) * y).norm() == doctest::Approx((wanted + free * z).norm()).epsilon(1e-11));
       const Mat6 r = triangular_factor(kept);
-      CHECK(largest(r.transpose() * r - kept.transpose() * kept) < 1e-12);
+      CHECK(largest_entry(r.transpose() * r - kept.transpose() * kept) < 1e-12);
       CHECK(r.isUpperTriangular(0.0));
     }
   }

@@ -15,7 +15,7 @@ using namespace support;
 
 namespace {
 
-std::vector<double> uneven(Random& random, int n) {
+std::vector<double> uneven_times(Random& random, int n) {
   std::vector<double> out{random.uniform(-1.5, -0.5)};
   while (static_cast<int>(out.size()) < n) out.push_back(out.back() + random.uniform(0.05, 0.25));
   return out;
@@ -48,7 +48,7 @@ Vec3 axis_of(const Mat3& skew) {
 
 /// Largest error of the derivatives of p and s that follow polynomials, and of a turn about one axis whose angle does.
 double polynomial_error(Random& random, int samples, int degree) {
-  const std::vector<double> time = uneven(random, samples);
+  const std::vector<double> time = uneven_times(random, samples);
   const Polynomial p(random, degree), s(random, degree), angle(random, degree);
   const Vec3 axis = random.unit();
   const Mat3 start = random.rotation();
@@ -95,7 +95,7 @@ TEST_SUITE("derivatives") {
         constexpr double h = 1e-5;
         return axis_of((rotation(t + h) - rotation(t - h)) / (2.0 * h) * rotation(t).transpose());
       };
-      std::vector<double> time = uneven(random, 30);
+      std::vector<double> time = uneven_times(random, 30);
       std::vector<Configuration> path;
       for (double& t : time) {
         t *= 0.02;
@@ -113,7 +113,7 @@ TEST_SUITE("derivatives") {
 
   TEST_CASE("a platform that does not turn has no angular velocity at all, and a large offset costs no digits") {
     Random random(303);
-    const std::vector<double> time = uneven(random, 9);
+    const std::vector<double> time = uneven_times(random, 9);
     const Mat3 q = random.rotation();
     std::vector<Configuration> path;
     for (const double t : time) path.push_back({Vec3(1e9, 0.0, t), q, Vec3(0.0, 1e9, 0.0)});

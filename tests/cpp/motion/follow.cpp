@@ -14,7 +14,6 @@ using namespace support;
 
 namespace {
 
-const Geometry published = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
 const Configuration home = neutral(3.9828, 2.4432);
 
 /// A smooth motion about home for a second.

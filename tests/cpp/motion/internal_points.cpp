@@ -14,14 +14,13 @@ namespace {
 
 using Kind = TrajectoryRule::Kind;
 
-const Geometry published = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
-const Configuration home = neutral(3.9828, 2.4432, 0.2);
+const Configuration turned_home = neutral(3.9828, 2.4432, 0.2);
 
 Trajectory random_trajectory(Random& random, int n) {
   Trajectory out;
   for (int k = 0; k < n; ++k) {
     out.time.push_back(k);
-    out.poses.push_back({home.position + 0.5 * random.unit(), random.rotation(0.5)});
+    out.poses.push_back({turned_home.position + 0.5 * random.unit(), random.rotation(0.5)});
   }
   return out;
 }
@@ -31,7 +30,7 @@ Trajectory line(std::size_t n) {
   for (std::size_t k = 0; k < n; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(n - 1);
     out.time.push_back(share);
-    out.poses.push_back({home.position + share * Vec3(0.6, 0.2, 0.1), home.rotation});
+    out.poses.push_back({turned_home.position + share * Vec3(0.6, 0.2, 0.1), turned_home.rotation});
   }
   return out;
 }
@@ -59,7 +58,9 @@ TEST_SUITE("internal_points") {
     Random random(322);
     const Geometry g = random_robot(random).geometry;
     const Trajectory trajectory = random_trajectory(random, 20);
-    const auto at = [&](double fraction) { return internal_points(g, trajectory, home, {Kind::between, fraction}); };
+    const auto at = [&](double fraction) {
+      return internal_points(g, trajectory, turned_home, {Kind::between, fraction});
+    };
     const auto below = at(0.0), above = at(1.0), between = at(0.3);
     for (std::size_t k = 0; k < 20; ++k) {
       Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
@@ -79,8 +80,9 @@ TEST_SUITE("internal_points") {
     std::vector<PlatformPose> searched;
     for (std::size_t k = 0; k < n; k += step) searched.push_back(every.poses[k]);
     if (!sanitized) REQUIRE(searched.size() == TrajectoryRule::most_searched);
-    const auto path = best_internal_path(published, searched, {}, 0.1, internal_points(published, every, home, {})[0]);
-    const auto found = internal_points(published, every, home, {Kind::best});
+    const auto path =
+        best_internal_path(published, searched, {}, 0.1, internal_points(published, every, turned_home, {})[0]);
+    const auto found = internal_points(published, every, turned_home, {Kind::best});
     REQUIRE(found.size() == n);
     const auto index = [&](std::size_t k) {
       return condition_number(published, {every.poses[k].position, every.poses[k].rotation, found[k]});
@@ -93,16 +95,17 @@ TEST_SUITE("internal_points") {
   TEST_CASE("a pose that allows no O is named with what forbids it, and bad arguments are refused") {
     InternalPointProblem problem;
     problem.limits.high.setConstant(3.0);
-    const auto best = [&] { internal_points(published, line(5), home, {Kind::best}, problem); };
+    const auto best = [&] { internal_points(published, line(5), turned_home, {Kind::best}, problem); };
     CHECK(message_of(best).starts_with(
         "internal_point: got 'best', but no position of O is allowed at t = 0 (l1 high, "));
-    CHECK(refuses("internal_point", [&] { internal_points(published, line(5), home, {Kind::between, not_a_number}); }));
+    CHECK(refuses("internal_point",
+                  [&] { internal_points(published, line(5), turned_home, {Kind::between, not_a_number}); }));
     Trajectory wrong = line(5);
     wrong.time[3] = wrong.time[2];
-    CHECK(refuses("time", [&] { internal_points(published, wrong, home, {}); }));
+    CHECK(refuses("time", [&] { internal_points(published, wrong, turned_home, {}); }));
     wrong.time.pop_back();
-    CHECK(refuses("poses", [&] { internal_points(published, wrong, home, {}); }));
-    CHECK(refuses("time", [&] { internal_points(published, line(2), home, {}); }));
+    CHECK(refuses("poses", [&] { internal_points(published, wrong, turned_home, {}); }));
+    CHECK(refuses("time", [&] { internal_points(published, line(2), turned_home, {}); }));
     wrong = line(5);
     wrong.poses[2].rotation *= 2.0;
     CHECK(refuses("rotation", [&] { wrong.validate(); }));

@@ -39,17 +39,6 @@ Problem study(const std::string& family, const StudyLength& length, const std::v
   return p;
 }
 
-Eigen::VectorXd random_full(const Problem& p, Random& random) {
-  const Eigen::VectorXd own = random_design(p.family, random);
-  Eigen::VectorXd x(static_cast<Eigen::Index>(p.names().size()));
-  x.head(own.size()) = own;
-  const std::vector<std::string> names = p.names();
-  for (Eigen::Index k = own.size(); k < x.size(); ++k)
-    x[k] = names[static_cast<std::size_t>(k)] == "characteristic_length" ? random.uniform(0.7, 2.0)
-                                                                         : random.uniform(-0.1, 0.1);
-  return x;
-}
-
 /// The characteristic length, by characteristic_length.hpp.
 double length_by_hand(const Problem& p, const Eigen::VectorXd& x) {
   const StudyLength& l = p.characteristic_length;

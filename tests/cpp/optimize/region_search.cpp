@@ -78,7 +78,7 @@ Eigen::MatrixXd quotients(const PreparedProblem& p, const Region& region, const 
   return out;
 }
 
-Eigen::VectorXd design_of(const Problem& p, Random& random) {
+Eigen::VectorXd twisted_design(const Problem& p, Random& random) {
   Eigen::VectorXd out = random_design(p.family, random);
   const int twist = design_family(p.family).index("theta_z");
   if (twist >= 0) out[twist] = random.uniform(-0.5, 0.5);
@@ -128,7 +128,7 @@ TEST_SUITE("region_search") {
           problem.objective.condition_limit = 50.0;
           problem.objective.index =
               std::array{Index::condition_number, Index::speed, Index::frobenius}[at_index(n % 3)];
-          const Eigen::VectorXd x = design_of(problem, random);
+          const Eigen::VectorXd x = twisted_design(problem, random);
           const Region region = region_of(n);
           Vec6 at = 0.7 * region_sample(region, n + 1, 3);
           if (region.shape == Region::Shape::path) at[0] = n % 8 < 4 ? -0.4 : 0.5;
@@ -167,7 +167,7 @@ TEST_SUITE("region_search") {
     Random random(812);
     for (int n = 0; n < cases(8); ++n) {
       const Problem problem = study("general", many);
-      const Eigen::VectorXd x = design_of(problem, random);
+      const Eigen::VectorXd x = twisted_design(problem, random);
       const Region region = region_of(n);
       CAPTURE(n);
       const RegionWorst found = search_region(problem, region, x, {4000, 1, 2});
@@ -204,7 +204,7 @@ TEST_SUITE("region_search") {
     Random random(813);
     for (int n = 0; n < cases(4); ++n) {
       const Problem problem = study("general", many);
-      const Eigen::VectorXd x = design_of(problem, random);
+      const Eigen::VectorXd x = twisted_design(problem, random);
       const Region region = region_of(n);
       const RegionWorst one = search_region(problem, region, x, {2000, 1, 1});
       for (const int threads : {2, 7}) CHECK(same_bits(search_region(problem, region, x, {2000, 1, threads}), one));

@@ -31,14 +31,6 @@ Problem study(const std::string& family, const std::vector<Limit>& limits, bool 
   return p;
 }
 
-Eigen::VectorXd random_full(const Problem& p, Random& random) {
-  const Eigen::VectorXd own = random_design(p.family, random);
-  Eigen::VectorXd x(static_cast<Eigen::Index>(p.names().size()));
-  x.head(own.size()) = own;
-  for (Eigen::Index k = own.size(); k < x.size(); ++k) x[k] = random.uniform(-0.1, 0.1);
-  return x;
-}
-
 const std::vector<Limit> listed = hand::every_limit();
 
 const ConstraintInfo& row_of(const Limit& limit) {

@@ -27,14 +27,6 @@ Problem study(const std::string& family, const Tool& tool) {
   return p;
 }
 
-Eigen::VectorXd random_full(const Problem& p, Random& random) {
-  const Eigen::VectorXd own = random_design(p.family, random);
-  Eigen::VectorXd x(static_cast<Eigen::Index>(p.names().size()));
-  x.head(own.size()) = own;
-  for (Eigen::Index k = own.size(); k < x.size(); ++k) x[k] = random.uniform(-0.1, 0.1);
-  return x;
-}
-
 }  // namespace
 
 TEST_SUITE("tool") {

@@ -82,7 +82,7 @@ const std::vector<Chart> charts = [] {
   return out;
 }();
 
-class Random {
+class PointDraws {
  public:
   double log_uniform(double low, double high) { return low * std::pow(high / low, part_(engine_)); }
   Point point() {
@@ -96,7 +96,7 @@ class Random {
   std::uniform_real_distribution<double> part_{0.0, 1.0};
 };
 
-Box box_about(const Point& p, double factor, Random& random) {
+Box box_about(const Point& p, double factor, PointDraws& random) {
   Box box;
   for (std::size_t k = 0; k < coordinates; ++k) {
     const double f = 1.0 + factor * random.part();
@@ -112,7 +112,7 @@ Box hexagonal(Box box) {
 }
 
 /// A box about a point of a chart; of 1 + t it may reach to the ends, where internal joints meet the axis.
-Box box_in(const Chart& chart, Point p, double factor, Random& random) {
+Box box_in(const Chart& chart, Point p, double factor, PointDraws& random) {
   if (chart.slopes) p[at_share] = 1.0 + random.part();
   Box box = box_about(p, factor, random);
   if (chart.slopes) box[at_share] = {std::max(box[at_share].lo, 1.0), std::min(box[at_share].hi, 2.0)};
@@ -122,7 +122,7 @@ Box box_in(const Chart& chart, Point p, double factor, Random& random) {
   return box;
 }
 
-Point inside(const Box& box, Random& random) {
+Point inside(const Box& box, PointDraws& random) {
   Point p;
   for (std::size_t k = 0; k < coordinates; ++k) {
     const double part = random.part();
@@ -139,7 +139,7 @@ double condition_number(const std::array<double, rows>& v) {
 
 TEST_SUITE("axis_rows") {
   TEST_CASE("the reduced formulas have the values of the closed form") {
-    Random random;
+    PointDraws random;
     for (int i = 0; i < 2000; ++i) {
       const Point p = random.point();
       Box box;
@@ -156,7 +156,7 @@ TEST_SUITE("axis_rows") {
   }
 
   TEST_CASE("values and slopes over a box enclose those of its designs") {
-    Random random;
+    PointDraws random;
     for (const double factor : {0.01, 0.3, 2.0})
       for (int i = 0; i < 150; ++i) {
         const Box box = box_about(random.point(), factor, random);
@@ -185,7 +185,7 @@ TEST_SUITE("axis_rows") {
   }
 
   TEST_CASE("where the characteristic length is of a kind, U / l_c is that of the library") {
-    Random random;
+    PointDraws random;
     for (const Chart& chart : charts) {
       if (!chart.length) continue;
       for (int i = 0; i < 200; ++i) {
@@ -200,7 +200,7 @@ TEST_SUITE("axis_rows") {
   }
 
   TEST_CASE("no design of a box of any chart is below its bound, and small boxes lose little") {
-    Random random;
+    PointDraws random;
     for (const Chart& chart : charts)
       for (const double leg_ratio : {infinity, 2.0})
         for (const double factor : {1e-5, 0.001, 0.05, 0.5, 3.0})
@@ -224,7 +224,7 @@ TEST_SUITE("axis_rows") {
 
   /// On the straight way from the middle of such a box to a design, U / l_c may leave what is known of it.
   TEST_CASE("no design is below the bound of a box of which U / l_c is known") {
-    Random random;
+    PointDraws random;
     for (const Chart& chart : charts) {
       if (!chart.length) continue;
       checker::Domain domain;
@@ -255,7 +255,7 @@ TEST_SUITE("axis_rows") {
   }
 
   TEST_CASE("no design of a box is below its bound, of any kind") {
-    Random random;
+    PointDraws random;
     for (const bool hexagons : {true, false})
       for (const double leg_ratio : {infinity, 2.0})
         for (const double factor : {0.001, 0.05, 0.5, 3.0})
@@ -277,7 +277,7 @@ TEST_SUITE("axis_rows") {
   }
 
   TEST_CASE("a small box is bounded to the second order of its size") {
-    Random random;
+    PointDraws random;
     const auto loss = [](const Point& p, double size) {
       Box box;
       for (std::size_t k = 0; k < coordinates; ++k) box[k] = {p[k] * (1.0 - size), p[k] * (1.0 + size)};

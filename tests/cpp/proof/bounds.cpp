@@ -16,11 +16,7 @@
 
 using namespace ninedof;
 
-namespace {
-
-const Geometry published = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_SUITE("bounds") {
   TEST_CASE("another rounding mode is refused") {

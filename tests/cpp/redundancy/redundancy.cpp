@@ -19,11 +19,7 @@ using ninedof::InternalPoint;
 using ninedof::InternalPointProblem;
 using ninedof::InternalPointStatus;
 
-namespace {
-
-const Geometry published = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_SUITE("redundancy") {
   TEST_CASE("no point near an optimum is better") {

@@ -28,7 +28,6 @@ using ninedof::PlatformPose;
 
 namespace {
 
-const Geometry published = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
 const Vec3 home(0.0, 0.0, 3.98);
 
 InternalPointProblem with_limits(double low, double high) {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "ninedof/families/design_family.hpp"
+#include "ninedof/problem/problem.hpp"
+#include "ninedof/robot/points.hpp"
 #include "support/support.hpp"
 
 namespace designs {
@@ -15,10 +17,6 @@ using ninedof::DesignFamily;
 
 inline const std::vector<std::string> families{"hexagonal", "symmetric", "symmetric_nonplanar", "general"};
 inline const std::vector<std::string> axis_families{"hexagonal", "symmetric", "symmetric_nonplanar"};
-
-inline std::span<const double> span(const Eigen::VectorXd& x) {
-  return {x.data(), static_cast<std::size_t>(x.size())};
-}
 
 /// A robot of ordinary size, O between the plates, no two joints in one place.
 inline Eigen::VectorXd random_design(const std::string& family, Random& random) {
@@ -40,6 +38,26 @@ inline Eigen::VectorXd random_design(const std::string& family, Random& random) 
   x[zp] = random.uniform(2.5, 4.5);
   x[zs] = x[zp] * random.uniform(0.35, 0.65);
   return x;
+}
+
+/// A value for every variable of the problem: of its family, the places of O, the characteristic length.
+inline Eigen::VectorXd random_full(const ninedof::Problem& p, Random& random) {
+  const Eigen::VectorXd own = random_design(p.family, random);
+  Eigen::VectorXd x(static_cast<Eigen::Index>(p.names().size()));
+  x.head(own.size()) = own;
+  const std::vector<std::string> names = p.names();
+  for (Eigen::Index k = own.size(); k < x.size(); ++k)
+    x[k] = names[static_cast<std::size_t>(k)] == "characteristic_length" ? random.uniform(0.7, 2.0)
+                                                                         : random.uniform(-0.1, 0.1);
+  return x;
+}
+
+constexpr Eigen::Index point_coordinates = 3 * ninedof::point_count + 1;  // the points', then the characteristic length
+
+inline ninedof::Points points_of(const Eigen::VectorXd& x) {
+  ninedof::Points at;
+  for (int k = 0; k < ninedof::point_count; ++k) at[static_cast<std::size_t>(k)] = x.segment<3>(3 * k);
+  return at;
 }
 
 /// df/dx_k to fourth order in h.

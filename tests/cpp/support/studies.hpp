@@ -50,10 +50,6 @@ inline Problem fixed_study(const std::array<double, 7>& x) {
   return p;
 }
 
-inline std::span<const double> span(const Eigen::VectorXd& x) {
-  return {x.data(), static_cast<std::size_t>(x.size())};
-}
-
 /// Condition number of the robot the variables describe, the characteristic length a number; infinite where they
 /// describe none.
 inline double condition_number(const Problem& p, const Eigen::VectorXd& x) {

@@ -12,6 +12,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <span>
 #include <string>
 
 #include "math/numbers.hpp"
@@ -78,6 +79,18 @@ extern template Vec6 Random::matrix<Vec6>();
 extern template Vec9 Random::matrix<Vec9>();
 extern template Mat3 Random::matrix<Mat3>();
 extern template ninedof::Mat6 Random::matrix<ninedof::Mat6>();
+
+/// The paper's plates.
+inline const Geometry published = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
+
+/// Uniform in a cube about the origin.
+inline Vec3 cube(Random& random, double half) {
+  return {random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half)};
+}
+
+inline std::span<const double> span(const Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
 
 /// A robot somewhere.
 struct Robot {

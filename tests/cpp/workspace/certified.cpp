@@ -11,7 +11,7 @@ using namespace ninedof;
 
 namespace {
 
-constexpr int side = 12;
+constexpr int cells_a_side = 12;
 
 /// Boxes of [0, 12)^3, each inner, outer or open at random; an open one is cut by two planes.
 struct Cubes {
@@ -23,9 +23,10 @@ struct Cubes {
     Random random(1);
     found.beyond = CertifiedWorkspace::Beyond::unknown;
     found.box_low = Vec3::Constant(-1.0);
-    found.box_high = Vec3::Constant(side + 1.0);
-    for (int n = 0; n < side * side * side; ++n) {
-      const Vec3 low(n % side, n / side % side, n / (side * side)), high = low + Vec3::Ones();
+    found.box_high = Vec3::Constant(cells_a_side + 1.0);
+    for (int n = 0; n < cells_a_side * cells_a_side * cells_a_side; ++n) {
+      const Vec3 low(n % cells_a_side, n / cells_a_side % cells_a_side, n / (cells_a_side * cells_a_side)),
+          high = low + Vec3::Ones();
       kind.push_back(static_cast<int>(random.uniform(0.0, 3.0)));
       open.push_back(found.open_low.size());
       if (kind.back() == 1) {
@@ -46,7 +47,7 @@ struct Cubes {
 
   int expected(const Vec3& x) const {
     const Vec3 cell = x.array().floor();
-    const auto n = at_index(static_cast<int>(cell.x() + side * (cell.y() + side * cell.z())));
+    const auto n = at_index(static_cast<int>(cell.x() + cells_a_side * (cell.y() + cells_a_side * cell.z())));
     if (kind[n] != 2) return kind[n] == 1 ? 1 : -1;
     const Vec3 t = 2.0 * (x - cell) - Vec3::Ones();
     bool allowed = true, forbidden = false;
@@ -66,7 +67,8 @@ TEST_SUITE("certified") {
     Random random(2);
     std::vector<Vec3> points;
     for (int n = 0; n < 5000; ++n)
-      points.push_back({random.uniform(0.0, side), random.uniform(0.0, side), random.uniform(0.0, side)});
+      points.push_back(
+          {random.uniform(0.0, cells_a_side), random.uniform(0.0, cells_a_side), random.uniform(0.0, cells_a_side)});
     const std::vector<std::int8_t> states = proved_states(cubes.found, points);
     REQUIRE(states.size() == points.size());
     std::array<int, 3> seen{};

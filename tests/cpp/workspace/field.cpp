@@ -16,7 +16,7 @@ double kappa_at(const Vec3& x) {
   return std::exp(1.5 + slope.dot(x));
 }
 
-constexpr double radius = 2.1;
+constexpr double ball_radius = 2.1;
 
 /// The share of a cell in the ball about the origin, by points.
 double share_in_ball(const Vec3& centre, double side) {
@@ -24,7 +24,7 @@ double share_in_ball(const Vec3& centre, double side) {
   int inside = 0;
   for (int n = 0; n < many * many * many; ++n) {
     const Vec3 at = Vec3(n % many, n / many % many, n / (many * many)) + Vec3::Constant(0.5);
-    inside += (centre + side * (at / many - Vec3::Constant(0.5))).norm() < radius ? 1 : 0;
+    inside += (centre + side * (at / many - Vec3::Constant(0.5))).norm() < ball_radius ? 1 : 0;
   }
   return inside / static_cast<double>(many * many * many);
 }
@@ -106,8 +106,8 @@ TEST_SUITE("field") {
     });
     CHECK(checked > 1000);
     visit(field.fraction, [&](const Vec3& x, double fraction) {
-      if (x.norm() < radius - 0.9) CHECK(fraction == 1.0);
-      if (x.norm() > radius + 0.9) CHECK(fraction == 0.0);
+      if (x.norm() < ball_radius - 0.9) CHECK(fraction == 1.0);
+      if (x.norm() > ball_radius + 0.9) CHECK(fraction == 0.0);
     });
   }
 
@@ -119,8 +119,8 @@ TEST_SUITE("field") {
     CHECK(sum * field.fraction.step.prod() == doctest::Approx(volume_of_cells(map)).epsilon(1e-12));
     const QuadSurface body = surface_of(field);
     CHECK(std::ssize(body.points) - std::ssize(body.faces) == 2);  // Euler's number: two edges for each face
-    CHECK(enclosed_volume(body) == doctest::Approx(4.0 / 3.0 * pi * std::pow(radius, 3)).epsilon(0.02));
-    for (const Vec3& point : body.points) CHECK(std::abs(point.norm() - radius) < 0.1);
+    CHECK(enclosed_volume(body) == doctest::Approx(4.0 / 3.0 * pi * std::pow(ball_radius, 3)).epsilon(0.02));
+    for (const Vec3& point : body.points) CHECK(std::abs(point.norm() - ball_radius) < 0.1);
   }
 
   TEST_CASE("fewer points make a coarser field of the same volume") {

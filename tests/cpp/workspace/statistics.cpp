@@ -9,8 +9,6 @@ using namespace ninedof;
 
 namespace {
 
-const Geometry published = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
-
 /// A map of cells of one size, of which `allowed` says the share.
 template <class Share>
 WorkspaceMap even_map(const Vec3& low, const Vec3& high, int resolution, const Share& allowed) {

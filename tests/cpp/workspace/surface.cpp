@@ -44,10 +44,10 @@ Vec3 middle_of(const QuadSurface& surface, const QuadSurface::Face& face) {
   return sum / 4.0;
 }
 
-const Vec3 centre(0.3, -0.2, 0.1);
+const Vec3 ball_centre(0.3, -0.2, 0.1);
 
 double in_ball(const Vec3& x) {
-  return 0.8 - (x - centre).norm();
+  return 0.8 - (x - ball_centre).norm();
 }
 
 double in_torus(const Vec3& x) {
@@ -66,7 +66,7 @@ TEST_SUITE("surface") {
     CHECK(enclosed_volume(surface) == doctest::Approx(4.0 / 3.0 * pi * std::pow(0.8, 3)).epsilon(0.005));
     const std::vector<Vec3> normals = surface_normals(surface);
     for (std::size_t n = 0; n < normals.size(); ++n)
-      CHECK(normals[n].dot((middle_of(surface, surface.faces[n]) - centre).normalized()) > 0.9);
+      CHECK(normals[n].dot((middle_of(surface, surface.faces[n]) - ball_centre).normalized()) > 0.9);
   }
 
   TEST_CASE("a torus has one hole, two bodies have two pieces, an empty raster has no faces") {

@@ -21,8 +21,6 @@ using namespace ninedof;
 
 namespace {
 
-const Geometry published = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
-
 /// Positions at which leg l1 is at most `radius` long: a ball.
 struct BallOfOneLeg {
   WorkspaceDomain domain;

@@ -20,7 +20,6 @@ using namespace support;
 
 namespace {
 
-const Geometry published = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
 const Vec3 apex(0.1, -0.2, 2.0);
 const Configuration home{Vec3(0.1, -0.2, 4.0), Mat3::Identity(), apex};
 
