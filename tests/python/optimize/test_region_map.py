@@ -56,7 +56,7 @@ def poses_of(region, shifts, tilts, yaws):
     return tuple(nd.Pose(tuple(p), tuple(t), tuple(s), region.unit) for p, t, s in rows)
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", REGIONS)
 def test_every_place_has_the_worst_of_its_poses(name):
     result = solved(name)
@@ -76,7 +76,7 @@ def test_every_place_has_the_worst_of_its_poses(name):
     assert found.worst >= best.objective * (1.0 - 1e-9)
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_the_map_covers_the_region_and_its_ruling_poses():
     for name in REGIONS:
         found = nd.region_map(solved(name))
@@ -89,7 +89,7 @@ def test_the_map_covers_the_region_and_its_ruling_poses():
     assert nd.region_map(solved("cylinder")).over == "heights, tilts and yaws"
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_o_placed_anew_is_no_worse_than_shifted():
     region = {"box": [0.3, 0.3, 0.0], "tilt_deg": 5}
     maps = []
@@ -104,7 +104,7 @@ def test_o_placed_anew_is_no_worse_than_shifted():
     assert (best.condition_number <= shifted.condition_number[::4, ::4].max()).all()
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", ["shifted", "best"])
 def test_limits_that_compare_poses_are_named_with_their_margin_over_the_region(rule):
     study = nd.Study(

@@ -124,7 +124,7 @@ def test_an_interruption_keeps_the_design_with_o_shifted_until_there_is_a_better
         assert nd.check(replace(result, region=None, study=result.solved), perturbations=0).passed
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_an_impossible_region_is_infeasible():
     region = {"ball": 20.0, "internal_point": "best"}
     study = nd.Study(constraints={"leg_ratio": (None, 1.01)}, objective={"region": region}, starts=1)

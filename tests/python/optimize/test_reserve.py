@@ -72,7 +72,7 @@ def test_every_machine_within_tolerances_keeps_the_limits(result):
     assert 0.0 < result.objective / drawn_one.objective - 1.0 < 5e-3
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_the_proof_succeeds_and_needs_the_reserve(result):
     assert result.reserve.proved
     assert set(result.reserve.shares) == {"stroke_ratio max"}
@@ -95,7 +95,7 @@ def test_a_result_with_a_reserve_is_an_optimum_of_the_study_that_was_solved(resu
     assert again.best == result.best
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_a_folder_gives_the_same_result(tmp_path):
     asked = replace(REQUIREMENT, tolerances=TOLERANCES)
     first = nd.optimize(asked, starts=2, out=tmp_path / "run")
@@ -132,7 +132,7 @@ def test_tolerances_beyond_a_fixed_design_are_said():
     assert result.reason.startswith("with a reserve for the tolerances: ")
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_a_limit_of_the_condition_number_has_a_reserve_too():
     worst = nd.optimize(REQUIREMENT, starts=2).objective
     speed = replace(REQUIREMENT.objective, index="speed", condition_limit=1.1 * worst)

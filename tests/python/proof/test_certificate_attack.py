@@ -377,7 +377,7 @@ FAR = (1e8, 1e50, 1e100, 1e155, 1e200, 1e308)
 NEAR = (1e-8, 1e-50, 1e-100, 1e-155, 1e-200, 5e-324)
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 @pytest.mark.parametrize("plain", [HEXAGON, RADII], ids=["hexagonal", "symmetric"])
 def test_bounds_at_the_end_of_the_doubles_prove_nothing(plain, tmp_path):
     """Products that leave the doubles turned the bounds of the angle over, and nothing seemed to be left.

@@ -116,7 +116,7 @@ def test_a_pose_that_was_moved_is_refused_or_shows_as_much(lines, verdict):
     assert refused > 0
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [0.9, 0.97, 1.03, 1.1])
 @pytest.mark.parametrize(("name", "place"), [("leg_length", 3), ("stroke_ratio", 3)])
 def test_another_value_of_a_limit_is_refused(name, place, factor, lines, verdict):
@@ -249,7 +249,7 @@ def holds(lines, rng, which=None):
     return no_limit_breaks(study, fixed, [lines[n] for n in chosen], 40, rng)
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_what_is_proved_of_a_changed_file_is_true(lines, verdict):
     """Numbers before the boxes, moved by up to some percent."""
     rng = np.random.default_rng(7)

@@ -136,7 +136,7 @@ def test_a_singular_pose_in_the_region_is_found():
     assert "Violated: no singularity, det C" in str(certificate)
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_an_interrupted_proof_goes_on_where_it_stopped():
     region = REGIONS["box"]
     *_, whole = proved(region, gap=0.25)
@@ -313,7 +313,7 @@ def test_every_number_of_a_region_is_part_of_the_machine():
     assert len(digests) == 4
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_no_known_pose_is_worse_than_the_worst_met():
     """The condition number has a local maximum about each corner of a region, two of them equal in a minimax design."""
     for name in ("18_requirement", "20_tool"):

@@ -22,7 +22,7 @@ def proof():
     return nd.prove_optimum(STUDY, BEST, gap=GAP)
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_the_optimum_of_the_example_has_a_bound(proof):
     assert proof.complete
     assert proof.lower_bound == BEST * (1.0 - GAP)
@@ -31,7 +31,7 @@ def test_the_optimum_of_the_example_has_a_bound(proof):
     assert replace(nd.prove_optimum(STUDY, BEST, gap=GAP, threads=1), seconds=0.0) == replace(proof, seconds=0.0)
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(12))
 def test_nothing_is_proved_above_a_design_that_is_known(seed, tmp_path):
     """Ranges and limits about a design; in other units, with O on any side of its internal joints."""
@@ -112,7 +112,7 @@ def sealed(lines, tree):
     return f"ninedof certificate 1\nchecksum {zlib.crc32(body):x}\n".encode() + body
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_the_certificate_is_replayed(proof, tmp_path):
     found = verdict_of(proof.certificate, tmp_path)
     assert found.proved, found.words
@@ -162,7 +162,7 @@ def test_what_is_proved_of_a_changed_head_is_true(proof, tmp_path):
     assert min(counts.values()) > 2
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_edited_bytes_of_the_tree_are_refused_or_harmless(proof, tmp_path):
     """A larger target and the same edits: nothing is proved of it, whatever the tree says."""
     lines, tree = parts_of(proof.certificate)

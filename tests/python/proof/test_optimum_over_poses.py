@@ -95,7 +95,7 @@ def test_no_design_drawn_at_random_that_keeps_the_limits_is_below_the_bound(resu
     assert kept > 20
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_where_a_better_design_is_hidden_only_less_than_it_is_proved():
     best = nd.optimize(REGION).condition_number
     proof = nd.prove_optimum(REGION, 1.1 * best, time_limit=3.0)
@@ -253,7 +253,7 @@ class Interrupted:
             signal.raise_signal(signal.SIGINT)
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_a_proof_that_was_interrupted_goes_on_behind_what_it_has(tmp_path):
     study = replace(REGION, constraints={"stroke_ratio": (None, 1.5)})
     first, second = Interrupted(4), Interrupted()

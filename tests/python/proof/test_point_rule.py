@@ -124,7 +124,7 @@ def climbed(region, rule, rng):
     return worst.max()
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 @pytest.mark.parametrize(("shape", "degree"), [("box", 1), ("box", 3), ("six", 2)])
 def test_a_bound_below_the_worst_pose_of_a_rule_is_never_proved(shape, degree):
     """Nor does the bound that is proved lie below what a search in numpy meets."""
