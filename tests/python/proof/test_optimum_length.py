@@ -21,7 +21,7 @@ PLATES = nd.Study(
     | {"zp": (1.0, 1.1), "zs": (0.0, 1.1)},
 )
 STUDIES = {
-    "zp from 0": replace(PAPER, variables=dict(PAPER.variables) | {"zp": (0.0, 80.0), "zs": (0.0, 80.0)}),
+    "zp from 0": replace(SMALLER, variables=dict(SMALLER.variables) | {"zp": (0.0, 80.0), "zs": (0.0, 80.0)}),
     "free": replace(SMALLER, characteristic_length=(0.5, 3.0)),
     "optimal": replace(SMALLER, characteristic_length="optimal"),
     "natural": replace(SMALLER, characteristic_length="natural"),
@@ -44,6 +44,7 @@ def test_the_best_design_and_one_better_by_1e_10(name, tmp_path):
     assert proof.left_out == ()
     found = nd.check_certificate(proof.save(tmp_path / "optimum.certificate"))
     assert found.proved, found.words
+    assert float(found.words.split(" below ")[1]) == pytest.approx(proof.lower_bound, rel=1e-14)
     above = nd.prove_optimum(study, best * (1.0 + 1e-10), gap=0.0, time_limit=5.0)
     assert not above.complete
     assert above.lower_bound <= best

@@ -32,10 +32,14 @@ def compared(machine, changed):
 
 
 @pytest.fixture(scope="module")
-def at_home():
+def neutral():
+    return nd.optimize(nd.Study(constraints=LIMITS, unit="mm", starts=2, characteristic_length=1.0))
+
+
+@pytest.fixture(scope="module")
+def at_home(neutral):
     """Two designs of a study of the neutral pose."""
-    result = nd.optimize(nd.Study(constraints=LIMITS, unit="mm", starts=2, characteristic_length=1.0))
-    return nd.compare(result, result.with_changes(b1="+10%"))
+    return nd.compare(neutral, neutral.with_changes(b1="+10%"))
 
 
 @pytest.mark.slow(sanitized=True)
@@ -123,17 +127,17 @@ def test_a_change_of_nothing_changes_nothing_and_what_differs_in_the_studies(mac
     assert str(both).startswith("Numbers over the poses or the region of each study\n")
 
 
-def test_long_entries_of_studies_are_told_apart_by_the_first_that_differs(machine):
+def test_long_entries_of_studies_are_told_apart_by_the_first_that_differs(neutral):
     """Cut to 20 characters, two lists of loads were the same "[[0.0, 0.0, 0.0, ..."."""
     rows = [[0.0, 0.0, 0.0, 0.0, 0.0, 90.0], [0.0, 0.0, 0.0, 5.0, 0.0, 90.0]]
-    one, two = (replace(machine, study=replace(machine.study, loads={"wrenches": rows[:k]})) for k in (1, 2))
+    one, two = (replace(neutral, study=replace(neutral.study, loads={"wrenches": rows[:k]})) for k in (1, 2))
     words = (
         "loads.wrenches, no. {}, the first that differs: A {} ({} in all), B [0.0, 0.0, 0.0, {}, 0.0, 90.0] ({} in all)"
     )
     assert words.format(2, "none", 1, "5.0", 2) in str(nd.compare(one, two))
-    assert words.format(1, "none", 0, "0.0", 1) in str(nd.compare(machine, one))
+    assert words.format(1, "none", 0, "0.0", 1) in str(nd.compare(neutral, one))
     named = [
-        replace(machine, study=replace(machine.study, about={"project": f"Polishing machine no. {k}"})) for k in "XY"
+        replace(neutral, study=replace(neutral.study, about={"project": f"Polishing machine no. {k}"})) for k in "XY"
     ]
     assert "about.project: A Polishing machine no. X, B Polishing machine no. Y" in " ".join(
         str(nd.compare(*named)).split()

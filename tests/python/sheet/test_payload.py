@@ -17,15 +17,20 @@ DUTY = {
 }
 
 
+def machine_over(region):
+    variables = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": (2.3, 2.5)}
+    study = nd.Study(variables=variables, objective={"region": region}, characteristic_length=1.0, **DUTY)
+    return nd.optimize(study, starts=1)
+
+
 @pytest.fixture(scope="module")
 def machine():
-    study = nd.Study(
-        variables={"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": (2.3, 2.5)},
-        objective={"region": {"box": [0.3, 0.3, 0.3], "tilt_deg": 5.0}},
-        characteristic_length=1.0,
-        **DUTY,
-    )
-    return nd.optimize(study, starts=1)
+    return machine_over({"box": [0.3, 0.3, 0.3], "tilt_deg": 5.0})
+
+
+@pytest.fixture(scope="module")
+def level():
+    return machine_over({"box": [0.3, 0.3, 0.3]})
 
 
 def potential(design, c, mass):
@@ -86,12 +91,12 @@ def test_no_pose_of_a_region_is_worse(machine):
     assert worst <= limit * (1.0 + 1e-6)
 
 
-def test_one_search_has_the_payload_with_and_without_the_loads(machine, monkeypatch):
+def test_one_search_has_the_payload_with_and_without_the_loads(level, monkeypatch):
     searches, search = [], payloads.look_over
     monkeypatch.setattr(payloads, "look_over", lambda *given: searches.append(given) or search(*given))
-    both = nd.largest_payload(machine, 60.0, samples=500)
+    both = nd.largest_payload(level, 60.0, samples=500)
     assert len(searches) == 1
-    alone = nd.largest_payload(machine, 60.0, loads=[np.zeros(6)], samples=500)
+    alone = nd.largest_payload(level, 60.0, loads=[np.zeros(6)], samples=500)
     assert both.without_loads == pytest.approx(alone.mass, rel=1e-9)
     assert alone.without_loads == alone.mass != both.mass
 
@@ -110,15 +115,16 @@ def test_each_kind_of_legs_keeps_its_own_limit_of_the_study(machine):
     assert (level.mass, level.leg) == (np.inf, "")  # the external legs carry no weight there
 
 
-def test_a_machine_that_holds_nothing_and_one_that_holds_all(machine):
-    none = nd.largest_payload(machine, 1.0, samples=500)
+def test_a_machine_that_holds_nothing_and_one_that_holds_all(level):
+    none = nd.largest_payload(level, 1.0, samples=500)
     assert (none.mass, none.fits) == (0.0, False)
     assert np.abs(none.forces).max() > 1.0
+    assert none.leg == "l1 l2 l3 q1 q2 q3 r1 r2 r3".split()[int(np.argmax(np.abs(none.forces)))]
     everything = nd.largest_payload(nd.Design(HEXAGONS, HOME), np.inf)
     assert (everything.mass, everything.leg, everything.fits) == (np.inf, "", True)
     for bad in (-1.0, np.nan, [1.0, 2.0], "x"):
         with pytest.raises(ValueError, match="force: got"):
-            nd.largest_payload(machine, bad)
+            nd.largest_payload(level, bad)
 
 
 @pytest.mark.slow(sanitized=True)
