@@ -4,7 +4,6 @@
 #include "support/over_poses.hpp"
 
 namespace bench {
-namespace {}  // namespace
 
 Figures conditioning() {
   const Poses poses = shared_poses();
