@@ -49,8 +49,9 @@ class WorkspaceMap(Saved):
     """Length unit cubed; of orientations by Haar's measure, radians cubed, 8 pi^2 being all of SO(3)."""
     error: float
     """Estimate of the error of the volume. Octree: from the differences of levels, plus `unseen`. Grid: from random
-    errors of the boundary cells. Sample: the standard error over the shifts. With `singularity_free` it does not
-    include a part that only a neck thinner than the smallest cell connects with home."""
+    errors of the boundary cells. Sample: the standard error over the shifts. Of both at least `unseen` where all points
+    are allowed or none is. With `singularity_free` it does not include a part that only a neck thinner than the
+    smallest cell connects with home."""
     unseen: float
     """Upper bound, at 95 % confidence, of the volume of a feature that neither corners of cells nor the poses that
     audit them show: a part of `error` of an octree. Many separate ones, of which some were found, may be larger.
@@ -58,7 +59,8 @@ class WorkspaceMap(Saved):
     chart_volume: float
     """Volume of the whole box or region."""
     box_limits: bool
-    """Whether the workspace reaches the faces of the box or region; it would then be larger in a larger one."""
+    """Whether the workspace reaches the faces of the box or region; it would then be larger in a larger one. False for
+    a sample, which has no faces."""
     home_allowed: bool
     """Whether the home pose is allowed and in the box."""
     home_limit: str

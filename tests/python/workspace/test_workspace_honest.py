@@ -1,5 +1,7 @@
 """What a workspace map says of sets that cells and corners easily miss: its error must cover the truth."""
 
+import itertools
+
 import numpy as np
 import numpy_model as model
 import pytest
@@ -158,6 +160,21 @@ def test_nothing_found_is_not_nothing(published, method, few):
     assert found.status == nd.WorkspaceStatus.EMPTY
     assert found.unseen > 0.0
     assert found.error >= nd.workspace(published, BOX, criteria=criteria, home=HOME, tolerance=0.05).volume
+
+
+@pytest.mark.parametrize(("method", "few"), [("grid", {"resolution": 8}), ("sample", {"points": 64, "shifts": 4})])
+def test_everything_found_is_not_everything(published, method, few):
+    """One corner of the box is forbidden, where no point lies."""
+    low, high = np.array([-0.3, -0.3, 4.5]), np.array([0.3, 0.3, 5.1])
+    corners = np.array(list(itertools.product(*zip(low, high, strict=True))))
+    o = 0.5 * (corners + published.platform_internal.mean(axis=0))
+    longest = nd.leg_lengths(published, nd.Configuration(corners, None, o)).max()
+    criteria = {"leg_limits": (0.0, longest * 0.993)}
+    found = nd.workspace(published, (low, high), criteria=criteria, method=method, **few)
+    proved = nd.certified_workspace(published, (low, high), criteria=criteria, gap=1e-5)
+    assert found.volume == pytest.approx(0.6**3)
+    assert proved.volume[1] < 0.6**3 - 1e-9
+    assert found.volume - proved.volume[1] <= found.error <= found.unseen * (1.0 + 1e-12)
 
 
 @pytest.mark.slow

@@ -44,11 +44,12 @@ void evaluate_all(const LimitsAtPoints& m, long count, const PointAt& point_at, 
   }
 }
 
-/// Writes what follows from the volume and the number of points.
-void finish(const LimitsAtPoints& m, long count, int resolution, WorkspaceMap& map) {
-  // Rule of three: the volume missed by points spread evenly over the box, an upper bound at 95 % confidence.
+/// Writes what follows from the volume and the number of points, of which all or none are allowed if they are `alike`.
+void finish(const LimitsAtPoints& m, long count, bool alike, int resolution, WorkspaceMap& map) {
+  // Rule of three: the volume missed by points spread evenly over the box, an upper bound at 95 % confidence. It may be
+  // allowed where all points are forbidden, and forbidden where all are allowed.
   map.unseen = 3.0 * m.chart().box_volume() / static_cast<double>(count);
-  if (!(map.volume > 0.0)) map.error = map.unseen;
+  if (alike) map.error = std::max(map.error, map.unseen);
   map.evaluations = count;
   map.status = map.volume > 0.0 ? WorkspaceStatus::converged : WorkspaceStatus::empty;
   map.resolution = resolution;
@@ -139,7 +140,7 @@ void map_by_grid(const LimitsAtPoints& m, const WorkspaceSettings& settings, boo
   // The error of a cell on the boundary is uniformly distributed. Errors of neighbours are correlated along a smooth
   // boundary: four standard errors of independent ones are taken.
   map.error = 4.0 * std::sqrt(undecided / 12.0);
-  finish(m, static_cast<long>(x.size()), n, map);
+  finish(m, static_cast<long>(x.size()), undecided == 0.0, n, map);
   map.limit_area = surface.area;
   summarize(leaves, lattice, first_piece_alone, map, control.stop);
   if (n <= 128) inscribe(leaves, lattice, m, surface, first_piece_alone, control, map);
@@ -176,7 +177,8 @@ void map_by_sample(const LimitsAtPoints& m, const WorkspaceSettings& settings, c
     return std::pair(mean, std::sqrt(square / (settings.shifts - 1.0) / settings.shifts));
   };
   std::tie(map.volume, map.error) = mean_and_error(volume);
-  finish(m, total, 0, map);
+  const bool alike = std::ranges::all_of(leaves, [&](const Leaf& leaf) { return leaf.state == leaves.front().state; });
+  finish(m, total, alike, 0, map);
   const CellLattice lattice(m, settings.resolution, settings.threads);
   summarize(leaves, lattice, false, map, control.stop);
   map.cells.centre = where;
