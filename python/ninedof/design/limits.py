@@ -162,7 +162,7 @@ def label(name: str, at: str) -> str:
 
 
 def limit_words(name: str, side: str) -> str:
-    """Return a side of a limit in words: "the greatest stroke ratio" for "stroke_ratio", "max"."""
+    """Return a side of a limit in words: "the greatest joint height" for "joint_height", "max"."""
     plain = name.replace("_", " ")
     return plain if plain == "no singularity" else f"the {'greatest' if side == 'max' else 'least'} {plain}"
 
