@@ -3,7 +3,7 @@
 Figures are in `ninedof.plot`, which is loaded, with matplotlib, when it is first used.
 """
 
-from ninedof.support import starting as _starting  # noqa: F401  # first: signals while the rest is loaded
+from ninedof import support as _support  # noqa: F401  # first: signals while the rest is loaded
 
 # isort: split
 from importlib import import_module as _import_module
@@ -31,16 +31,25 @@ from ninedof.conditioning.conditioning import (
     singular_values,
 )
 from ninedof.conditioning.hexagonal import hexagonal_condition_number
-from ninedof.design import poses as poses
 from ninedof.design.actuators import Actuator
 from ninedof.design.design_point import DesignPoint
+from ninedof.design.domains import poses as poses
+from ninedof.design.domains.poses import Pose
+from ninedof.design.domains.region import Region
 from ninedof.design.duty import About, Loads, Masses, Speeds, Tolerances, Tool
 from ninedof.design.objective import Objective
-from ninedof.design.poses import Pose
-from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.export.export import export
 from ninedof.kinematics.kinematics import VelocityMatrices, jacobian, leg_lengths, velocity_matrices
+from ninedof.kinematics.position import (
+    AssemblyModes,
+    ModesCertificate,
+    PositionStatus,
+    Tracked,
+    TrackStatus,
+    forward_position,
+    track,
+)
 from ninedof.kinematics.velocity import (
     forward_acceleration,
     forward_velocity,
@@ -55,12 +64,10 @@ from ninedof.optimize.bounds import LowerBound, applicable_bounds
 from ninedof.optimize.candidate import Candidate
 from ninedof.optimize.check import check
 from ninedof.optimize.optimize import Trace, optimize, trace
+from ninedof.optimize.pareto import Front, pareto
 from ninedof.optimize.region_map import RegionMap, region_map
 from ninedof.optimize.result import Result, Status
 from ninedof.paper.sweeps import sweep_figure
-from ninedof.pareto import Front, pareto
-from ninedof.position.certificate import ModesCertificate
-from ninedof.position.position import AssemblyModes, PositionStatus, Tracked, TrackStatus, forward_position, track
 from ninedof.proof.admissible import admissible
 from ninedof.proof.admissible_rows import AdmissibleRow, AdmissibleRows, admissible_actuators
 from ninedof.proof.admissible_set import AdmissibleSet

@@ -9,7 +9,7 @@ import numpy as np
 
 from ninedof import plot
 from ninedof.cli.screen import Screen
-from ninedof.design.region import Region, region_lines, section_outline
+from ninedof.design.domains.region import Region, region_lines, section_outline
 from ninedof.plot import Section
 from ninedof.plot.style import round_to
 from ninedof.robot.configuration import Configuration

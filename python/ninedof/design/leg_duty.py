@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import partial
 
 from ninedof import _core
+from ninedof.design.domains.poses import ZERO
 from ninedof.design.duty import Loads, Masses, Speeds, duty
 from ninedof.design.limits import Limit
 from ninedof.design.objective import Objective
-from ninedof.design.poses import ZERO
 from ninedof.statics.dynamics import masses_for_core
 from ninedof.support.arguments import choice
 from ninedof.support.structs import StudyTable, entry

@@ -11,11 +11,11 @@ from itertools import chain
 from typing import Any, Self
 
 from ninedof import _core
-from ninedof.design import poses
+from ninedof.design.domains import poses
+from ninedof.design.domains.poses import Pose
+from ninedof.design.domains.region import Region
 from ninedof.design.duty import duty
 from ninedof.design.indices import objectives
-from ninedof.design.poses import Pose
-from ninedof.design.region import Region
 from ninedof.support.arguments import choice, finite, items, known_keys, number, text, whole
 from ninedof.support.structs import StudyTable, entry, keys, within
 from ninedof.support.text import short_repr

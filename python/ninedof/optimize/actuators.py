@@ -16,7 +16,7 @@ from heapq import heappop, heappush
 from typing import Any
 
 from ninedof.design.actuators import LEG_KINDS, Actuator, hull, price_words, row_limits
-from ninedof.design.region import Region
+from ninedof.design.domains.region import Region
 from ninedof.design.study import Study
 from ninedof.optimize.actuator_choice import EACH, ActuatorChoice, Combination, notes_of
 from ninedof.optimize.candidate import Candidate, best_of

@@ -9,8 +9,8 @@ from typing import Any
 
 from ninedof import _core
 from ninedof.design.design_point import DERIVED, DesignPoint, robot_at
-from ninedof.design.poses import Pose
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.poses import Pose
+from ninedof.design.domains.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.motion.follow import Followed
 from ninedof.robot.configuration import Configuration

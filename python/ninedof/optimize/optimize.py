@@ -13,8 +13,8 @@ from time import perf_counter
 from typing import TypedDict, Unpack
 
 from ninedof import _core
+from ninedof.design.domains.region_poses import posed
 from ninedof.design.limit_numbers import FORCES
-from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.optimize.actuators import ActuatorSearch, SearchEnded
 from ninedof.optimize.candidate import Candidate, RegionReport, best_of, candidate_of

@@ -10,11 +10,11 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.domains.poses import Pose
+from ninedof.design.domains.region import Region, circle, section_outline
+from ninedof.design.domains.region_poses import configurations_at, o_is_placed
 from ninedof.design.limit_numbers import SPREADS, compared
 from ninedof.design.limits import kind_of
-from ninedof.design.poses import Pose
-from ninedof.design.region import Region, circle, section_outline
-from ninedof.design.region_poses import configurations_at, o_is_placed
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.rotations import from_vectors

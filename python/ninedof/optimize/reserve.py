@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
+from ninedof.design.domains.region_poses import Placing, o_is_placed
 from ninedof.design.duty import LARGEST_TOLERANCE, Tolerances, tolerances_like
 from ninedof.design.limit_numbers import with_scaled_limits
 from ninedof.design.limits import limit_words
 from ninedof.design.objective import CONDITION_LIMIT
-from ninedof.design.region_poses import Placing, o_is_placed
 from ninedof.design.study import Study
 from ninedof.optimize.candidate import best_of
 from ninedof.proof.machine import FOR_LIMITS, NEUTRAL_LIMIT, certify, open_limits

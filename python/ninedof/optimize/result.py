@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from ninedof.design.design_point import DERIVED, design_point
+from ninedof.design.domains.region_poses import posed
 from ninedof.design.duty import Tolerances
-from ninedof.design.region_poses import posed
 from ninedof.design.study import Study
 from ninedof.design.variables import changed_variables
 from ninedof.optimize.actuator_choice import ActuatorChoice
@@ -21,8 +21,7 @@ from ninedof.optimize.candidate import Candidate, OfStudy, RegionReport, best_of
 from ninedof.optimize.reserve import Reserve, certified, largest, machine_of, placing_of
 from ninedof.optimize.tables import agreement_sentence, candidates_table, internal_point_words, summary_lines
 from ninedof.proof.machine import machine_digest
-from ninedof.proof.machine_file import machine_file
-from ninedof.proof.machine_record import MachineCertificate
+from ninedof.proof.machine_record import MachineCertificate, machine_file
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.robot.configuration import Configuration
 from ninedof.sheet.sheet import Sheet, sheet

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.poses import rule_words
-from ninedof.design.region_poses import configurations_at
+from ninedof.design.domains.poses import rule_words
+from ninedof.design.domains.region_poses import configurations_at
 from ninedof.design.study import LENGTH, Study
 from ninedof.design.tables import listed_variables
 from ninedof.kinematics.kinematics import leg_lengths

@@ -19,7 +19,7 @@ from ninedof.support.units import amount
 
 if TYPE_CHECKING:
     from ninedof.optimize.candidate import Candidate
-    from ninedof.pareto import Front
+    from ninedof.optimize.pareto import Front
 
 Row = Mapping[str, Any]
 

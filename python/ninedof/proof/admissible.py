@@ -16,9 +16,9 @@ from ninedof.proof.admissible_set import PIECES, STATES, AdmissibleSet
 from ninedof.proof.design_range import LONGEST, DesignRange, HasDesign, design_range
 from ninedof.support.arguments import executor_argument, finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS, Floats
-from ninedof.support.chunks import results_at
 from ninedof.support.files import Arrays
 from ninedof.support.running import Progress, progress_argument
+from ninedof.support.store import results_at
 from ninedof.support.structs import Fixed, options_of
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.domains.region_poses import configurations_at, o_is_placed
 from ninedof.design.limit_numbers import with_scaled_limits
-from ninedof.design.region_poses import configurations_at, o_is_placed
 from ninedof.design.study import Study
 from ninedof.design.variables import angles_in_radians, given_values
 from ninedof.robot.configuration import Configuration

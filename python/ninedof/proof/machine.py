@@ -11,11 +11,11 @@ from typing import Any, TypedDict, Unpack
 import numpy as np
 
 from ninedof import _core
+from ninedof.design.domains.region import Region
+from ninedof.design.domains.region_poses import o_is_placed
 from ninedof.design.duty import LARGEST_TOLERANCE, Tolerances
 from ninedof.design.limits import label
 from ninedof.design.objective import CONDITION_LIMIT, Objective
-from ninedof.design.region import Region
-from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.motion.rotations import from_vectors
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate, ProofPose

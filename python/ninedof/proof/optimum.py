@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 
 from ninedof import _core
 from ninedof.design.study import Study
-from ninedof.proof.class_proof import MOST_BOXES, prove_class
 from ninedof.proof.design_range import LONGEST
 from ninedof.proof.optimum_proof import OptimumProof
-from ninedof.proof.optimum_steps import StepByStep, ways_of
+from ninedof.proof.optimum_steps import MOST_BOXES, StepByStep, prove_class, ways_of
 from ninedof.support.arguments import finite, instance, path_argument
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, progress_argument

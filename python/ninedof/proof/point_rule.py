@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.region_poses import Placing
+from ninedof.design.domains.region_poses import Placing
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import Geometry

@@ -16,9 +16,9 @@ import numpy as np
 from ninedof import plot
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.design_point import DesignPoint
+from ninedof.design.domains.poses import Pose
+from ninedof.design.domains.region import region_lines
 from ninedof.design.duty import Tool
-from ninedof.design.poses import Pose
-from ninedof.design.region import region_lines
 from ninedof.optimize.optimize import trace
 from ninedof.optimize.region_map import region_map
 from ninedof.optimize.result import Result

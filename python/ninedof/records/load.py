@@ -7,8 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from ninedof.motion import Followed
+from ninedof.optimize.pareto import Front
 from ninedof.optimize.result import Result, with_fixed_design
-from ninedof.pareto import Front
 from ninedof.records.design_file import Design, load_design, save_design
 from ninedof.support.arguments import path_argument, shown
 from ninedof.sweep import SweepResult

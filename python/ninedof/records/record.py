@@ -19,10 +19,10 @@ from typing import Any
 
 from ninedof.design.study import Study
 from ninedof.motion import Followed
+from ninedof.optimize.pareto import Front
+from ninedof.optimize.pareto.limits import with_limit, without_degrees
 from ninedof.optimize.result import Result, result_from
 from ninedof.paper.comparison import PaperComparison
-from ninedof.pareto import Front
-from ninedof.pareto.limits import with_limit, without_degrees
 from ninedof.proof.optimum_proof import FILE as CERTIFICATE
 from ninedof.records.motion import motion_values, write_tables
 from ninedof.sheet.path_limits import PathLimits

@@ -6,13 +6,13 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from ninedof.design.region import region_lines
+from ninedof.design.domains.region import region_lines
 from ninedof.design.study import Study
 from ninedof.optimize.candidate import Candidate
+from ninedof.optimize.pareto import Front
+from ninedof.optimize.pareto.front import front_table, limit_text, preferred
 from ninedof.optimize.result import Result, Status
 from ninedof.optimize.tables import SHOWN, agreement_words, best_prices, candidates_table
-from ninedof.pareto import Front
-from ninedof.pareto.front import front_table, limit_text, preferred
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.report import origin, proof, scene
 from ninedof.report.page import Page

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ninedof.design.study import Study
-from ninedof.pareto import Front
-from ninedof.pareto.limits import with_degrees
+from ninedof.optimize.pareto import Front
+from ninedof.optimize.pareto.limits import with_degrees
 from ninedof.support.text import encode
 from ninedof.support.units import degrees_of
 from ninedof.tables.html import Html, facts, joined, listing, paragraphs, tag

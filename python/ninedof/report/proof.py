@@ -7,8 +7,8 @@ from typing import Any
 
 from ninedof.design.limits import OF_LENGTHS
 from ninedof.optimize.bounds import applicable_bounds
+from ninedof.optimize.pareto import Front
 from ninedof.optimize.result import Result, Status
-from ninedof.pareto import Front
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.tables.html import Html, bullets, joined, paragraphs, tag
 from ninedof.workspace import WorkspaceMap

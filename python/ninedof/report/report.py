@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from ninedof.optimize.pareto import Front
 from ninedof.optimize.result import Result
-from ninedof.pareto import Front
 from ninedof.records.load import split
 from ninedof.support.arguments import path_argument
 from ninedof.support.files import write_whole

@@ -10,10 +10,10 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from ninedof.design.study import Study
+from ninedof.optimize.pareto import Front
 from ninedof.optimize.region_map import region_map
 from ninedof.optimize.result import Result
 from ninedof.paper.comparison import comparison_table
-from ninedof.pareto import Front
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.records.load import load
 from ninedof.records.proofs import certificate_file, load_certificate

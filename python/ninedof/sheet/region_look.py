@@ -8,9 +8,9 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_at
+from ninedof.design.domains.poses import Pose
+from ninedof.design.domains.region_poses import Placing, configurations_at, o_is_placed, poses_at
 from ninedof.design.limit_numbers import compared
-from ninedof.design.poses import Pose
-from ninedof.design.region_poses import Placing, configurations_at, o_is_placed, poses_at
 from ninedof.robot.configuration import Configuration, flat
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import shown

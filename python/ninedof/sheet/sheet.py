@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
+from ninedof.design.domains.region_poses import o_is_placed, posed
 from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, PARTS, compared, cone_limits
-from ninedof.design.region_poses import o_is_placed, posed
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples

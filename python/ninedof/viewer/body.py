@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from ninedof.design.domains.region_poses import o_is_placed
 from ninedof.design.limit_numbers import CONES, REGULAR
 from ninedof.design.limits import OF_LENGTHS
-from ninedof.design.region_poses import o_is_placed
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount

@@ -20,8 +20,8 @@ from ninedof.records.motion import legs_csv
 from ninedof.redundancy.rules import RULES, WORDS
 from ninedof.support.extras import MissingExtra
 from ninedof.support.units import amount, with_unit
-from ninedof.viewer.html import legend_html, limits_html, number, numbers_html, words_html
 from ninedof.viewer.machine import Machine, Variable
+from ninedof.viewer.numbers import legend_html, limits_html, number, numbers_html, words_html
 from ninedof.viewer.panel import Panel, Slider
 from ninedof.viewer.scene import PATH_COLOUR
 from ninedof.viewer.state import ELLIPSOIDS, State

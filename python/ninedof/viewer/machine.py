@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof.conditioning.characteristic_length import length_at
+from ninedof.design.domains.region import Region
 from ninedof.design.limit_numbers import compared
-from ninedof.design.region import Region
 from ninedof.design.study import FAMILIES, LENGTH, Study, variable_kinds
 from ninedof.design.variables import variables_of
 from ninedof.kinematics.kinematics import leg_lengths

@@ -12,9 +12,9 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.study import LENGTH
 from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.kinematics.position import PositionStatus, forward_position
 from ninedof.motion.rotations import from_vectors, to_quaternions, vectors_between
 from ninedof.motion.trajectory import Trajectory
-from ninedof.position.position import PositionStatus, forward_position
 from ninedof.records.design_file import Design
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.redundancy.rules import RULES

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.design.region import region_lines, section_outline
+from ninedof.design.domains.region import region_lines, section_outline
 
 HOME = nd.Configuration.neutral(zp=5.0, zs=3.0)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.design.region_poses import Placing
+from ninedof.design.domains.region_poses import Placing
 
 G = nd.Geometry.hexagonal(1.0, 0.8, 0.5, 0.6)
 NEUTRAL = nd.Configuration.neutral(2.0, 1.0, 0.6)

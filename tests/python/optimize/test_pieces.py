@@ -16,7 +16,7 @@ from sweep_work import GRID, HOME, G, finished
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.pareto import solving
+from ninedof.optimize.pareto import solving
 from ninedof.support.store import Store
 from ninedof.support.text import encode
 from ninedof.sweep import points

@@ -10,7 +10,7 @@ from limit_oracle import limits_of, margins, robot_of
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.region_poses import posed
 
 LIMITS = {"radius_ratio": (None, 2.0), "base_cone": {"max_deg": 60}, "platform_cone": {"max_deg": 60}}
 REGIONS = {

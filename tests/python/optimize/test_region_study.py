@@ -15,7 +15,7 @@ from sizes import LONG, size
 from tall_machine import VARIABLES
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.region_poses import posed
 
 UPRIGHT = {"axis": [0.0, 0.0, 1.0]}
 STUDIES = {

@@ -10,7 +10,7 @@ import pytest
 
 import ninedof as nd
 from ninedof import poses
-from ninedof.design.poses import rule_words
+from ninedof.design.domains.poses import rule_words
 from ninedof.optimize.tables import least_share, price_words
 from ninedof.redundancy.rules import WORDS
 from ninedof.support.text import encode

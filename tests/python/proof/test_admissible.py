@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.region_poses import posed
 from ninedof.proof.admissible_set import NoRoom
 
 ROUNDING = 1e-9

@@ -9,7 +9,7 @@ from limit_oracle import limits_of, margins, robot_of
 from region_oracle import random_poses
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.region_poses import posed
 
 STUDY = nd.Study(
     variables={"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0},

@@ -15,12 +15,11 @@ from region_oracle import index_at, random_poses
 from robots import NONPLANAR
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.region_poses import posed
 from ninedof.optimize.pieces import Pieces
-from ninedof.proof.class_proof import at_home
 from ninedof.proof.optimum import prove
 from ninedof.proof.optimum_proof import OptimumProof
-from ninedof.proof.optimum_steps import ways_of
+from ninedof.proof.optimum_steps import at_home, ways_of
 from ninedof.support.store import Store
 
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0}

@@ -13,7 +13,7 @@ from region_poses import drawn
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
-from ninedof.design.region_poses import Placing
+from ninedof.design.domains.region_poses import Placing
 from ninedof.proof.point_rule import rule_of
 
 VARIABLES = {"a1": 1.0, "a2": 0.8, "b1": 0.5, "b2": 0.6, "zp": 2.0, "zs": 1.0, "theta_z": 0.6}

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 import ninedof as nd
-from ninedof.pareto import solving
+from ninedof.optimize.pareto import solving
 from ninedof.records.record import load_run as load
 
 # --- Records ----------------------------------------------------------------------------------------------------------

@@ -20,8 +20,8 @@ from ninedof import _core
 from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.app import main
 from ninedof.cli.screen import Screen
-from ninedof.pareto import Front
-from ninedof.pareto.limits import without_degrees
+from ninedof.optimize.pareto import Front
+from ninedof.optimize.pareto.limits import without_degrees
 from ninedof.records.record import Record
 from ninedof.report import origin
 from ninedof.report.page import BLANK, title_block

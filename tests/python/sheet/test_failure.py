@@ -12,7 +12,7 @@ from unsolved import unsolved
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.region_poses import posed
 from ninedof.robot.geometry import LEGS
 from ninedof.sheet.failure.failure import SETS
 from ninedof.sheet.failure.tables import free_table, loads_table, locked_table, pairs_table

@@ -12,7 +12,7 @@ from unsolved import unsolved
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.design.region_poses import configurations_at, posed, poses_at
+from ninedof.design.domains.region_poses import configurations_at, posed, poses_at
 from ninedof.export.model import model_of
 from ninedof.optimize.reserve import placing_of
 

@@ -8,7 +8,7 @@ from limit_oracle import limits_of, margins, robot_of
 from region_oracle import random_poses
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.region_poses import posed
 
 FIRST = "ninedof certificate of designs 1\nchecksum "
 

@@ -47,14 +47,14 @@ NOWHERE = {"pybind11", "Python.h", "iostream"}
 # --- Python -----------------------------------------------------------------------------------------------------------
 
 # As in C++ where both have the room, but for conditioning, which comes before kinematics: `jacobian` takes the kind of
-# a characteristic length. `__init__` holds the public names; what follows it is not loaded by `import ninedof`.
+# a characteristic length. kinematics stands for the core's position too. `__init__` holds the public names; what
+# follows it is not loaded by `import ninedof`.
 PYTHON_ROOMS = (
     "support",
     "tables",
     "robot",
     "conditioning",
     "kinematics",
-    "position",
     "singularity",
     "statics",
     "redundancy",
@@ -64,7 +64,6 @@ PYTHON_ROOMS = (
     "proof",
     "optimize",
     "workspace",
-    "pareto",
     "sweep",
     "plot",
     "paper",
@@ -81,7 +80,6 @@ CORE_USERS = {
     "robot",
     "conditioning",
     "kinematics",
-    "position",
     "singularity",
     "statics",
     "redundancy",

@@ -13,7 +13,7 @@ from region_poses import drawn
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.region_poses import posed
 
 SPREADS = ("leg_ratio", "stroke", "stroke_ratio")
 OF_POSES = (

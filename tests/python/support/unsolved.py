@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.region_poses import posed
 
 ANGLES = ("base_internal_angle", "platform_external_angle", "platform_internal_angle")
 SIZES = {"base_external_radius": 5.0, "base_internal_radius": 3.0, "zp": 4.0, "zs": 2.2}

@@ -13,7 +13,7 @@ import pytest
 from interrupts import until
 
 import ninedof as nd
-from ninedof.design.region import region_lines
+from ninedof.design.domains.region import region_lines
 from ninedof.plot import style
 from ninedof.viewer import shapes
 from ninedof.viewer.body import Body

@@ -7,7 +7,7 @@ import pytest
 from region_oracle import random_poses
 
 import ninedof as nd
-from ninedof.design.region_poses import posed
+from ninedof.design.domains.region_poses import posed
 from ninedof.workspace.study_question import box_about, leg_ranges_over, region_share
 
 VARIABLES = {"a1": 0.0, "a2": 5.8, "b1": 2.9, "b2": 0.0, "zp": 4.0, "zs": 2.4, "theta_z": 0.0}

@@ -14,9 +14,9 @@ from ninedof.cli.posed import named_design
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.design.objective import CONDITION_LIMIT
-from ninedof.pareto.front import front_table
-from ninedof.pareto.limits import TOLERANCE, with_degrees
-from ninedof.pareto.solving import range_words
+from ninedof.optimize.pareto.front import front_table
+from ninedof.optimize.pareto.limits import TOLERANCE, with_degrees
+from ninedof.optimize.pareto.solving import range_words
 from ninedof.records.load import split
 from ninedof.records.record import run_folder, write_run
 from ninedof.support.running import notes_told

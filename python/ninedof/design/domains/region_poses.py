@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ninedof import _core
-from ninedof.design.poses import Pose
-from ninedof.design.region import Region
+from ninedof.design.domains.poses import Pose
+from ninedof.design.domains.region import Region
 from ninedof.design.study import Study
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration

@@ -11,11 +11,11 @@ from sizes import size
 
 import ninedof as nd
 from ninedof.optimize.check import check
-from ninedof.pareto import pareto
-from ninedof.pareto import solving as sweeping
-from ninedof.pareto.front import front_table
-from ninedof.pareto.limits import own_value, resolve, value_of, with_limit, without_degrees
-from ninedof.pareto.solving import WIDE, range_words
+from ninedof.optimize.pareto import pareto
+from ninedof.optimize.pareto import solving as sweeping
+from ninedof.optimize.pareto.front import front_table
+from ninedof.optimize.pareto.limits import own_value, resolve, value_of, with_limit, without_degrees
+from ninedof.optimize.pareto.solving import WIDE, range_words
 
 PAPER = nd.Study.paper()
 

@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof.design.study import Study
+from ninedof.optimize.pareto.limits import TOLERANCE, unit_of, without_degrees
 from ninedof.optimize.result import Result, Status
 from ninedof.optimize.tables import MOST_GAIN
-from ninedof.pareto.limits import TOLERANCE, unit_of, without_degrees
 from ninedof.support.units import unit_entry, with_unit
 from ninedof.tables import RIGHT, Column, Table
 from ninedof.tables.html import notebook

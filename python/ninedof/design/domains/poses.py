@@ -58,7 +58,7 @@ class Pose(StudyTable):
     Examples
     --------
     >>> import math
-    >>> from ninedof.design.poses import Pose
+    >>> from ninedof.design.domains.poses import Pose
     >>> Pose(position=(0.1, 0, 0), rotation=(0, math.radians(10), 0), unit="zp").internal_point
     'shifted'
 

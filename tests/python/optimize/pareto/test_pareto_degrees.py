@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 import ninedof as nd
-from ninedof.pareto import solving
-from ninedof.pareto.limits import unit_of, with_degrees, without_degrees
+from ninedof.optimize.pareto import solving
+from ninedof.optimize.pareto.limits import unit_of, with_degrees, without_degrees
 
 STUDY = nd.Study(
     "symmetric",

@@ -9,11 +9,11 @@ from dataclasses import replace
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
+from ninedof.optimize.pareto.front import SAME, Front, limit_text, objective_of
+from ninedof.optimize.pareto.limits import floor_of, own_value, tightest_first, unit_of, value_of, with_limit
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.reserve import FIRST, MOST, STEP
 from ninedof.optimize.result import Result, Status
-from ninedof.pareto.front import SAME, Front, limit_text, objective_of
-from ninedof.pareto.limits import floor_of, own_value, tightest_first, unit_of, value_of, with_limit
 from ninedof.support.running import Progress, notes_told
 from ninedof.support.store import Store
 from ninedof.support.units import amount, degrees_of

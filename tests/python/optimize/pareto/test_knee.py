@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ninedof.pareto.front import preferred
+from ninedof.optimize.pareto.front import preferred
 
 NAN, INF = float("nan"), float("inf")
 

@@ -3,7 +3,7 @@
 `tracing` has the public function, `front` its result. `solving` solves the limits and finds their range.
 """
 
-from ninedof.pareto.front import Front
-from ninedof.pareto.tracing import pareto
+from ninedof.optimize.pareto.front import Front
+from ninedof.optimize.pareto.tracing import pareto
 
 __all__ = ["Front", "pareto"]

@@ -6,9 +6,9 @@ from dataclasses import replace
 import pytest
 
 import ninedof as nd
-from ninedof.pareto import solving
-from ninedof.pareto.front import front_table
-from ninedof.pareto.limits import tightest_first, unit_of, with_limit
+from ninedof.optimize.pareto import solving
+from ninedof.optimize.pareto.front import front_table
+from ninedof.optimize.pareto.limits import tightest_first, unit_of, with_limit
 from ninedof.records.record import write_run
 
 SIDES = {"a1": (0.0, 6.0), "a2": (3.0, 6.0), "b1": (1.0, 4.0), "b2": (0.0, 4.0)}

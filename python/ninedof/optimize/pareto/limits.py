@@ -7,12 +7,12 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
+from ninedof.design.domains.region_poses import o_is_placed
 from ninedof.design.duty import tolerances_like
 from ninedof.design.indices import objectives
 from ninedof.design.limit_numbers import SPREADS
 from ninedof.design.limits import AT, ROWS, Limit, label, names_with_max, split_label
 from ninedof.design.objective import CONDITION_LIMIT
-from ninedof.design.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
 from ninedof.sheet.rows import limit_rows

@@ -14,10 +14,10 @@ import numpy as np
 
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import Study
+from ninedof.optimize.pareto.front import Front, objective_of
+from ninedof.optimize.pareto.limits import TOLERANCE, resolve, tightest_first, with_degrees, without_degrees
+from ninedof.optimize.pareto.solving import BISECTIONS, FrontSolver, between_indices, of_a_limit, of_tolerances
 from ninedof.optimize.result import Result, Status
-from ninedof.pareto.front import Front, objective_of
-from ninedof.pareto.limits import TOLERANCE, resolve, tightest_first, with_degrees, without_degrees
-from ninedof.pareto.solving import BISECTIONS, FrontSolver, between_indices, of_a_limit, of_tolerances
 from ninedof.support.arguments import finite, instance, items, path_argument, shown, whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.running import Progress, progress_argument
@@ -86,7 +86,7 @@ def pareto(
     Examples
     --------
     >>> import ninedof as nd
-    >>> from ninedof.pareto import pareto
+    >>> from ninedof.optimize.pareto import pareto
     >>> front = pareto(nd.Study.paper(), "radius_ratio", values=[1.5, 2.0, 3.0])
     >>> [round(value, 4) for value in front.objectives]
     [3.9412, 3.7627, 3.5486]

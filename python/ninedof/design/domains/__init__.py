@@ -1,0 +1,1 @@
+"""Poses and regions of poses, about the neutral pose of a design."""

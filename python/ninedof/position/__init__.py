@@ -1,1 +1,0 @@
-"""Direct position analysis: all assembly modes, and tracking of one."""
