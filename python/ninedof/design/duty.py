@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ninedof import _core
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.statics.dynamics import GRAVITY, inertia_matrix
-from ninedof.support.arguments import Vector, finite, instance, items, shown, text, vector
+from ninedof.statics.dynamics import GRAVITY, inertia_matrix, masses_for_core
+from ninedof.support.arguments import Vector, choice, finite, instance, items, shown, text, vector
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.structs import StudyTable, entry, read
 from ninedof.support.text import short_repr
@@ -329,3 +330,29 @@ DUTIES: dict[str, type[StudyTable]] = {
 def duty(kind: type[StudyTable]) -> Callable[..., Any]:
     """Return the check of an argument that is such a table or a mapping of its entries, besides their defaults."""
     return lambda name, value, **defaults: value if isinstance(value, kind) else read(kind, value, name, **defaults)
+
+
+# --- For limits of forces, rates and powers of legs -------------------------------------------------------------------
+
+INTERNAL = ("least", "held", "shifted", "carried")
+"""The motion of O with the platform."""
+
+
+@dataclass(frozen=True)
+class LegDuty(StudyTable):
+    """The duty of the legs of a machine, masses in the frame of geometries."""
+
+    loads: Loads = entry(duty(Loads), Loads())
+    masses: Masses = entry(duty(Masses), Masses())
+    speeds: Speeds = entry(duty(Speeds), Speeds())
+    internal: str = entry(partial(choice, known=INTERNAL), "least")
+
+    def for_core(self) -> _core.Duty:
+        """Return the duty as the core takes it; a machine without wrenches has its weights alone."""
+        speeds = {"linear_speed": self.speeds.linear, "angular_speed": self.speeds.angular}
+        return _core.Duty(
+            loads=self.loads.wrenches or [(0.0,) * 6],
+            masses=masses_for_core(self.masses),
+            gravity=self.loads.gravity,
+            motion=_core.PlatformMotion(internal=self.internal, **speeds),
+        )

@@ -183,6 +183,15 @@ def names_with_max() -> list[str]:
     return [name for name, row in ROWS.items() if "max" in row.sides]
 
 
+def require_stated(limits: Sequence[Limit], states: Mapping[str, bool]) -> None:
+    """Raise ValueError if a limit is about loads or speeds that a study does not state."""
+    expected = {"loads": "wrenches in [loads], or [masses]", "speeds": "linear or angular in [speeds]"}
+    for limit in limits:
+        for table in limit.row.needs:
+            if not states[table]:
+                raise ValueError(f"constraints.{limit.name}: got a study without {table}, expected {expected[table]}")
+
+
 def _parse(where: str, row: Row, value: Any) -> Limit:
     if isinstance(value, Limit):
         value = value.entries

@@ -12,7 +12,7 @@ from typing import Any, Self
 
 from ninedof import _core
 from ninedof.design.domains import poses
-from ninedof.design.domains.poses import Pose
+from ninedof.design.domains.poses import ZERO, Pose
 from ninedof.design.domains.region import Region
 from ninedof.design.duty import duty
 from ninedof.design.indices import objectives
@@ -176,3 +176,22 @@ class Objective(StudyTable):
             poses=[pose.for_core() for pose in self.poses],
             **{name: math.inf if (limit := getattr(self, name)) is None else limit for name in CONDITION_LIMITS},
         )
+
+
+def internal_motion(objective: Objective) -> str:
+    """Return how O moves over the poses of a study, for its limits and for the sheet of its design.
+
+    "held", "shifted", or "carried" where nothing turns; "least", where the rates of the legs are least, for one pose
+    alone and where O is placed or follows no rule.
+    """
+    listed, region = objective.poses, objective.region
+    turns = any(pose.rotation != ZERO for pose in listed)
+    # Without a shift, shifted and held are the same.
+    rules = {pose.internal_point for pose in listed if pose.position != ZERO or pose.internal_point != "shifted"}
+    if region is not None:
+        turns = turns or max(region.reach[3:]) > 0.0
+        if max(region.reach[:3]) > 0.0 or region.internal_point == "best":
+            rules.add(region.internal_point)
+    if rules == {"shifted"}:
+        return "shifted" if turns else "carried"
+    return "held" if rules == {"held"} or (not rules and turns) else "least"

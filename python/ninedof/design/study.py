@@ -19,10 +19,9 @@ from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design import actuators as bought
 from ninedof.design.actuators import FOR, LEG_KINDS, Actuator
 from ninedof.design.design_point import DesignPoint, design_point
-from ninedof.design.duty import DUTIES, About, Loads, Masses, Speeds, Tolerances, Tool, duty, require_small
-from ninedof.design.leg_duty import LegDuty, internal_motion, require_stated
-from ninedof.design.limits import OF_LENGTHS, ROWS, Limit, form, parse
-from ninedof.design.objective import Objective
+from ninedof.design.duty import DUTIES, About, LegDuty, Loads, Masses, Speeds, Tolerances, Tool, duty, require_small
+from ninedof.design.limits import OF_LENGTHS, ROWS, Limit, form, parse, require_stated
+from ninedof.design.objective import Objective, internal_motion
 from ninedof.design.tables import limits_table, variables_table
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import (

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.duty import Masses, Tool
-from ninedof.design.leg_duty import INTERNAL
+from ninedof.design.duty import INTERNAL, Masses, Tool
 from ninedof.design.limit_numbers import CONES, JOINTS, PARTS, cone_limits, exempt_pairs
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.duty import duty
-from ninedof.design.leg_duty import LegDuty
+from ninedof.design.duty import LegDuty, duty
 from ninedof.design.limit_numbers import PARTS
 from ninedof.design.limits import Row
 from ninedof.redundancy.redundancy import leg_limits

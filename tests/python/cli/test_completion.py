@@ -3,7 +3,7 @@
 import pytest
 
 from ninedof.conditioning.characteristic_length import KINDS
-from ninedof.design.leg_duty import INTERNAL
+from ninedof.design.duty import INTERNAL
 from ninedof.export.export import formats
 from ninedof.redundancy.rules import RULES
 from ninedof.support.units import UNITS

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
-from ninedof.design.leg_duty import internal_motion
+from ninedof.design.objective import internal_motion
 from ninedof.sheet.path_limits import limits_at_poses
 from ninedof.workspace.study_question import design_question
 

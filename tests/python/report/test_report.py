@@ -24,8 +24,8 @@ from ninedof.optimize.pareto import Front
 from ninedof.optimize.pareto.limits import without_degrees
 from ninedof.records.record import Record
 from ninedof.report import origin
+from ninedof.report.optimization import FAMILIES, question
 from ninedof.report.page import BLANK, title_block
-from ninedof.report.question import FAMILIES, question
 from ninedof.tables import Column, Table
 from ninedof.tables.html import Html, html_of, tag
 from ninedof.tables.numbers import short

@@ -27,7 +27,7 @@ from ninedof.cli.options import (
     typed,
 )
 from ninedof.cli.posed import named_design
-from ninedof.design.leg_duty import INTERNAL
+from ninedof.design.duty import INTERNAL
 from ninedof.sheet.tables import sheet_parts
 from ninedof.support.arguments import finite
 from ninedof.support.files import own_or_new, write_whole
