@@ -8,7 +8,7 @@ from time import perf_counter
 from typing import Any
 
 from ninedof import _core
-from ninedof.design.domains.poses import ZERO, Pose
+from ninedof.design.domains.poses import ZERO
 from ninedof.design.domains.region_poses import o_is_placed
 from ninedof.design.study import Study
 from ninedof.proof.design_range import EXISTS, NONE, DesignRange, design_range, existence
@@ -18,6 +18,13 @@ from ninedof.support.running import Progress, phase
 GAPS = {"hexagonal": 1e-12, "symmetric": 1e-6, "symmetric_nonplanar": 2e-3}
 """Relative gaps to prove: of hexagons five numbers matter, of planar symmetric designs seven, of others eleven."""
 MOST_BOXES = 100_000_000  # a gigabyte of tree, some five minutes
+GAP = 1e-3
+"""Relative gap to prove by boxes: the active poses of an optimum meet there, and the last of it takes longest."""
+STEPS = (0.1, 0.02, 5e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)  # gaps that are proved before: a bound when the time ends
+COARSE = (0.5, 0.3, 0.2)  # before these where many variables are free
+MOST_FREE, FEW = 6, 4
+MANY_BOXES, FEW_BOXES = 1_000_000, 50_000
+"""Of the class, where boxes of designs may do more: seconds where many variables are free, else a part of one."""
 
 
 def prove_class(
@@ -45,7 +52,9 @@ def at_home(study: Study) -> Study | None:
     if not is_neutral(study):
         if study.tool or objective.aggregate != "worst" or o_is_placed(study):
             return None
-        if not (_in_region(study) or any(_is_neutral_pose(pose) for pose in objective.poses)):
+        shifts = ((pose.position, pose.rotation, pose.internal_point) for pose in objective.poses)
+        in_region = objective.region is not None and objective.region.path is None
+        if not in_region and (ZERO, ZERO, "shifted") not in shifts:
             return None
         alone = replace(study, objective=replace(objective, region=None, poses=()))
     try:
@@ -58,23 +67,6 @@ def at_home(study: Study) -> Study | None:
 def is_neutral(study: Study) -> bool:
     """Whether a study is about the neutral pose alone, without a tool."""
     return not (study.tool or study.objective.region is not None or study.objective.poses)
-
-
-def _in_region(study: Study) -> bool:
-    return study.objective.region is not None and study.objective.region.path is None
-
-
-def _is_neutral_pose(pose: Pose) -> bool:
-    return pose.position == pose.rotation == ZERO and pose.internal_point == "shifted"
-
-
-GAP = 1e-3
-"""Relative gap to prove by boxes: the active poses of an optimum meet there, and the last of it takes longest."""
-STEPS = (0.1, 0.02, 5e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)  # gaps that are proved before: a bound when the time ends
-COARSE = (0.5, 0.3, 0.2)  # before these where many variables are free
-MOST_FREE, FEW = 6, 4
-MANY_BOXES, FEW_BOXES = 1_000_000, 50_000
-"""Of the class, where boxes of designs may do more: seconds where many variables are free, else a part of one."""
 
 
 @dataclass(frozen=True)

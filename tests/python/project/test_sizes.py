@@ -1,6 +1,7 @@
-"""No function takes more than seven parameters: more of them are a struct. Lines have at most 120 columns."""
+"""At most seven parameters a function, twelve files a folder of the package, 120 columns a line."""
 
 import ast
+from collections import Counter
 from pathlib import Path
 
 import ninedof
@@ -9,6 +10,7 @@ MOST = 7
 # Fixed as public names: the keywords of the workspace; robot, pose and the six vectors of an equation.
 LONGER = {"workspace", "inverse_acceleration"}
 ROOT = Path(__file__).parents[3]
+FILES = 12
 COLUMNS = 120
 
 
@@ -21,6 +23,12 @@ def test_functions_take_at_most_seven_parameters():
                 if len([one for one in own if one.arg not in ("self", "cls")]) > MOST:
                     names.add(node.name)
     assert names == LONGER
+
+
+def test_a_full_room_has_rooms_inside():
+    counts = Counter(file.parent for file in Path(ninedof.__file__).parent.rglob("*.py"))
+    assert len(counts) > 25
+    assert [folder.name for folder, count in counts.items() if count > FILES] == []
 
 
 def test_lines_of_the_core_end_at_column_120():
