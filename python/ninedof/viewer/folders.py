@@ -21,8 +21,7 @@ from ninedof.redundancy.rules import RULES, WORDS
 from ninedof.support.extras import MissingExtra
 from ninedof.support.units import amount, with_unit
 from ninedof.viewer.machine import Machine, Variable
-from ninedof.viewer.numbers import legend_html, limits_html, number, numbers_html, words_html
-from ninedof.viewer.panel import Panel, Slider
+from ninedof.viewer.panel import Panel, Slider, legend_html, limits_html, number, numbers_html, words_html
 from ninedof.viewer.scene import PATH_COLOUR
 from ninedof.viewer.state import ELLIPSOIDS, State
 

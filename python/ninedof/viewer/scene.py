@@ -18,7 +18,8 @@ from ninedof.support.arrays import Floats
 from ninedof.viewer import shapes
 from ninedof.viewer.body import Body
 from ninedof.viewer.designs import DesignPicture, add_picture
-from ninedof.viewer.numbers import RED, Numbers
+from ninedof.viewer.numbers import Numbers
+from ninedof.viewer.panel import RED
 from ninedof.viewer.state import State
 
 STARTS, ENDS = [0, 1, 2, 9, 10, 11, 3, 4, 5], [6, 7, 8, 12, 12, 12, 12, 12, 12]  # of legs, in `points_of`

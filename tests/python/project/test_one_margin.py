@@ -24,7 +24,8 @@ from ninedof.sheet.tables import limits_table
 from ninedof.support.margins import is_violated, margin_of, margin_words, tolerance_of
 from ninedof.tables.table import plain_text
 from ninedof.viewer.machine import Variant
-from ninedof.viewer.numbers import limits_html, numbers_of
+from ninedof.viewer.numbers import numbers_of
+from ninedof.viewer.panel import limits_html
 
 LIMITS = EVERY_LIMIT | {
     "leg_clearance": {"radius": 0.05},

@@ -10,7 +10,8 @@ import ninedof as nd
 from ninedof.support.margins import is_violated
 from ninedof.viewer.folders import spread_words
 from ninedof.viewer.machine import machine_of
-from ninedof.viewer.numbers import limits_html, numbers_of
+from ninedof.viewer.numbers import numbers_of
+from ninedof.viewer.panel import limits_html
 from ninedof.viewer.state import State
 
 
