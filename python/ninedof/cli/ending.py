@@ -33,7 +33,13 @@ ClickException = BadParameter.__mro__[2]
 SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 # Arguments whose option has another name; of those that are something else too, where the option was typed.
 OPTIONS = {"at": "set", "condition_number": "condition", "time_limit": "time"}
-IF_TYPED = OPTIONS | {"changes": "set", "characteristic_length": "lc", "radius": "circle"}
+IF_TYPED = OPTIONS | {
+    "changes": "set",
+    "characteristic_length": "lc",
+    "radius": "circle",
+    "leg_lengths": "lengths",
+    "leg_length": "legs",
+}
 # Options whose values name what they are of: --set zp=480.
 NAMING = ("--set", "--vary", "--over")
 ONE_PRESS = 0.1  # seconds: a terminal and a program in between may both hand on one Ctrl-C
@@ -134,19 +140,26 @@ def _is_ours(error: Exception) -> bool:
 
 def as_typed(message: str, arguments: Sequence[str]) -> str:
     """Return a message that begins with names of arguments, "leg_mass: got 0", with the options as they were typed."""
-    names, colon, rest = message.partition(": ")
-    known = [_as_option(name, arguments) or name for name in names.split(", ")]
-    return f"{', '.join(known)}{colon}{rest}"
+    before, colon, rest = message.partition(": ")
+    if not colon or any(before in (word, os.path.basename(word)) for word in arguments):  # a file
+        return message
+    names = before.split(", ")
+    known = [_as_option(name, arguments, len(names) == 1) or name for name in names]
+    return f"{', '.join(known)}: {rest}"
 
 
-def _as_option(name: str, arguments: Sequence[str]) -> str:
-    """Return --vary a2 for vary.a2, --set zp for zp where --set zp=480 was typed; nothing for what was not."""
+def _as_option(name: str, arguments: Sequence[str], alone: bool) -> str:
+    """Return --vary a2 for vary.a2, --set zp for zp where --set zp=480 was typed; nothing for what was not.
+
+    Names that no option has are renamed where they stand alone, as the value may be one that was not typed.
+    """
     if not (parts := re.fullmatch(r"(\w+)(?:\.(\w+)|\['(\w+)'\])?", name)):
         return ""
     argument, *of = (part for part in parts.groups() if part)
     own = IF_TYPED.get(argument, argument)
     for option in (typed(own), typed(f"{own}{DEG}")):
-        if argument in OPTIONS or any(word == option or word.startswith(f"{option}=") for word in arguments):
+        was_typed = any(word == option or word.startswith(f"{option}=") for word in arguments)
+        if was_typed or (alone and argument in OPTIONS):
             return " ".join([option, *of])
     words = [word for one in arguments for word in one.split("=")]
     pairs = [(option, word) for option, word in pairwise(words) if option in NAMING]

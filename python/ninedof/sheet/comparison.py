@@ -187,14 +187,19 @@ def compare(*designs: Any, names: Sequence[str] | None = None) -> Comparison:
 
 
 def _chosen(designs: Sequence[Any]) -> tuple[Any, ...]:
-    """Return the rows of each design; one that is changed and not optimized has those of its study."""
-    rows = [(getattr(one, "study", None), choice.chosen) for one in designs if (choice := _choice(one))]
-    own = [getattr(one, "study", None) for one in designs]
-    return tuple(next((row for of, row in rows if of == study), None) for study in own) if rows else ()
+    """Return the rows of each design; one that is changed and not optimized has those of a run beside it, of its study.
 
+    Runs of one study may have chosen rows of other names: then the change has none.
+    """
+    choices = [getattr(one, "actuators", None) for one in designs]
+    runs = [(one.study, choice.chosen) for one, choice in zip(designs, choices, strict=True) if choice]
 
-def _choice(design: Any) -> Any:
-    return getattr(design, "actuators", None)
+    def beside(design: Any) -> Any:
+        rows = [row for study, row in runs if study == getattr(design, "study", None)]
+        return rows[0] if rows and all(row == rows[0] for row in rows) else None
+
+    each = zip(designs, choices, strict=True)
+    return tuple(choice.chosen if choice else beside(one) for one, choice in each) if runs else ()
 
 
 def _row_cells(row: Any, limits: Sequence[str], of: Sheet) -> tuple[str, str, str, str]:

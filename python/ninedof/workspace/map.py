@@ -50,8 +50,8 @@ class WorkspaceMap(Saved):
     error: float
     """Estimate of the error of the volume. Octree: from the differences of levels, plus `unseen`. Grid: from random
     errors of the boundary cells. Sample: the standard error over the shifts. Of both at least `unseen` where all points
-    are allowed or none is. With `singularity_free` it does not include a part that only a neck thinner than the
-    smallest cell connects with home."""
+    are allowed or none is; points of a grid all miss a slab at a face thinner than half a cell. With
+    `singularity_free` it does not include a part that only a neck thinner than the smallest cell connects with home."""
     unseen: float
     """Upper bound, at 95 % confidence, of the volume of a feature that neither corners of cells nor the poses that
     audit them show: a part of `error` of an octree. Many separate ones, of which some were found, may be larger.

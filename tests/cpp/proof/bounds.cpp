@@ -16,8 +16,6 @@
 
 using namespace ninedof;
 
-namespace {}  // namespace
-
 TEST_SUITE("bounds") {
   TEST_CASE("another rounding mode is refused") {
     const Configuration c = neutral(3.9828, 2.3745);

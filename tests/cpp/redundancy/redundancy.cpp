@@ -19,8 +19,6 @@ using ninedof::InternalPoint;
 using ninedof::InternalPointProblem;
 using ninedof::InternalPointStatus;
 
-namespace {}  // namespace
-
 TEST_SUITE("redundancy") {
   TEST_CASE("no point near an optimum is better") {
     Random random(1);

@@ -130,7 +130,7 @@ def test_an_impossible_region_is_infeasible():
     study = nd.Study(constraints={"leg_ratio": (None, 1.01)}, objective={"region": region}, starts=1)
     result = nd.optimize(study)
     assert (result.status, result.best, result.region) == ("infeasible", None, None)
-    assert re.search(r"at the poses? shifted by \(.+?\), turned \(.+?\)° from neutral", result.reason)
+    assert re.search(r"at the poses? neutral shifted by \([^()]+\) and turned \([^()]+\)°", result.reason)
     # A warm start has the variables of the study, and none for O at the poses.
     warm = {"a1": 0.0, "a2": 5.0, "b1": 3.0, "b2": 0.0, "zp": 4.0, "zs": 2.0, "theta_z": 0.0}
     assert nd.optimize(study, warm=[warm]).status == "infeasible"

@@ -115,6 +115,11 @@ def test_the_actuators_of_machines_stand_beside_each_other(machine):
     assert f"price of all nine {price:g} - {price:g}" in text
     assert both.to_dict()["actuators"][1] is None
     assert "Actuators" not in str(nd.compare(machine, machine))
+    rows = [replace(one, name=f"{one.name} 2", price=10.0 * one.price) for one in (long, short)]
+    dear = nd.optimize(replace(study, actuators=rows))
+    assert dear.study == chosen.study
+    rows = nd.compare(chosen, dear, chosen.with_changes(zp="+1%")).actuators
+    assert [row and row.price for row in rows] == [price, 10.0 * price, None]
 
 
 def test_a_change_of_nothing_changes_nothing_and_what_differs_in_the_studies(machine):

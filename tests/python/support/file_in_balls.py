@@ -35,6 +35,15 @@ def read(word):
     return x
 
 
+def read_file(data):
+    try:
+        return File(data)
+    except Refused:
+        raise
+    except (ValueError, LookupError) as error:  # of reading alone: a fault of what checks is none of the file
+        raise Refused(error) from None
+
+
 class File:
     def __init__(self, data):
         first = FIRST.match(data)

@@ -124,7 +124,7 @@ def cone(body, joints):
             seen, axis = seen @ at.q, axis @ m.home.q
         if any(w.axis):
             axis = (m.none + w.axis).unit()
-        return dot(seen, axis) - (arb(w.bound).cos() if w.bound < 3.14 else arb(-2))
+        return dot(seen, axis) - (arb(w.bound).cos() if w.bound < math.pi else arb(-2))
 
     return "<", 1, margins
 

@@ -9,7 +9,7 @@ from fractions import Fraction
 from itertools import product
 
 import numpy as np
-from file_in_balls import File, need
+from file_in_balls import Refused, need, read_file
 from flint import ctx
 from limits_in_balls import PAIRS, wants_of
 from machine_in_balls import FIRST_LISTED, NEUTRAL, POSE, Machine
@@ -148,6 +148,6 @@ def check(data):
     """Return "proved", "incomplete" or why the file is refused."""
     ctx.prec = 80
     try:
-        return "proved" if Checker(File(data)).run() else "incomplete"
-    except (ValueError, LookupError) as error:
+        return "proved" if Checker(read_file(data)).run() else "incomplete"
+    except Refused as error:
         return f"refused: {error}"

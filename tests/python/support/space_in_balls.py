@@ -7,7 +7,7 @@ import math
 import struct
 from itertools import product
 
-from file_in_balls import File, need
+from file_in_balls import Refused, need, read_file
 from flint import arb, ctx, fmpq
 from limits_in_balls import wants_of
 from machine_in_balls import Machine
@@ -31,8 +31,10 @@ class Space:
         ahead = [(box, ways if f["allowed_with"] == ["some"] else [[one for way in ways for one in way]])]
         while ahead:
             box, ways = ahead.pop()
-            code, *words = struct.unpack_from(FORMS[f.tree[at]], f.tree, at)
-            at += struct.calcsize(FORMS[code])
+            form = FORMS.get(f.tree[at]) if at < len(f.tree) else None
+            need(form and at + struct.calcsize(form) <= len(f.tree), "a box of the tree is none")
+            code, *words = struct.unpack_from(form, f.tree, at)
+            at += struct.calcsize(form)
             if code < 6:
                 low, high = halves(box, code % 3, *words)
                 ahead += [(high, ways), (low, ways)]
@@ -109,10 +111,10 @@ def check(data):
     """What is shown of a file, and a ball that holds the volume: "proved" is its own claim, or each of its boxes."""
     ctx.prec = 80
     try:
-        file = File(data)
+        file = read_file(data)
         own, shown = Space(file).run()
         low, high = file["volume"]
         need(own.overlaps(arb(low).union(arb(high))), "the volume is not that of the boxes")
-    except (ValueError, LookupError, struct.error) as error:
+    except Refused as error:
         return f"refused: {error}", None
     return "proved" if own >= low and own <= high and shown else "every box" if shown else "incomplete", own

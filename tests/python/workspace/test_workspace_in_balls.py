@@ -101,6 +101,9 @@ def test_what_is_no_certificate_is_refused(data):
         (sealed([*head[:-1], f"tree {len(tree) + 1}"], tree), "the tree is too short"),
         (sealed([*head[:-1], f"tree {len(tree) + 1}"], tree + b"\x10"), "the tree goes on"),
         (data[:-1] + bytes([data[-1] ^ 1]), "the checksum"),
+        (sealed([*head[:-1], "tree 1"], b"\x07"), "a box of the tree is none"),
+        (sealed([*head[:-1], "tree 1"], b"\x12"), "a box of the tree is none"),
+        (sealed([*head[:-1], "tree 1"], b"\x00"), "a box of the tree is none"),
     ):
         assert space_in_balls.check(forged)[0].startswith(f"refused: {words}")
     for name, unit in (("magic", "length"), ("l1", "zp"), ("height", "length"), ("l1", "l")):

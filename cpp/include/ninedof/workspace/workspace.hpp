@@ -132,9 +132,9 @@ struct WorkspaceLevel {
 struct WorkspaceMap {
   WorkspaceStatus status = WorkspaceStatus::empty;
   double volume = std::numeric_limits<double>::quiet_NaN();  ///< length^3, or radians^3 (8 pi^2 is all of SO(3))
-  double error =
-      std::numeric_limits<double>::quiet_NaN();  ///< estimate, with `unseen`; a standard error for a sample. Not of
-  ///< a part beyond a neck thinner than the smallest cell.
+  /// Estimate, with `unseen`; of a grid or sample without it, at least `unseen` where all points are allowed or none is.
+  /// Not of a part beyond a neck thinner than the smallest cell.
+  double error = std::numeric_limits<double>::quiet_NaN();
   /// Upper bound, at 95 % confidence, of the volume of a feature that neither corners of cells nor audit poses show: a
   /// part of `error`. Many separate ones, of which the audit found some, may be larger. Without cells, of what every
   /// point missed.

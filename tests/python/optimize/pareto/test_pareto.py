@@ -340,7 +340,7 @@ CUBE = nd.Study(
 )
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("against", "options"),
     [
@@ -376,7 +376,7 @@ def test_a_limit_may_have_a_least_value(own):
     assert ("Limits below" in range_words(curve)) == (curve.limits[0] > low * (1.0 + 1e-9))
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_of_a_reserve_nothing_is_said_beyond_the_last_row():
     with_tolerances = replace(MOVING, tolerances={"joints": 1e-3, "legs": 1e-3}, starts=2)
     assert "nothing changes" not in range_words(pareto(with_tolerances, "leg_ratio", points=2))

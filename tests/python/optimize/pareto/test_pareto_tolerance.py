@@ -61,7 +61,7 @@ def test_prices_are_the_slope(front):
     assert "without effect" not in front_table(front).rows[3][-1]
 
 
-@pytest.mark.slow(sanitized=True)
+@pytest.mark.slow
 def test_a_front_of_tolerances_is_read_back(front, tmp_path):
     write_run(front, tmp_path)
     again = nd.load(tmp_path)

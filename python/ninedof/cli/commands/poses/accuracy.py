@@ -88,7 +88,7 @@ def _allotted(options: _Options, at: DesignAtPoses) -> Answer:
     """Return the tolerances that keep the machine within an error, over the poses of its study."""
     options.refuse("with --within: it asks for the tolerances", "leg_error", "joint_error")
     options.refuse("with --within: it is about all poses of the study", "samples", "all_poses", *POSE)
-    turn = None if options.within_deg is None else math.radians(options.within_deg)
+    turn = None if options.within_deg is None else math.radians(finite("--within-deg", options.within_deg, 0.0))
     design, unit = at.machine, at.unit
     tolerances = tolerances_for(design, options.within, turn, options.weights)
     rows = [

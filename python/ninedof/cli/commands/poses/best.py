@@ -107,7 +107,7 @@ def _table(at: DesignAtPoses, result: nd.InternalPoint, now: Floats, words: str,
         place, centre = (
             ["-" if math.isnan(x) else fixed(x, decimals) for x in row] for row in (c.position[k], points[k])
         )
-        values = ("-" if math.isnan(x) else f"{x:#.4g}" for x in (now[k], result.value[k]))
+        values = ("-" if math.isnan(x) else f"{x:#.4g}".rstrip(".") for x in (now[k], result.value[k]))
         status = str(result.status[k])
         why = ", ".join([*([] if status == "found" else [status]), *result.active[k]])
         rows.append((str(k), *place, *values, *centre, why))
