@@ -3,7 +3,7 @@
 Figures are in `ninedof.plot`, which is loaded, with matplotlib, when it is first used.
 """
 
-from ninedof import support as _support  # noqa: F401  # first: signals while the rest is loaded
+from ninedof.support import starting as _starting  # noqa: F401  # first: signals while the rest is loaded
 
 # isort: split
 from importlib import import_module as _import_module
@@ -36,20 +36,14 @@ from ninedof.design.design_point import DesignPoint
 from ninedof.design.domains import poses as poses
 from ninedof.design.domains.poses import Pose
 from ninedof.design.domains.region import Region
-from ninedof.design.duty import About, Loads, Masses, Speeds, Tolerances, Tool
+from ninedof.design.duty import About, Loads, Masses, Speeds, Tolerances
 from ninedof.design.objective import Objective
 from ninedof.design.study import Study
+from ninedof.design.tool import Tool
 from ninedof.export.export import export
+from ninedof.kinematics.certificate import ModesCertificate
 from ninedof.kinematics.kinematics import VelocityMatrices, jacobian, leg_lengths, velocity_matrices
-from ninedof.kinematics.position import (
-    AssemblyModes,
-    ModesCertificate,
-    PositionStatus,
-    Tracked,
-    TrackStatus,
-    forward_position,
-    track,
-)
+from ninedof.kinematics.position import AssemblyModes, PositionStatus, Tracked, TrackStatus, forward_position, track
 from ninedof.kinematics.velocity import (
     forward_acceleration,
     forward_velocity,
@@ -68,9 +62,9 @@ from ninedof.optimize.pareto import Front, pareto
 from ninedof.optimize.region_map import RegionMap, region_map
 from ninedof.optimize.result import Result, Status
 from ninedof.paper.sweeps import sweep_figure
-from ninedof.proof.admissible import admissible
-from ninedof.proof.admissible_rows import AdmissibleRow, AdmissibleRows, admissible_actuators
-from ninedof.proof.admissible_set import AdmissibleSet
+from ninedof.proof.admissible.admissible import admissible
+from ninedof.proof.admissible.result import AdmissibleSet
+from ninedof.proof.admissible.rows import AdmissibleRow, AdmissibleRows, admissible_actuators
 from ninedof.proof.bounds import (
     Bounds,
     DeterminantBounds,

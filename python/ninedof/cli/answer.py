@@ -15,7 +15,7 @@ from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.records.record import FILE as RECORD
 from ninedof.records.record import Draw
 from ninedof.report.report import FILE, report
-from ninedof.support.store import QUESTION
+from ninedof.support.kept.store import QUESTION
 from ninedof.support.text import one_line
 
 FIGURES = (".png", ".svg", ".pdf")

@@ -21,9 +21,9 @@ from typer import Abort, BadParameter
 
 from ninedof.cli.options import typed
 from ninedof.cli.screen import BAD_INPUT, FAILED, INTERRUPTED, REFUSED, status_of
-from ninedof.support import ending
 from ninedof.support.extras import MissingExtra
 from ninedof.support.running import how_to_go_on
+from ninedof.support.starting import ending
 from ninedof.support.text import escaped, one_line
 from ninedof.support.units import DEG, plain_name
 

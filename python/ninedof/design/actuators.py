@@ -12,7 +12,7 @@ from typing import Any
 
 from ninedof.design.duty import duty
 from ninedof.support.arguments import cleaned, finite, instance, items, number, path_argument, shown, text
-from ninedof.support.files import csv_table, finite_or_nan, read_text, require_entries
+from ninedof.support.kept.files import csv_table, finite_or_nan, read_text, require_entries
 from ninedof.support.structs import StudyTable, entries, entry, within
 from ninedof.support.text import short_repr
 

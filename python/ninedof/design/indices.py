@@ -26,7 +26,7 @@ from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.singularity.singularity import SingularityMargins, singularity_margins
 from ninedof.support.arguments import choice, shown
 from ninedof.support.arrays import as_floats
-from ninedof.support.files import is_plain_name
+from ninedof.support.kept.files import is_plain_name
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof import _core
-from ninedof.design.duty import Tool
+from ninedof.design.tool import Tool
 from ninedof.robot.geometry import LEGS
 from ninedof.support.arguments import Vector, choice, items, known_keys, number, shown, vector, whole
 from ninedof.support.structs import Check, Fixed, plain, within

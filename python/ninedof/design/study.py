@@ -19,10 +19,11 @@ from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design import actuators as bought
 from ninedof.design.actuators import FOR, LEG_KINDS, Actuator
 from ninedof.design.design_point import DesignPoint, design_point
-from ninedof.design.duty import DUTIES, About, LegDuty, Loads, Masses, Speeds, Tolerances, Tool, duty, require_small
+from ninedof.design.duty import DUTIES, About, LegDuty, Loads, Masses, Speeds, Tolerances, duty, require_small
 from ninedof.design.limits import OF_LENGTHS, ROWS, Limit, form, parse, require_stated
 from ninedof.design.objective import Objective, internal_motion
 from ninedof.design.tables import limits_table, variables_table
+from ninedof.design.tool import Tool
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import (
     bound,
@@ -40,7 +41,7 @@ from ninedof.support.arguments import (
     whole,
 )
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.files import read_toml, write_toml
+from ninedof.support.kept.files import read_toml, write_toml
 from ninedof.support.structs import Check, Fixed, Named, check_entries, entry, plain, within
 from ninedof.support.text import short_repr
 from ninedof.support.units import (

@@ -20,7 +20,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.support.arguments import cleaned, did_you_mean, shown
 from ninedof.support.arrays import Floats
-from ninedof.support.files import csv_rows, finite_or_nan
+from ninedof.support.kept.files import csv_rows, finite_or_nan
 from ninedof.support.structs import within
 from ninedof.support.units import unit_argument, with_unit
 

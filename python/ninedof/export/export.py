@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ninedof.support.arguments import choice, known_keys, path_argument
-from ninedof.support.files import read_text, write_whole
+from ninedof.support.kept.files import read_text, write_whole
 from ninedof.support.structs import within
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.support.arguments import finite, shown
 from ninedof.support.arrays import Floats
-from ninedof.support.files import finite_or_nan
+from ninedof.support.kept.files import finite_or_nan
 from ninedof.support.units import unit_argument
 
 MARK = "ninedof-mjcf-1"

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import cone_limits
 from ninedof.design.study import Study
+from ninedof.design.tool import Tool
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.designs import robot_of

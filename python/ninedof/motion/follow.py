@@ -24,7 +24,7 @@ from ninedof.singularity.singularity import SingularityMargins
 from ninedof.statics.dynamics import GRAVITY, gravity_for_core, inverse_dynamics
 from ninedof.support.arguments import choice, finite, instance, items, vector
 from ninedof.support.arrays import Floats, all_finite, as_floats, broadcast_leading
-from ninedof.support.files import Saved
+from ninedof.support.kept.files import Saved
 from ninedof.support.structs import entries_of, from_core, options_of, plain_fields
 from ninedof.support.text import short_repr
 from ninedof.support.units import metres, unit_entry, unit_of_forces

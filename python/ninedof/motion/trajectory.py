@@ -14,7 +14,7 @@ from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors,
 from ninedof.robot.configuration import Configuration, require_single
 from ninedof.support.arguments import cleaned, finite, path_argument, shown, vector, whole
 from ninedof.support.arrays import Floats, as_floats, frozen
-from ninedof.support.files import csv_table, finite_or_nan, read_text, require_entries
+from ninedof.support.kept.files import csv_table, finite_or_nan, read_text, require_entries
 from ninedof.support.structs import within
 from ninedof.support.units import DEG, unit_argument
 

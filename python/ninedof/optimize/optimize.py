@@ -27,8 +27,8 @@ from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.proof.optimum_steps import ways_of
 from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
 from ninedof.support.arrays import thread_argument
+from ninedof.support.kept.store import Store
 from ninedof.support.running import Progress, part_of, phase, progress_argument
-from ninedof.support.store import Store
 from ninedof.support.structs import from_core, options_of, within
 from ninedof.support.text import short_repr
 from ninedof.support.units import kind_unit

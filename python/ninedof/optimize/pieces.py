@@ -19,8 +19,8 @@ from ninedof.optimize.result import Result, Status, result_from
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.arguments import finite, shown
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Arrays, from_json_array, json_array
-from ninedof.support.store import Store
+from ninedof.support.kept.files import Arrays, from_json_array, json_array
+from ninedof.support.kept.store import Store
 from ninedof.support.structs import within
 from ninedof.support.units import in_radians
 

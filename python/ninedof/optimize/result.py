@@ -21,12 +21,13 @@ from ninedof.optimize.candidate import Candidate, OfStudy, RegionReport, best_of
 from ninedof.optimize.reserve import Reserve, certified, largest, machine_of, placing_of
 from ninedof.optimize.tables import agreement_sentence, candidates_table, internal_point_words, summary_lines
 from ninedof.proof.machine import machine_digest
-from ninedof.proof.machine_record import MachineCertificate, machine_file
+from ninedof.proof.machine_file import machine_file
+from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.robot.configuration import Configuration
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arguments import instance, path_argument
-from ninedof.support.files import write_whole
+from ninedof.support.kept.files import write_whole
 from ninedof.support.structs import entries_of, plain_fields, within
 from ninedof.tables.html import notebook
 

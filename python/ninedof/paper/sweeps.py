@@ -18,7 +18,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Arrays
+from ninedof.support.kept.files import Arrays
 from ninedof.support.running import Progress
 from ninedof.sweep.axis import Axis, Grid
 from ninedof.sweep.grid import GridWork

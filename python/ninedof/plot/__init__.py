@@ -20,12 +20,14 @@ if "matplotlib" not in _sys.modules and (_backend := _os.environ.pop("MPLBACKEND
 
 from ninedof.plot.admissible import admissible
 from ninedof.plot.convergence import convergence
-from ninedof.plot.drawing import compare, drawing
+from ninedof.plot.designs.compare import compare
+from ninedof.plot.designs.drawing import drawing
+from ninedof.plot.designs.landscape import DesignCurves, condition_curves
+from ninedof.plot.designs.poses import poses
 from ninedof.plot.files import save
 from ninedof.plot.front import front
-from ninedof.plot.landscape import DesignCurves, condition_curves
 from ninedof.plot.motion import motion
-from ninedof.plot.poses import poses, region_map
+from ninedof.plot.region_map import region_map
 from ninedof.plot.space.body import workspace_body
 from ninedof.plot.space.ellipsoid import ellipsoids
 from ninedof.plot.space.mechanism import Robot, mechanism, mechanisms

@@ -16,7 +16,7 @@ from ninedof.plot.workspace import KINDS
 from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
-    from ninedof.proof.admissible_set import AdmissibleSet
+    from ninedof.proof.admissible.result import AdmissibleSet
 
 INSIDE, UNDECIDED = "#A9CCE3", "#B8BFC6"
 # Of limits that have no colour elsewhere; none is near blue.

@@ -14,7 +14,7 @@ from matplotlib.text import Text
 
 from ninedof.plot import style
 from ninedof.support.arguments import instance, path_argument, shown
-from ninedof.support.files import write_whole
+from ninedof.support.kept.files import write_whole
 from ninedof.support.text import escaped
 
 KINDS: dict[str, Any] = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}

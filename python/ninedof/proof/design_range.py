@@ -19,7 +19,7 @@ from ninedof.design.variables import angles_in_radians, given_values
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import finite, items, shown, table, text
 from ninedof.support.arrays import Floats
-from ninedof.support.files import sha256
+from ninedof.support.kept.files import sha256
 from ninedof.support.running import Progress
 from ninedof.support.structs import Fixed
 from ninedof.support.units import amount, plain_name

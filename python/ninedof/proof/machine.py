@@ -25,7 +25,7 @@ from ninedof.robot.geometry import Geometry, triples
 from ninedof.sheet.pose_words import turn_deg
 from ninedof.support.arguments import finite, instance, shown, whole
 from ninedof.support.arrays import MOST_THREADS as MOST
-from ninedof.support.files import sha256
+from ninedof.support.kept.files import sha256
 from ninedof.support.margins import margin_of
 from ninedof.support.running import Progress, phase
 from ninedof.support.structs import entries, from_core, options_of

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ninedof.support.arguments import finite, path_argument
-from ninedof.support.files import write_whole
+from ninedof.support.kept.files import write_whole
 from ninedof.support.structs import entries_of, plain_fields
 from ninedof.support.text import short_repr
 from ninedof.tables.html import notebook

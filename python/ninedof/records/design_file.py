@@ -13,12 +13,12 @@ import numpy as np
 from ninedof.conditioning.characteristic_length import KINDS, characteristic_length, length_at
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.conditioning.hexagonal import HEXAGONAL
-from ninedof.design.duty import Tool
 from ninedof.design.indices import computed
+from ninedof.design.tool import Tool
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.arguments import finite, is_number, known_keys, number, table
-from ninedof.support.files import read_toml, write_toml
+from ninedof.support.kept.files import read_toml, write_toml
 from ninedof.support.structs import read, within
 from ninedof.support.text import short_repr
 from ninedof.support.units import in_radians, require_unit_at_top, unit_argument, unit_entry

@@ -18,7 +18,7 @@ from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.design_point import DesignPoint
 from ninedof.design.domains.poses import Pose
 from ninedof.design.domains.region import region_lines
-from ninedof.design.duty import Tool
+from ninedof.design.tool import Tool
 from ninedof.optimize.optimize import trace
 from ninedof.optimize.region_map import region_map
 from ninedof.optimize.result import Result

@@ -17,7 +17,7 @@ from ninedof.motion import Followed
 from ninedof.robot.geometry import LEGS
 from ninedof.sheet.path_limits import PathLimits
 from ninedof.support.arrays import Floats
-from ninedof.support.files import write_whole
+from ninedof.support.kept.files import write_whole
 from ninedof.support.units import per, with_unit
 
 LEGS_FILE, POSES_FILE = "legs.csv", "poses.csv"

@@ -6,13 +6,13 @@ import os
 from pathlib import Path
 
 from ninedof.design.study import Study
-from ninedof.proof.admissible_set import AdmissibleSet
+from ninedof.proof.admissible.result import AdmissibleSet
 from ninedof.proof.design_range import DesignRange
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.records.load import split
 from ninedof.support.arguments import path_argument
-from ninedof.support.files import json_bytes, read_json, write_whole
-from ninedof.support.store import folder_of
+from ninedof.support.kept.files import json_bytes, read_json, write_whole
+from ninedof.support.kept.store import folder_of
 
 
 def certificate_file(run: str | os.PathLike[str]) -> Path:

@@ -27,9 +27,9 @@ from ninedof.proof.optimum_proof import FILE as CERTIFICATE
 from ninedof.records.motion import motion_values, write_tables
 from ninedof.sheet.path_limits import PathLimits
 from ninedof.support.extras import versions
-from ninedof.support.files import json_bytes, read_json, write_whole
+from ninedof.support.kept.files import json_bytes, read_json, write_whole
+from ninedof.support.kept.store import folder_of, require_run_or_nothing
 from ninedof.support.running import command_line, goes_on
-from ninedof.support.store import folder_of, require_run_or_nothing
 from ninedof.support.structs import entries_of
 from ninedof.sweep import SweepResult
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap

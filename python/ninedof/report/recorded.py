@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 from ninedof.design.domains.region import box_lines
-from ninedof.design.duty import Tool
 from ninedof.design.limits import kind_of
+from ninedof.design.tool import Tool
 from ninedof.motion.tables import motion_tables, seconds_of
 from ninedof.paper.verdicts import verdicts_table
 from ninedof.redundancy.rules import where_o

@@ -9,8 +9,8 @@ from ninedof.optimize.pareto import Front
 from ninedof.optimize.result import Result
 from ninedof.records.load import split
 from ninedof.support.arguments import path_argument
-from ninedof.support.files import write_whole
-from ninedof.support.store import folder_of
+from ninedof.support.kept.files import write_whole
+from ninedof.support.kept.store import folder_of
 
 FILE = "report.html"
 

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import SPREADS
+from ninedof.design.tool import Tool
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
 from ninedof.redundancy.rules import WORDS, where_o

@@ -22,7 +22,7 @@ from ninedof.report import origin
 from ninedof.report.optimization import of_front, of_result
 from ninedof.report.page import OWN, Page, figure, figures, image, page, stems
 from ninedof.report.recorded import FROM_RECORD, of_recorded, of_workspace
-from ninedof.support.store import folder_of
+from ninedof.support.kept.store import folder_of
 from ninedof.tables.html import Html, html_of, joined
 from ninedof.workspace import WorkspaceMap
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from ninedof.design.duty import Tool
+from ninedof.design.tool import Tool
 from ninedof.motion.rotations import to_quaternions, vectors_between
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats

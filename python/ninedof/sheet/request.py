@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.duty import INTERNAL, Masses, Tool
+from ninedof.design.duty import INTERNAL, Masses
 from ninedof.design.limit_numbers import CONES, JOINTS, PARTS, cone_limits, exempt_pairs
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
+from ninedof.design.tool import Tool
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.robot.idle import IDLE

@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.design.domains.region_poses import o_is_placed, posed
-from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, PARTS, compared, cone_limits
 from ninedof.design.study import Study
+from ninedof.design.tool import Tool
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
 from ninedof.sheet.pose_words import turn_deg

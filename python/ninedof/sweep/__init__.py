@@ -1,7 +1,7 @@
 """Sweeps and atlases: an index over a grid of configurations or of designs, and surveys of many designs.
 
-`axis` has the points, `points` the robots there, `grid` the work, `survey` the designs of an `atlas`; `support.store`
-computes both, in memory, in a folder or on a cluster; `result` has the labelled arrays.
+`axis` has the points, `points` the robots there, `grid` the work, `survey` the designs of an `atlas`;
+`support.kept.chunks` computes both, in memory, in a folder or on a cluster; `result` has the labelled arrays.
 """
 
 from ninedof.sweep.atlas import atlas

@@ -13,9 +13,9 @@ import numpy as np
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.support.arguments import finite, items, known_keys, shown, whole
 from ninedof.support.extras import versions
-from ninedof.support.files import Arrays
+from ninedof.support.kept.chunks import MOST_CHUNK, chunk_argument, computed
+from ninedof.support.kept.files import Arrays
 from ninedof.support.running import Progress
-from ninedof.support.store import MOST_CHUNK, chunk_argument, computed
 from ninedof.support.text import json_values
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.survey import (

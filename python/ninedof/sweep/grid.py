@@ -15,9 +15,10 @@ import numpy as np
 from ninedof.design.indices import Index, identity
 from ninedof.support.arrays import Floats, blocks
 from ninedof.support.extras import versions
-from ninedof.support.files import Arrays, naming, part_name
+from ninedof.support.kept.chunks import computed
+from ninedof.support.kept.files import Arrays, naming, part_name
+from ninedof.support.kept.store import Store
 from ninedof.support.running import Progress
-from ninedof.support.store import Store, computed
 from ninedof.support.text import json_values
 from ninedof.support.units import DEG, unit_entry
 from ninedof.sweep.axis import Grid

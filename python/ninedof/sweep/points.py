@@ -18,7 +18,7 @@ from ninedof.redundancy.redundancy_map import best_internal_map
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import Geometry, triples
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Arrays
+from ninedof.support.kept.files import Arrays
 from ninedof.support.units import plain_name
 
 ROTATION, POSITION, INTERNAL = ("theta_x", "theta_y", "theta_z"), ("x_p", "y_p", "z_p"), ("x_s", "y_s", "z_s")

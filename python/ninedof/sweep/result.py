@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ninedof.design.indices import INDICES, size_of
 from ninedof.support.arguments import choice, items, whole
 from ninedof.support.extras import optional
-from ninedof.support.files import Saved
+from ninedof.support.kept.files import Saved
 from ninedof.support.text import encode, short
 from ninedof.support.units import amount, degrees_of, plain_name
 from ninedof.sweep.survey import RADIUS_RATIO

@@ -18,8 +18,8 @@ from ninedof.robot.designs import P, R_co, TakesDesigns, takes_designs
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite, flag, shown
 from ninedof.support.arrays import thread_argument
+from ninedof.support.kept.chunks import chunk_argument
 from ninedof.support.running import Progress
-from ninedof.support.store import chunk_argument
 from ninedof.support.structs import options_of
 from ninedof.support.units import plain_name, unit_argument
 from ninedof.sweep.axis import Values, axes_of

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ninedof import _core
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Arrays
+from ninedof.support.kept.files import Arrays
 
 RADIUS_RATIO, ZS_FRACTION = "radius_ratio", "zs_fraction"  # the size of a base, a variable in place of zs
 BOUNDS: dict[str, tuple[float, float]] = {

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ninedof.motion.trajectory import Trajectory
-    from ninedof.proof.admissible_set import AdmissibleSet
+    from ninedof.proof.admissible.result import AdmissibleSet
     from ninedof.viewer.app import Viewer
 
 

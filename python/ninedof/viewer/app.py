@@ -16,7 +16,7 @@ import numpy as np
 
 from ninedof.motion.rotations import from_quaternions
 from ninedof.motion.trajectory import Trajectory
-from ninedof.proof.admissible_set import AdmissibleSet
+from ninedof.proof.admissible.result import AdmissibleSet
 from ninedof.records.design_file import Design
 from ninedof.viewer.body import Body, BodySearch, body_of, question_of
 from ninedof.viewer.designs import DesignPicture

@@ -14,7 +14,7 @@ from ninedof.design.study import Study
 from ninedof.motion.rotations import to_quaternions
 from ninedof.plot import style
 from ninedof.plot.admissible import admissible as figure_of
-from ninedof.proof.admissible_set import INSIDE, OUTSIDE, AdmissibleSet
+from ninedof.proof.admissible.result import INSIDE, OUTSIDE, AdmissibleSet
 from ninedof.records.proofs import latest_admissible
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats

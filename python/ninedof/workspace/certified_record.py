@@ -16,7 +16,7 @@ from ninedof import _core
 from ninedof.proof.machine_record import outward
 from ninedof.support.arguments import choice, finite, path_argument, text, whole
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.files import Saved, write_whole
+from ninedof.support.kept.files import Saved, write_whole
 from ninedof.support.text import short_repr
 from ninedof.support.units import amount
 from ninedof.tables.html import Worded

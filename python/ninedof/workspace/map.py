@@ -14,7 +14,7 @@ from ninedof import _core
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, flag, whole
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Saved
+from ninedof.support.kept.files import Saved
 from ninedof.support.structs import from_core, made, plain_fields
 from ninedof.tables.html import notebook
 from ninedof.workspace.cells import LIMITS, IndexStatistics, WorkspaceCells, WorkspaceSlice, group_of

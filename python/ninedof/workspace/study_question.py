@@ -12,10 +12,10 @@ from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_at
 from ninedof.design.domains.region import Region, extent
 from ninedof.design.domains.region_poses import o_is_placed
-from ninedof.design.duty import Tool
 from ninedof.design.limit_numbers import CLEARANCE, CONES, PARTS, SPREADS, exempt_pairs
 from ninedof.design.limits import OF_LENGTHS
 from ninedof.design.study import Study
+from ninedof.design.tool import Tool
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.designs import HasRobot, robot_of

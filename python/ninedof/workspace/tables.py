@@ -10,8 +10,8 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.domains.region import Region
-from ninedof.design.duty import Tool
 from ninedof.design.indices import INDICES
+from ninedof.design.tool import Tool
 from ninedof.redundancy.rules import point_words, where_o
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS as LEG_NAMES

@@ -14,7 +14,7 @@ from killing import COMMANDS, Killer
 import ninedof as nd
 from ninedof import _core
 from ninedof.cli.app import main
-from ninedof.support.store import Store
+from ninedof.support.kept.store import Store
 
 LONG = "NINEDOF_LONG" in os.environ
 STUDY = """

@@ -88,7 +88,7 @@ def test_an_interruption_of_the_figures_of_the_paper(tmp_path, monkeypatch):
 def test_every_signal_ends_a_command_alike(tmp_path, monkeypatch, capsys, number, status):
     """The end of a job and a closed terminal: what is finished stays, nothing half-written does."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("ninedof.support.files.os.replace", _replace_and(number, ".svg"))
+    monkeypatch.setattr("ninedof.support.kept.files.os.replace", _replace_and(number, ".svg"))
     before = signal.getsignal(number)
     with pytest.raises(SystemExit) as ended:
         main(shlex.split("sweep --over x_p=-1:1:9 --out run"))

@@ -17,7 +17,7 @@ from sweep_work import GRID, HOME, G, finished
 import ninedof as nd
 from ninedof import _core
 from ninedof.optimize.pareto import solving
-from ninedof.support.store import Store
+from ninedof.support.kept.store import Store
 from ninedof.support.text import encode
 from ninedof.sweep import points
 from ninedof.sweep.atlas import AtlasWork

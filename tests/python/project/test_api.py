@@ -188,7 +188,7 @@ def told():
         for path in sorted(PACKAGE.rglob("*.py"))
         if path.name != "__main__.py"
     ]
-    assert {"ninedof.optimize.result", "ninedof.support.store", "ninedof.cli.app"} <= set(modules)
+    assert {"ninedof.optimize.result", "ninedof.support.kept.store", "ninedof.cli.app"} <= set(modules)
     result = run(f"MODULES = {modules!r}\n{IN_TURN}")
     assert result.stderr == ""
     return {

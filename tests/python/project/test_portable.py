@@ -1,4 +1,4 @@
-"""Calls that Windows does not have stand in one file, `support/store.py`; planted ones are found."""
+"""Calls that Windows does not have stand in one file, `support/kept/store.py`; planted ones are found."""
 
 import ast
 from pathlib import Path
@@ -8,7 +8,7 @@ import pytest
 import ninedof as nd
 
 ROOT = Path(nd.__file__).parent
-SYSTEM = "support/store.py"
+SYSTEM = "support/kept/store.py"
 MODULES = {"fcntl", "msvcrt", "resource", "termios", "tty", "pty", "pwd", "grp", "syslog", "posix", "nt", "winreg"}
 OF_OS = {
     "fork",

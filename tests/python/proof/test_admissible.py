@@ -16,7 +16,7 @@ from sizes import size
 
 import ninedof as nd
 from ninedof.design.domains.region_poses import posed
-from ninedof.proof.admissible_set import NoRoom
+from ninedof.proof.admissible.result import NoRoom
 
 ROUNDING = 1e-9
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": (2.0, 8.0), "zs": (1.0, 6.0)}

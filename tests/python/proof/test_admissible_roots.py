@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.proof.admissible import ROOTS
+from ninedof.proof.admissible.admissible import ROOTS
 
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": (2.0, 8.0), "zs": (1.0, 6.0)}
 AT = {"zp": 5.0, "zs": 3.0}

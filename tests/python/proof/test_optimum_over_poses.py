@@ -20,7 +20,7 @@ from ninedof.optimize.pieces import Pieces
 from ninedof.proof.optimum import prove
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.proof.optimum_steps import at_home, ways_of
-from ninedof.support.store import Store
+from ninedof.support.kept.store import Store
 
 SIZES = {"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": 5.0, "zs": 3.0}
 LIMITS = {"base_cone": {"max_deg": 55, "axis": (0, 0, 1)}, "stroke_ratio": (None, 1.5)}

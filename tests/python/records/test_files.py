@@ -15,8 +15,8 @@ from sizes import size
 import ninedof as nd
 from ninedof.records.proofs import save_certificate
 from ninedof.records.record import load_record
-from ninedof.support.files import Saved, form_of, json_bytes, read_json, read_npz, write_npz, write_whole
-from ninedof.support.store import Store
+from ninedof.support.kept.files import Saved, form_of, json_bytes, read_json, read_npz, write_npz, write_whole
+from ninedof.support.kept.store import Store
 
 FLIPS, CUTS = size(40, 5000), size(10, 500)
 ARRAYS = {

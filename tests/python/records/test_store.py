@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from ninedof.records.record import run_folder
-from ninedof.support import store as module
-from ninedof.support.store import Store
+from ninedof.support.kept import store as module
+from ninedof.support.kept.store import Store
 
 QUESTION = {"kind": "test", "limits": {"leg_ratio": 2.0, "far": float("inf")}, "over": [1, 2], "name": "a"}
 ARRAYS = {"a": np.arange(3.0)}

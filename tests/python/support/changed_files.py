@@ -1,6 +1,6 @@
 """Files of a run that a test changes, made to fit again: their digest would tell."""
 
-from ninedof.support.files import json_bytes
+from ninedof.support.kept.files import json_bytes
 from ninedof.support.text import decode
 
 

@@ -18,7 +18,7 @@ from sweep_work import GRID, HOME, G, finished
 import ninedof as nd
 from ninedof.cli import scheduler as schedulers
 from ninedof.design.indices import indices_of
-from ninedof.support import store as chunks
+from ninedof.support.kept import chunks
 from ninedof.sweep.axis import axes_of
 from ninedof.sweep.grid import GridWork
 from ninedof.sweep.points import COORDINATES, Poses

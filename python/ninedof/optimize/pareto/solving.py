@@ -14,8 +14,8 @@ from ninedof.optimize.pareto.limits import floor_of, own_value, tightest_first, 
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.reserve import FIRST, MOST, STEP
 from ninedof.optimize.result import Result, Status
+from ninedof.support.kept.store import Store
 from ninedof.support.running import Progress, notes_told
-from ninedof.support.store import Store
 from ninedof.support.units import amount, degrees_of
 
 BETTER = 1e-12  # relative: what the objective of an optimum must gain to replace another

@@ -20,8 +20,8 @@ from ninedof.optimize.pareto.solving import BISECTIONS, FrontSolver, between_ind
 from ninedof.optimize.result import Result, Status
 from ninedof.support.arguments import finite, instance, items, path_argument, shown, whole
 from ninedof.support.arrays import thread_argument
+from ninedof.support.kept.store import Store
 from ninedof.support.running import Progress, progress_argument
-from ninedof.support.store import Store
 from ninedof.support.units import degrees_of
 
 MOST_POINTS = 1000

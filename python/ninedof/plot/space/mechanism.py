@@ -21,7 +21,7 @@ from ninedof.robot.plates import distinct, outlines, points_of
 from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
-    from ninedof.design.duty import Tool
+    from ninedof.design.tool import Tool
 
 DASHES = {"l": "-", "q": (0, (4.5, 0.9)), "r": (0, (1.6, 0.7))}  # told apart without colours
 WIDTHS = {"l": 2.0, "q": 1.6, "r": 1.6}

@@ -39,7 +39,7 @@ def compared(comparison: nd.Comparison, plot: Path | None, legend: Sequence[str]
     """Return the answer of a comparison, with its figure, by its own names or a legend's, where one is asked for."""
     parts, data = comparison.parts(), comparison.to_dict()
     if plot is not None:
-        from ninedof.plot.drawing import compare
+        from ninedof.plot.designs.compare import compare
         from ninedof.plot.files import save_as
 
         save_as(compare(replace(comparison, names=tuple(legend)) if legend else comparison), plot)

@@ -12,7 +12,7 @@ from ninedof.export.bodies import body_masses
 from ninedof.export.export import formats
 from ninedof.export.model import Format
 from ninedof.support.arguments import choice
-from ninedof.support.files import own_or_new
+from ninedof.support.kept.files import own_or_new
 from ninedof.support.units import UNITS
 
 PLACE = 4

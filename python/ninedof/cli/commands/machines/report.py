@@ -7,7 +7,7 @@ from pathlib import Path
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import Options, argument, option, struct
-from ninedof.support.files import own_or_new
+from ninedof.support.kept.files import own_or_new
 
 PLACE = 3
 MARK = "Made by ninedof"  # in every report

@@ -30,7 +30,7 @@ from ninedof.cli.posed import named_design
 from ninedof.design.duty import INTERNAL
 from ninedof.sheet.tables import sheet_parts
 from ninedof.support.arguments import finite
-from ninedof.support.files import own_or_new, write_whole
+from ninedof.support.kept.files import own_or_new, write_whole
 
 PLACE = 3
 MARK = "leg,shortest"  # begins a table of legs

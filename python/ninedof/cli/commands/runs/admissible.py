@@ -11,13 +11,13 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import SCHEDULER, THREADS, VARIABLES, Options, argument, changes_option, option, struct
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
-from ninedof.proof.admissible import ENOUGH
-from ninedof.proof.admissible_set import UNDECIDED, NoRoom, as_drawn, half_widths, room_words
+from ninedof.proof.admissible.admissible import ENOUGH
+from ninedof.proof.admissible.result import UNDECIDED, NoRoom, as_drawn, half_widths, room_words
 from ninedof.proof.design_range import MOST_VARIED, design_range
 from ninedof.records.load import split
 from ninedof.records.proofs import admissible_file, load_admissible
+from ninedof.support.kept.store import folder_of
 from ninedof.support.running import ended_by_time, goes_on
-from ninedof.support.store import folder_of
 from ninedof.support.units import amount
 from ninedof.tables import Table, columns
 

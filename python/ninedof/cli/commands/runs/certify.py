@@ -13,9 +13,10 @@ from ninedof.cli.options import THREADS, Options, argument, option, struct, word
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.reserve import largest as largest_tolerance
 from ninedof.optimize.reserve import machine_of
-from ninedof.proof.admissible_set import as_drawn
+from ninedof.proof.admissible.result import as_drawn
 from ninedof.proof.machine import FOR_LIMITS, checked_numbers
-from ninedof.proof.machine_record import UNDECIDED, outward, require_replayable
+from ninedof.proof.machine_file import require_replayable
+from ninedof.proof.machine_record import UNDECIDED, outward
 from ninedof.records.proofs import certificate_file, save_certificate
 from ninedof.robot.geometry import LEGS
 from ninedof.singularity.architecture import architecture_sentences

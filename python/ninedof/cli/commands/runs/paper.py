@@ -10,7 +10,7 @@ from ninedof.cli.options import REPORT, THREADS, Options, option, struct
 from ninedof.cli.screen import Screen
 from ninedof.paper.verdicts import verdicts, verdicts_table
 from ninedof.records.record import Record, run_folder, write_drawn
-from ninedof.support.store import Store
+from ninedof.support.kept.store import Store
 
 PLACE = 7
 EXAMPLES = """

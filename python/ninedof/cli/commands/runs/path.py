@@ -43,7 +43,7 @@ from ninedof.robot.geometry import triples
 from ninedof.sheet.pose_words import turn_deg, vector_words
 from ninedof.sheet.request import Weight, masses_of, masses_words
 from ninedof.sheet.tables import load_words, weight_words
-from ninedof.support.store import Store
+from ninedof.support.kept.store import Store
 from ninedof.support.units import amount, per, unit_entry
 
 PLACE = 7

@@ -15,7 +15,7 @@ from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_
 from ninedof.records.record import run_folder, write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.support.store import Store
+from ninedof.support.kept.store import Store
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap, certified_workspace
 from ninedof.workspace import workspace as find_workspace
 from ninedof.workspace.study_question import region_share

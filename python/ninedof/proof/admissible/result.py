@@ -20,7 +20,7 @@ from ninedof.proof.design_range import DesignRange, HasDesign, design_values
 from ninedof.proof.machine_record import ProofPose, outward
 from ninedof.support.arguments import finite, path_argument, shown, table
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.files import Saved, write_whole
+from ninedof.support.kept.files import Saved, write_whole
 from ninedof.support.running import Progress, progress_argument
 from ninedof.support.units import amount
 from ninedof.tables.html import Worded

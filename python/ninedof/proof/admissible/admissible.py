@@ -12,13 +12,13 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.study import Study
-from ninedof.proof.admissible_set import PIECES, STATES, AdmissibleSet
+from ninedof.proof.admissible.result import PIECES, STATES, AdmissibleSet
 from ninedof.proof.design_range import LONGEST, DesignRange, HasDesign, design_range
 from ninedof.support.arguments import executor_argument, finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS, Floats
-from ninedof.support.files import Arrays
+from ninedof.support.kept.chunks import results_at
+from ninedof.support.kept.files import Arrays
 from ninedof.support.running import Progress, progress_argument
-from ninedof.support.store import results_at
 from ninedof.support.structs import Fixed, options_of
 
 if TYPE_CHECKING:
