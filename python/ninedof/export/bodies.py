@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninedof.design.duty import Masses
+from ninedof.design.duty import Masses, Six
 from ninedof.design.study import Study
 from ninedof.export.model import LEGS, Model, O, P, in_metres
-from ninedof.support.arguments import finite
+from ninedof.statics.dynamics import inertia_matrix
+from ninedof.support.arguments import Vector, finite
 from ninedof.support.arrays import Floats
 
 ASSUMED = Masses(platform=5.0, cylinder=0.5, rod=0.5)
@@ -32,7 +34,20 @@ COLOURS = {
     "joint": "0.15 0.15 0.15 1",
 }
 LEVEL = (0.0, 0.0, 0.0)
+CENTRES = ("centre", "cylinder_centre", "rod_centre")
+INERTIAS = ("inertia", "cylinder_inertia", "rod_inertia")
+MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+THIN = 1e-9  # of the largest principal moment
 RADIUS = 0.012  # of a rod, by the mean length of the legs; for the eye and for its inertia about its axis
+
+
+class Inertial(NamedTuple):
+    """What a simulator knows of the mass of a body, in the frame of the body."""
+
+    mass: float
+    centre: Vector
+    inertia: Six
+    """(ixx, iyy, izz, ixy, ixz, iyz) about that centre."""
 
 
 class Leg:
@@ -69,7 +84,7 @@ class Bodies:
     """The robot in metres and kilograms; masses as in `body_masses`."""
 
     def __init__(self, model: Model, leg_mass: float | None = None, platform_mass: float | None = None) -> None:
-        masses = self.masses = body_masses(model.study, leg_mass, platform_mass)[0]
+        masses = self.masses = _metric(body_masses(model.study, leg_mass, platform_mass)[0], model.unit)
         self.unit = "metres" if model.unit else "the design's own, without a unit"
         """Of lengths, for people."""
         metric = model.in_metres()
@@ -88,18 +103,27 @@ class Bodies:
         ]
         self.radius = RADIUS * float(np.mean([leg.length for leg in self.legs]))
         """Of a rod."""
-        self.point_inertia = ball_inertia(masses.internal_point, 2.0 * self.radius)
-        """Moments of the body O, a ball of twice the radius of a rod."""
-        self.platform_centre = in_metres(masses.centre, model.unit)
-        """Centre of its mass in the frame of the plate."""
+        self.point = ball(masses.internal_point, 2.0 * self.radius)
+        """O."""
         square = max(float(np.sum(point[:2] ** 2)) for point in self.platform.values())
-        self.platform_inertia = 0.25 * masses.platform * square, 0.5 * masses.platform * square
-        """Moments about an axis in the plate and about its normal: a disc with the radius of the outermost joint."""
+        across, axial = 0.25 * masses.platform * square, 0.5 * masses.platform * square
+        disc = (across, across, axial, 0.0, 0.0, 0.0)
+        inertia = _solid(masses.inertia) if any(masses.inertia) else disc
+        self.plate = Inertial(masses.platform, masses.centre, inertia)
+        """The platform; a disc with the radius of its outermost joint where the study states no inertia."""
 
-    def part_inertia(self, leg: Leg, mass: float) -> tuple[float, float]:
-        """Moments of a cylinder or a rod about an axis across it, through its centre, and about its own axis."""
+    def part(self, leg: Leg, name: str) -> Inertial:
+        """Return the "cylinder" of a leg, seen from where the leg starts, or its "rod", from its end; z is along it.
+
+        Centre and transverse inertia are the study's, where it has them, else those of the solid that is drawn.
+        """
+        mass, centre, across = (getattr(self.masses, f"{name}{of}") for of in ("", "_centre", "_inertia"))
         square = (1.5 * self.radius) ** 2
-        return mass * (3.0 * square + leg.part**2) / 12.0, 0.5 * mass * square
+        centre = centre or 0.5 * leg.part
+        across = across or mass * (3.0 * square + leg.part**2) / 12.0
+        axial = min(0.5 * mass * square, 2.0 * across)  # no body has more
+        at = (0.0, 0.0, centre if name == "cylinder" else -centre)
+        return Inertial(mass, at, (across, across, axial, 0.0, 0.0, 0.0))
 
     def root_of(self, leg: Leg) -> tuple[Floats, Floats]:
         """Return the start of a leg and its direction in the frame of the body that it starts from."""
@@ -111,7 +135,7 @@ class Bodies:
 def body_masses(
     study: Study | None, leg_mass: float | None = None, platform_mass: float | None = None
 ) -> tuple[Masses, list[str]]:
-    """Return the masses of the bodies in kg, and the names of those that are assumed.
+    """Return the study's masses with every mass in kg, and the names of those that are assumed.
 
     The arguments come first, then the study's, then `ASSUMED`; O is a tenth of a leg where the study says nothing.
     """
@@ -124,7 +148,21 @@ def body_masses(
     stated = {name: mass or getattr(of_study, name) for name, mass in stated.items()}
     masses: dict[str, Any] = {name: float(mass or getattr(ASSUMED, name)) for name, mass in stated.items()}
     masses["internal_point"] = masses["internal_point"] or 0.1 * (masses["cylinder"] + masses["rod"])
-    return Masses(**masses, centre=of_study.centre), [name for name, mass in stated.items() if not mass]
+    return replace(of_study, **masses), [name for name, mass in stated.items() if not mass]
+
+
+def _metric(masses: Masses, unit: str) -> Masses:
+    """Return masses with lengths in metres and inertias in kg m²."""
+    lengths = {name: in_metres(getattr(masses, name), unit).tolist() for name in CENTRES}
+    squares = {name: in_metres(in_metres(getattr(masses, name), unit), unit).tolist() for name in INERTIAS}
+    return replace(masses, **lengths, **squares)
+
+
+def _solid(inertia: Six) -> Six:
+    """Return an inertia as programs take it: no principal moment of 0 or, by rounding, above the sum of the others."""
+    small, middle, large = np.linalg.eigvalsh(inertia_matrix(inertia)).tolist()
+    more = 2.0 * THIN * large if min(small, small + middle - large) < THIN * large else 0.0
+    return tuple(x + more * (k < 3) for k, x in enumerate(inertia))
 
 
 def _site(name: str) -> str:
@@ -132,9 +170,10 @@ def _site(name: str) -> str:
     return "".join(name.rsplit("_", 1))
 
 
-def ball_inertia(mass: float, radius: float) -> tuple[float, float]:
-    """Return the moments of a ball, twice the same."""
-    return 0.4 * mass * radius**2, 0.4 * mass * radius**2
+def ball(mass: float, radius: float) -> Inertial:
+    """Return a solid ball about the origin."""
+    moment = 0.4 * mass * radius**2
+    return Inertial(mass, LEVEL, (moment, moment, moment, 0.0, 0.0, 0.0))
 
 
 def numbers(values: Iterable[float] | float) -> str:

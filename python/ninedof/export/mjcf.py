@@ -8,14 +8,14 @@ robot and nine spins of the legs about themselves.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.export.bodies import COLOURS, LEVEL, Bodies, Leg, numbers
+from ninedof.export.bodies import COLOURS, Bodies, Inertial, Leg, numbers
 from ninedof.export.model import Fields, Format, Model, from_metres
 from ninedof.motion.rotations import from_quaternions
 from ninedof.robot.configuration import Configuration
@@ -77,13 +77,13 @@ def text(model: Model, leg_mass: float | None = None, platform_mass: float | Non
     {_sites(b.base)}{legs["base"]}
     <body name="O" pos="{numbers(b.internal_point)}">
       {slides}
-      {_inertial(LEVEL, b.masses.internal_point, b.point_inertia)}
+      {_inertial(b.point)}
       <geom name="O" type="sphere" size="{numbers(2.2 * b.radius)}" rgba="{COLOURS["joint"]}"/>
       <site name="O"/>
     </body>
     <body name="platform" pos="{numbers(b.position)}" xyaxes="{numbers(b.rotation[:, :2].T.ravel())}">
       <freejoint name="platform"/>
-      {_inertial(b.platform_centre, b.masses.platform, b.platform_inertia)}
+      {_inertial(b.plate)}
       <geom name="platform" type="mesh" mesh="platform" rgba="{PLATE}"/>
       <site name="platform" size="{numbers(0.2 * b.radius)}"/>{_tool(b)}
       {_sites(b.platform)}{legs["platform"]}
@@ -109,27 +109,28 @@ def text(model: Model, leg_mass: float | None = None, platform_mass: float | Non
 
 def _leg(b: Bodies, leg: Leg) -> str:
     start, along = b.root_of(leg)
-    _, axial = b.part_inertia(leg, 0.5 * (b.masses.cylinder + b.masses.rod))
-    colour, rod, half = COLOURS[leg.name[0]], COLOURS["rod"], 0.5 * leg.part
+    cylinder, rod = b.part(leg, "cylinder"), b.part(leg, "rod")
+    axial = 0.5 * (cylinder.inertia[2] + rod.inertia[2])
+    colour, bright = COLOURS[leg.name[0]], COLOURS["rod"]
     return f"""
     <body name="{leg.name}_cylinder" pos="{numbers(start)}" zaxis="{numbers(along)}">
       <joint name="{leg.name}_ball" type="ball" damping="{numbers(SPIN_DECAY * axial)}"/>
-      {_inertial((0.0, 0.0, half), b.masses.cylinder, b.part_inertia(leg, b.masses.cylinder))}
+      {_inertial(cylinder)}
       <geom type="cylinder" fromto="0 0 0 0 0 {numbers(leg.part)}" size="{numbers(1.5 * b.radius)}" rgba="{colour}"/>
       <body name="{leg.name}_rod" pos="0 0 {numbers(leg.length)}">
         <joint name="{leg.name}" type="slide" axis="0 0 1" ref="{numbers(leg.length)}"
           range="{numbers([leg.shortest, leg.longest])}" limited="true"/>
-        {_inertial((0.0, 0.0, -half), b.masses.rod, b.part_inertia(leg, b.masses.rod))}
-        <geom type="cylinder" fromto="0 0 0 0 0 {numbers(-leg.part)}" size="{numbers(b.radius)}" rgba="{rod}"/>
+        {_inertial(rod)}
+        <geom type="cylinder" fromto="0 0 0 0 0 {numbers(-leg.part)}" size="{numbers(b.radius)}" rgba="{bright}"/>
         <site name="{leg.name}_tip"/>
       </body>
     </body>"""
 
 
-def _inertial(centre: Iterable[float], mass: float, inertia: tuple[float, float]) -> str:
-    across, axial = inertia
-    moments = numbers([across, across, axial])
-    return f'<inertial pos="{numbers(centre)}" mass="{numbers(mass)}" diaginertia="{moments}"/>'
+def _inertial(body: Inertial) -> str:
+    full = any(body.inertia[3:])
+    moments = f'{"fullinertia" if full else "diaginertia"}="{numbers(body.inertia[: 6 if full else 3])}"'
+    return f'<inertial pos="{numbers(body.centre)}" mass="{numbers(body.mass)}" {moments}/>'
 
 
 def _actuators(b: Bodies) -> str:

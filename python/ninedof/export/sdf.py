@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
-from ninedof.export.bodies import COLOURS, LEVEL, Bodies, Leg, angles, bars, numbers, pointing
+from ninedof.export.bodies import COLOURS, LEVEL, MOMENTS, Bodies, Inertial, Leg, angles, bars, numbers, pointing
 from ninedof.export.model import Format, Model
 from ninedof.support.arrays import Floats
 
@@ -34,12 +34,12 @@ def text(model: Model, leg_mass: float | None = None, platform_mass: float | Non
     </joint>
     <link name="platform">
       {_pose(b.position, angles(b.rotation))}
-      {_inertial(b.platform_centre, b.masses.platform, b.platform_inertia)}
+      {_inertial(b.plate)}
       {_bars(b, b.platform.values())}
     </link>
     <link name="O">
       {_pose(b.internal_point)}
-      {_inertial(LEVEL, b.masses.internal_point, b.point_inertia)}
+      {_inertial(b.point)}
       {_visual("O", LEVEL, LEVEL, f"<sphere><radius>{numbers(2.0 * b.radius)}</radius></sphere>", COLOURS["joint"])}
     </link>{_tool(b)}{"".join(_leg(b, leg) for leg in b.legs)}
   </model>
@@ -63,12 +63,12 @@ def _leg(b: Bodies, leg: Leg) -> str:
     return f"""
     <link name="{n}_cylinder">
       {_pose(leg.start, rpy)}
-      {_inertial((0.0, 0.0, half), b.masses.cylinder, b.part_inertia(leg, b.masses.cylinder))}
+      {_inertial(b.part(leg, "cylinder"))}
       {cylinder}
     </link>
     <link name="{n}_rod">
       {_pose(leg.end, rpy)}
-      {_inertial((0.0, 0.0, -half), b.masses.rod, b.part_inertia(leg, b.masses.rod))}
+      {_inertial(b.part(leg, "rod"))}
       {rod}
     </link>
     <joint name="{n}_start" type="universal">
@@ -95,12 +95,12 @@ def _pose(at: Iterable[float], rpy: Iterable[float] = LEVEL) -> str:
     return f"<pose>{numbers(at)} {numbers(rpy)}</pose>"
 
 
-def _inertial(centre: Iterable[float], mass: float, inertia: tuple[float, float]) -> str:
-    across, axial = (numbers(moment) for moment in inertia)
+def _inertial(body: Inertial) -> str:
+    moments = "".join(f"<{name}>{numbers(x)}</{name}>" for name, x in zip(MOMENTS, body.inertia, strict=True))
     return f"""<inertial>
-        {_pose(centre)}
-        <mass>{numbers(mass)}</mass>
-        <inertia><ixx>{across}</ixx><iyy>{across}</iyy><izz>{axial}</izz></inertia>
+        {_pose(body.centre)}
+        <mass>{numbers(body.mass)}</mass>
+        <inertia>{moments}</inertia>
       </inertial>"""
 
 

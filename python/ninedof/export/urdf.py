@@ -10,7 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
-from ninedof.export.bodies import COLOURS, LEVEL, Bodies, Leg, angles, ball_inertia, bars, numbers, pointing
+import numpy as np
+
+from ninedof.export.bodies import COLOURS, LEVEL, MOMENTS, Bodies, Inertial, Leg, angles, ball, bars, numbers, pointing
 from ninedof.export.model import Format, Model
 from ninedof.support.arrays import Floats
 from ninedof.support.text import encode
@@ -32,7 +34,7 @@ def text(model: Model, leg_mass: float | None = None, platform_mass: float | Non
        All joints at zero is the neutral configuration; a slide reads the length of its leg less the neutral one. -->
   <mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>
 {_link("base", *_bars(b, b.base.values()))}{"".join(_leg(b, leg) for leg in b.legs)}{_platform(b)}
-{_point("O", b.masses.internal_point, 2.0 * b.radius)}
+{_point("O", b.point, 2.0 * b.radius)}
 {_joint("q1_O", "fixed", "q1_rod", "O")}
 </robot>
 """
@@ -72,25 +74,27 @@ def _leg(b: Bodies, leg: Leg) -> str:
     <limit lower="{numbers(low)}" upper="{numbers(high)}" effort="{EFFORT:g}" velocity="{VELOCITY:g}"/>"""
     return f"""
 {_axis(f"{n}_turn1", leg.root, f"{n}_cross", "1 0 0", at, pointing(along))}
-{_point(f"{n}_cross", CROSS * b.masses.cylinder, b.radius)}
+{_point(f"{n}_cross", ball(CROSS * b.masses.cylinder, b.radius), b.radius)}
 {_axis(f"{n}_turn2", f"{n}_cross", f"{n}_cylinder", "0 1 0")}
-{_strut(b, leg, b.masses.cylinder, f"{n}_cylinder", 0.5 * leg.part, 1.5 * b.radius, COLOURS[n[0]])}
+{_strut(b, leg, "cylinder", 0.5 * leg.part, 1.5 * b.radius, COLOURS[n[0]])}
 {_joint(f"{n}_slide", "prismatic", f"{n}_cylinder", f"{n}_rod", slide)}
-{_strut(b, leg, b.masses.rod, f"{n}_rod", -0.5 * leg.part, b.radius, COLOURS["rod"])}"""
+{_strut(b, leg, "rod", -0.5 * leg.part, b.radius, COLOURS["rod"])}"""
 
 
 def _platform(b: Bodies) -> str:
     """Return three axes of the platform at the tip of leg l1, the plate, and the frame of the platform at p."""
     first = b.platform["platform_external1"]
     turn = b.legs[0].frame.T @ b.rotation  # the platform's axes, seen from the rod
-    small, joints = CROSS * b.masses.cylinder, [at - first for at in b.platform.values()]
+    small, joints = ball(CROSS * b.masses.cylinder, b.radius), [at - first for at in b.platform.values()]
+    x, y, z = np.subtract(b.plate.centre, first).tolist()
+    plate = b.plate._replace(centre=(x, y, z))
     return f"""
 {_axis("platform_turn1", "l1_rod", "platform_cross1", "1 0 0", rpy=angles(turn))}
 {_point("platform_cross1", small, b.radius)}
 {_axis("platform_turn2", "platform_cross1", "platform_cross2", "0 1 0")}
 {_point("platform_cross2", small, b.radius)}
 {_axis("platform_turn3", "platform_cross2", "plate", "0 0 1")}
-{_link("plate", _inertial(b.platform_centre - first, b.masses.platform, b.platform_inertia), *_bars(b, joints))}
+{_link("plate", _inertial(plate), *_bars(b, joints))}
 {_joint("platform_frame", "fixed", "plate", "platform", f'<origin xyz="{numbers(-first)}"/>')}
   <link name="platform"/>{_tool(b)}"""
 
@@ -124,31 +128,31 @@ def _link(name: str, *parts: str) -> str:
   </link>"""
 
 
-def _strut(b: Bodies, leg: Leg, mass: float, name: str, middle: float, radius: float, colour: str) -> str:
+def _strut(b: Bodies, leg: Leg, part: str, middle: float, radius: float, colour: str) -> str:
     """Return a link that is a part of a leg, a cylinder along z."""
-    at = (0.0, 0.0, middle)
-    inertial = _inertial(at, mass, b.part_inertia(leg, mass))
-    return _link(name, inertial, _cylinder(at, LEVEL, radius, leg.part, name, colour))
+    name = f"{leg.name}_{part}"
+    shape = _cylinder((0.0, 0.0, middle), LEVEL, radius, leg.part, name, colour)
+    return _link(name, _inertial(b.part(leg, part)), shape)
 
 
-def _point(name: str, mass: float, radius: float) -> str:
-    ball = f"""<visual>
+def _point(name: str, body: Inertial, radius: float) -> str:
+    sphere = f"""<visual>
       <geometry><sphere radius="{numbers(radius)}"/></geometry>
       <material name="joint"><color rgba="{COLOURS["joint"]}"/></material>
     </visual>"""
-    return _link(name, _inertial(LEVEL, mass, ball_inertia(mass, radius)), ball)
+    return _link(name, _inertial(body), sphere)
 
 
 def _bars(b: Bodies, joints: Iterable[Floats]) -> list[str]:
     return [_cylinder(*bar[:2], b.radius, bar[2], "plate", COLOURS["plate"]) for bar in bars(joints)]
 
 
-def _inertial(centre: Iterable[float], mass: float, inertia: tuple[float, float]) -> str:
-    across, axial = (numbers(moment) for moment in inertia)
+def _inertial(body: Inertial) -> str:
+    moments = " ".join(f'{name}="{numbers(x)}"' for name, x in zip(MOMENTS, body.inertia, strict=True))
     return f"""<inertial>
-      <origin xyz="{numbers(centre)}"/>
-      <mass value="{numbers(mass)}"/>
-      <inertia ixx="{across}" ixy="0" ixz="0" iyy="{across}" iyz="0" izz="{axial}"/>
+      <origin xyz="{numbers(body.centre)}"/>
+      <mass value="{numbers(body.mass)}"/>
+      <inertia {moments}/>
     </inertial>"""
 
 

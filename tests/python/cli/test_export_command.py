@@ -43,7 +43,7 @@ def test_a_run_is_written_with_the_name_of_its_folder(run, tmp_path, monkeypatch
 
 def test_the_masses_of_a_study_are_those_of_the_model(run, tmp_path, monkeypatch):
     mujoco = pytest.importorskip("mujoco")
-    masses = {"platform": 12.0, "centre": (0.0, 10.0, 30.0), "rod": 0.6, "internal_point": 0.3}
+    masses = {"platform": 12.0, "centre": (0.0, 10.0, 30.0), "rod": 0.6, "rod_centre": 90.0, "internal_point": 0.3}
     values = {"a1": 60.0, "a2": 500.0, "b1": 250.0, "b2": 30.0, "zp": 400.0, "zs": 200.0}
     study = nd.Study(variables=values, characteristic_length=150.0, unit="mm", masses=masses)
     nd.save(nd.optimize(study), tmp_path / "run")
@@ -53,7 +53,8 @@ def test_the_masses_of_a_study_are_those_of_the_model(run, tmp_path, monkeypatch
             f"export run --to {name} --platform-mass 7" if name == "sdf" else f"export run --to {name}"
         )
         mass = 7 if name == "sdf" else 12
-        words = f"platform {mass} kg, each cylinder 0.5 kg (assumed), each rod 0.6 kg, O 0.3 kg; inertias"
+        words = f"platform {mass} kg, each cylinder 0.5 kg (assumed), each rod 0.6 kg, O 0.3 kg; as drawn: "
+        words += "inertia of the platform, centre of each cylinder, inertia of each cylinder, inertia of each rod"
         assert (status, words in " ".join(out.split())) == (0, True)
         if name == "sdf":
             assert "<pose>0 0.01 0.03 0 0 0</pose>\n        <mass>7</mass>" in Path(place).read_text()

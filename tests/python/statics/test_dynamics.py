@@ -147,51 +147,15 @@ def mujoco_text(g, c, masses):
 
 @pytest.mark.parametrize("seed", range(6))
 def test_forces_are_those_of_mujoco(seed):
-    """M qacc + bias = slides + J^T lambda, with the mass matrix, bias and Jacobian of the engine.
-
-    Rates and accelerations of the 45 coordinates are those that the 27 constraints leave for the motion of platform and
-    O; J qacc + Jdot qvel = 0 with Jdot qvel by differences of the engine's Jacobian along the motion.
-    """
     mujoco = pytest.importorskip("mujoco")
     m, rng = robots.regular(seed)
     g, c, masses, load = m.geometry(), m.configuration(), some_masses(rng), rng.normal(size=6)
     velocity, acceleration = rng.normal(size=(2, 9))
     engine = mujoco.MjModel.from_xml_string(mujoco_text(g, c, masses))
     engine.opt.gravity[:] = GRAVITY
-    engine.dof_damping[:] = 0.0
-    data = mujoco.MjData(engine)
-
-    def jacobian(qpos):
-        data.qpos[:], data.qvel[:] = qpos, 0.0
-        mujoco.mj_forward(engine, data)
-        return data.efc_J.reshape(data.nefc, engine.nv).copy()
-
-    start = engine.qpos0.copy()
-    j = jacobian(start)
-    # The coordinates of O and platform: slides s, then p in base axes and omega in those of the platform.
-    own = np.concatenate([velocity[6:], velocity[3:6], c.rotation.T @ velocity[:3]])
-    own_rate = np.concatenate([acceleration[6:], acceleration[3:6], c.rotation.T @ acceleration[:3]])
-    qvel = np.concatenate([own, np.linalg.lstsq(j[:, 9:], -j[:, :9] @ own, rcond=1e-9)[0]])
-    assert_allclose(j @ qvel, 0.0, atol=1e-12)
-    h, moved, sides = 1e-3, np.empty(engine.nq), []
-    for k in (-3, -2, -1, 1, 2, 3):
-        moved[:] = start
-        mujoco.mj_integratePos(engine, moved, qvel, k * h)
-        sides.append(jacobian(moved) @ qvel)
-    drift = np.array([-1, 9, -45, 45, -9, 1]) @ sides / (60.0 * h)
-    qacc = np.concatenate([own_rate, np.linalg.lstsq(j[:, 9:], -drift - j[:, :9] @ own_rate, rcond=1e-9)[0]])
-    data.qpos[:], data.qvel[:] = start, qvel
-    mujoco.mj_forward(engine, data)
-    wanted = np.empty(engine.nv)
-    mujoco.mj_mulM(engine, data, wanted, qacc)
-    wanted += data.qfrc_bias
-    wanted[3:6] -= load[3:]
-    wanted[6:9] -= c.rotation.T @ load[:3]
-    slides = np.zeros((engine.nv, 9))
-    slides[models.slides(engine)[1], range(9)] = 1.0
-    solution = np.linalg.lstsq(np.hstack([slides, j.T]), wanted, rcond=1e-12)[0]
+    expected = models.leg_forces(engine, c, velocity, acceleration, load)
     motion = nd.inverse_dynamics(g, c, (velocity, acceleration), masses, GRAVITY, load)
-    assert_allclose(motion.forces, solution[:9], rtol=0.0, atol=1e-9 * np.abs(solution).max())
+    assert_allclose(motion.forces, expected, rtol=0.0, atol=1e-9 * np.abs(expected).max())
 
 
 # --- statics, units, arguments ----------------------------------------------------------------------------------------

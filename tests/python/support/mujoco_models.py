@@ -187,3 +187,62 @@ def slide_to_twist(engine, data, lc: float = 1.0, independent: float = 1e-2) -> 
     jacobian = twist @ np.linalg.pinv(rates, rcond=1e-9)
     np.testing.assert_allclose(jacobian @ rates, twist, rtol=0.0, atol=1e-12)  # the slides determine the twist
     return jacobian
+
+
+def leg_forces(engine, c, velocity, acceleration, load=(0.0,) * 6) -> np.ndarray:
+    """Forces of the nine slides in a motion at a pose, by the inverse dynamics of the engine, without its damping.
+
+    M qacc + bias = slides + load + J^T lambda, with the mass matrix, bias and Jacobian of the engine. Velocities of the
+    45 coordinates are those that the 27 constraints leave for the motion (omega, pdot, sdot) of platform and O while
+    no leg turns about itself; J qacc + Jdot qvel = 0 with Jdot qvel by differences of the Jacobian along the motion.
+    """
+    import mujoco
+
+    data = mujoco.MjData(engine)
+    o, platform = (engine.jnt_dofadr[engine.body(name).jntadr[0]] for name in ("O", "platform"))
+    own = [*range(o, o + 3), *range(platform, platform + 6)]
+    spins = engine.jnt_dofadr[engine.jnt_type == mujoco.mjtJoint.mjJNT_BALL] + 2
+    legs = np.setdiff1d(np.arange(engine.nv), [*own, *spins])
+
+    def jacobian(qpos):
+        data.qpos[:], data.qvel[:] = qpos, 0.0
+        mujoco.mj_forward(engine, data)
+        assert data.ne == 27
+        return data.efc_J.reshape(data.nefc, engine.nv)[:27].copy()
+
+    at = engine.qpos0.copy()
+    at_o, at_platform = (engine.jnt_qposadr[engine.body(name).jntadr[0]] for name in ("O", "platform"))
+    x, y, z, w = Rotation.from_matrix(c.rotation).as_quat()
+    at[at_o : at_o + 3], at[at_platform : at_platform + 7] = c.internal_point, [*c.position, w, x, y, z]
+    step = np.zeros(engine.nv)
+    for _ in range(12):  # close the loops
+        j = jacobian(at)
+        step[legs] = np.linalg.solve(j[:, legs], -data.efc_pos[:27])
+        mujoco.mj_integratePos(engine, at, step, 1.0)
+    j = jacobian(at)
+    assert np.abs(data.efc_pos[:27]).max() < 1e-12 * np.abs(c.position).max()
+
+    def whole(motion, drift):
+        """Return what platform, O and legs do in a motion of the first two."""
+        omega, pdot, sdot = np.reshape(motion, (3, 3))
+        out = np.zeros(engine.nv)
+        out[own] = [*sdot, *pdot, *(c.rotation.T @ omega)]  # omega in axes of the platform
+        out[legs] = np.linalg.solve(j[:, legs], -drift - j[:, own] @ out[own])
+        return out
+
+    qvel = whole(velocity, np.zeros(27))
+    h, moved, sides = 1e-3, np.empty(engine.nq), []
+    for k in (-3, -2, -1, 1, 2, 3):
+        moved[:] = at
+        mujoco.mj_integratePos(engine, moved, qvel, k * h)
+        sides.append(jacobian(moved) @ qvel)
+    qacc = whole(acceleration, np.array([-1, 9, -45, 45, -9, 1]) @ sides / (60.0 * h))
+    data.qpos[:], data.qvel[:] = at, qvel
+    mujoco.mj_forward(engine, data)
+    wanted = np.empty(engine.nv)
+    mujoco.mj_mulM(engine, data, wanted, qacc)
+    wanted += data.qfrc_bias
+    wanted[own[3:]] -= [*load[3:], *(c.rotation.T @ load[:3])]
+    pushes = np.zeros((engine.nv, 9))
+    pushes[slides(engine)[1], range(9)] = 1.0
+    return np.linalg.lstsq(np.hstack([pushes, j.T]), wanted, rcond=1e-12)[0][:9]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct, typed
@@ -17,6 +19,14 @@ from ninedof.support.units import UNITS
 
 PLACE = 4
 BODIES = {"platform": "platform", "cylinder": "each cylinder", "rod": "each rod", "internal_point": "O"}
+DRAWN = {
+    "inertia": "inertia of the platform",
+    "cylinder_centre": "centre of each cylinder",
+    "rod_centre": "centre of each rod",
+    "cylinder_inertia": "inertia of each cylinder",
+    "rod_inertia": "inertia of each rod",
+}
+"""What is that of the bodies as they are drawn, where a study does not state it."""
 EXAMPLES = """
   ninedof export runs/20260101-120000 --to mjcf
   ninedof export runs/20260101-120000 --to urdf --out machine.urdf --platform-mass 12
@@ -62,7 +72,9 @@ def export(options: _Options) -> Answer:
     if "leg_mass" in row.options:
         masses, assumed = body_masses(chosen.study, options.leg_mass, options.platform_mass)
         each = (f"{name} {getattr(masses, key):g} kg{' (assumed)' * (key in assumed)}" for key, name in BODIES.items())
-        lines.append(f"masses: {', '.join(each)}; inertias of the bodies as they are drawn")
+        drawn = [name for key, name in DRAWN.items() if not np.any(getattr(masses, key))]
+        rest = f"; as drawn: {', '.join(drawn)}" * bool(drawn)
+        lines.append(f"masses: {', '.join(each)}{rest}")
     return Answer(lines, {"format": row.name, "file": str(path)})
 
 
