@@ -10,6 +10,8 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
 
 from ninedof.plot import style
 from ninedof.plot.workspace import KINDS
@@ -21,6 +23,12 @@ if TYPE_CHECKING:
 INSIDE, UNDECIDED = "#A9CCE3", "#B8BFC6"
 # Of limits that have no colour elsewhere; none is near blue.
 OTHERS = ("#E69F00", "#F0E442", "#882255", "#009E73", "#999933")
+# The colours are near each other in grey print: what is proved inside and what is undecided differ in lines too.
+LINES: dict[int, Any] = {
+    0: {"hatch": "///", "edgecolor": "white", "lw": 0.0},
+    2: {"hatch": "xxxxxx", "edgecolor": style.MUTED, "lw": 0.0},
+}
+"""Of states by their number."""
 PALE = 0.55  # of a limit's colour that is left: outside is ground, not figure
 LETTER = 0.056  # inches, of the smallest words
 MARK = style.HOME | {"marker": "D", "ms": 5.0, "clip_on": False}
@@ -29,8 +37,8 @@ MARK = style.HOME | {"marker": "D", "ms": 5.0, "clip_on": False}
 def admissible(designs: AdmissibleSet, figure: Figure | None = None) -> Figure:
     """Return a figure of a set of admissible designs: a plane for every two of its variables, through the design.
 
-    Inside, and outside in the colour of the limit that all designs of a box break, are proved; grey is undecided. Lines
-    of the worst condition number are sampled, and proved nowhere. Angles are drawn in degrees.
+    Inside, with light lines, and outside, in the colour of the limit that all designs of a box break, are proved; what
+    is crossed is undecided. Lines of the worst condition number are sampled, proved nowhere. Angles are in degrees.
 
     Parameters
     ----------
@@ -69,11 +77,9 @@ def admissible(designs: AdmissibleSet, figure: Figure | None = None) -> Figure:
             lines |= _iso_lines(panel, designs, i, j)
         for panel in axes[len(planes) :]:
             panel.set_axis_off()
-        keys = [style.key(INSIDE, lw=6, label="every limit kept, proved")]
-        keys += [
-            style.key(colours[name], lw=6, label=f"outside: {name.replace('_', ' ')}") for name in designs.excluded
-        ]
-        keys += [style.key(UNDECIDED, lw=6, label="undecided"), style.key(**MARK, label="design")]
+        keys: list[Any] = [Patch(facecolor=INSIDE, label="every limit kept, proved", **LINES[0])]
+        keys += [Patch(color=colours[name], label=f"outside: {name.replace('_', ' ')}") for name in designs.excluded]
+        keys += [Patch(facecolor=UNDECIDED, label="undecided", **LINES[2]), style.key(**MARK, label="design")]
         keys += [style.key(style.INK, lw=0.8, label="worst condition number, sampled")] if lines else []
         figure.suptitle(words, fontsize=style.SMALL_SIZE, color=style.MUTED)
         figure.legend(handles=keys, loc="outside lower center", ncols=2 if columns == 1 else 4)
@@ -106,11 +112,13 @@ def _plane(axes: Any, designs: AdmissibleSet, i: int, j: int, colours: dict[str,
         INSIDE if state == 0 else UNDECIDED if state == 2 else colours[designs.demands[demand][0]]
         for state, demand in zip(designs.state[met].tolist(), designs.demand[met].tolist(), strict=True)
     ]
+    boxes = style.corners(low, high)
     axes.add_collection(
-        PolyCollection(
-            list(style.corners(low, high)), facecolors=faces, edgecolors=faces, linewidths=0.2, rasterized=True
-        )
+        PolyCollection(list(boxes), facecolors=faces, edgecolors=faces, linewidths=0.2, rasterized=True)
     )
+    for state, lines in LINES.items():
+        area = Path.make_compound_path_from_polys(boxes[designs.state[met] == state])
+        axes.add_patch(PathPatch(area, facecolor="none", **lines, rasterized=True))
     limits = _shown(designs, ends[[i, j]].T, i, j)
     axes.set(xlim=limits[:, 0], ylim=limits[:, 1])
     labels = [style.with_unit(names[k], designs.study.unit_of(names[k])) for k in (i, j)]

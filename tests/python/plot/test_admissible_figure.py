@@ -1,5 +1,7 @@
 """The figure of a set of admissible designs: its words are in the page, its colours are told apart."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -77,3 +79,28 @@ def test_lines_near_a_singularity_are_smooth_and_none_is_where_o_is_above_the_pl
         along /= np.linalg.norm(along, axis=1)[:, None]
         near = (part[:, 0] - part[:, 1] < 60.0).all()
         assert not near or (np.sum(along[1:] * along[:-1], axis=1) > 0.8).all()
+
+
+def test_inside_outside_and_undecided_differ_in_black_and_white():
+    """Pale blue, orange and grey have nearly one grey: inside and undecided have lines, of two kinds."""
+    hexagons = nd.Study(variables={"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0})
+    at = {"zp": 4.9752, "zs": 3.1681}
+    found = nd.admissible(hexagons, ("a2", "b1"), at=at, condition_number=5.0, resolution=0.1)
+    figure = plot.admissible(found)
+    inside, undecided = figure.axes[0].patches
+    (legend,) = figure.legends
+    keys = [(one.get_label(), one.get_hatch()) for one in legend.get_patches()]
+    assert keys[0] == ("every limit kept, proved", inside.get_hatch())
+    assert keys[-1] == ("undecided", undecided.get_hatch())
+    assert [hatch for _, hatch in keys[1:-1]] == [None] * len(found.excluded)
+    assert len({inside.get_hatch(), undecided.get_hatch(), None}) == 3
+    assert set(found.state.tolist()) == {0, 1, 2}
+    centres = 0.5 * (found.low + found.high)
+    for state, area in ((0, inside), (2, undecided)):
+        assert (area.get_path().contains_points(centres) == (found.state == state)).all()
+
+
+def test_a_set_without_a_state_is_drawn():
+    found = nd.admissible(STUDY, RADII, at=HOME, resolution=0.5, time_limit=0.2)
+    nothing = replace(found, state=np.ones_like(found.state), demand=np.zeros_like(found.demand))
+    assert all(len(area.get_path()) == 0 for area in plot.admissible(nothing).axes[0].patches)
