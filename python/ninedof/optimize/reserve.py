@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
+import numpy as np
+
 from ninedof.design.domains.region_poses import Placing, o_is_placed
 from ninedof.design.duty import LARGEST_TOLERANCE, Tolerances, tolerances_like
 from ninedof.design.limit_numbers import with_scaled_limits
@@ -108,7 +110,7 @@ ROUNDS = 6  # two are enough where limits change little with the design
 MORE, EDGE = 1.02, 1e-8  # of what a proof lacks, and of the limit: on its edge it would be proved by rounding only
 NARROWER = 0.005  # of a limit of the condition number, in each round
 LEAST_SHARE = 0.5  # of a limit, and of its inverse: tolerances that take more leave no machine
-FOR_PROOF = 60.0  # seconds of each limit, which takes fewer: the same result whatever the machine
+FOR_PROOF = 600.0  # seconds of each limit, which ends by its boxes: the same result however busy the machine is
 UNPROVED = "not proved of every machine within the tolerances"
 
 
@@ -163,9 +165,10 @@ def with_reserve(
     """Return the result whose limits are proved of every machine within the study's tolerances, if one is found.
 
     What the proof of a design lacks is taken from its limits, and `solve` solves the study anew from there, until the
-    proof succeeds. The result given is of the study without a reserve.
+    proof succeeds. The result given is of the study without a reserve. Where a proof has no bound of a number at all,
+    and no machine was met that breaks a limit, the search stops: that there is no design would be said of nothing.
     """
-    study, shares, first, lacking = result.study, dict[str, float](), result, dict[str, float]()
+    study, shares, first, lacking, unknown = result.study, dict[str, float](), result, dict[str, float](), False
     if o_is_placed(study):
         return replace(result, reserve=Reserve(note="no reserve for tolerances: O is placed anew at every pose"))
     for left in reversed(range(ROUNDS + 1)):
@@ -173,7 +176,7 @@ def with_reserve(
             break
         phase(progress, "proving the limits of every machine within the tolerances")
         try:
-            lacking = _open(study, result, threads)
+            lacking, unknown = _open(study, result, threads)
         except KeyboardInterrupt:
             note = "interrupted before the limits were proved of every machine within the tolerances"
             return replace(_of(study, result, first), interrupted=True, reserve=Reserve(shares, note=note))
@@ -187,11 +190,17 @@ def with_reserve(
         shares |= taken
         result = solve(Reserve(shares).study(study), result)
     over = result.interrupted or ended()
+    if unknown and not over and result.best is not None:
+        reason = f"{UNPROVED}: {', '.join(map(_words, lacking))}; a longer proof may decide"
+        result, over = replace(result, status=type(result.status).STOPPED, reason=reason), True
     return _without(study, result, first, Reserve(shares, note=UNPROVED), lacking, over)
 
 
-def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
-    """Return the limits that are not proved of every machine within the tolerances, and the part to be kept of each."""
+def _open(study: Study, result: Any, threads: int) -> tuple[dict[str, float], bool]:
+    """Return the limits that are not proved of every machine within the tolerances, and the part to be kept of each.
+
+    Also whether nothing is known of one, and none is known to be broken.
+    """
     best, out = result.best, dict[str, float]()
     design = (*machine_of(result), None)
     # Where the design lies within a limit, the reserve begins at its own value: else it would change nothing.
@@ -200,7 +209,9 @@ def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
         for row in limit_rows(result.solved, best.variables)
         if row.limit
     }
-    for limit in open_limits(study, design, study.tolerances, FOR_PROOF, threads):
+    limits = open_limits(study, design, study.tolerances, FOR_PROOF, threads)
+    unknown = any(not np.isfinite(one.value).all() for one in limits) and all(one.answer == UNDECIDED for one in limits)
+    for limit in limits:
         key = f"{limit.name} {limit.side}"
         met, worst = limit.value if limit.side == "max" else limit.value[::-1]
         if limit.name in (CONDITION_LIMIT, NEUTRAL_LIMIT):  # its enclosure is wide
@@ -210,7 +221,7 @@ def _open(study: Study, result: Any, threads: int) -> dict[str, float]:
             sign, most = (1.0, min) if limit.side == "max" else (-1.0, max)
             share = (1.0 - lack * MORE - sign * EDGE) * most(own.get(key, 1.0), 1.0)
         out[key] = share
-    return out
+    return out, unknown
 
 
 def _of(study: Study, result: Any, first: Any) -> Any:

@@ -1,5 +1,6 @@
 """Studies with tolerances: their limits hold of every machine within them. Oracle: random machines, by numpy."""
 
+import math
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -153,11 +154,26 @@ def test_ctrl_c_in_a_proof_keeps_the_design(monkeypatch):
 
 
 @pytest.mark.slow
-def test_tolerances_with_which_no_design_is_proved_are_no_crash():
+def test_tolerances_of_which_nothing_is_known_are_not_infeasible():
+    """Joints are anywhere within 60 mm: no bound of a limit is finite, and no machine was met that breaks one."""
     result = nd.optimize(replace(REQUIREMENT, tolerances=nd.Tolerances(joints=60.0)), starts=2)
-    assert result.status == "infeasible"
-    assert result.best is None
+    assert result.status == "stopped"
+    assert result.best is not None
+    assert not result.reserve.proved
     assert result.reason.startswith("not proved of every machine within the tolerances: ")
+
+
+def test_a_proof_that_decides_nothing_is_not_infeasible(monkeypatch):
+    """A force that the time ended: its bound was infinite, and the design was thrown away."""
+    asked = replace(study_of(nd.Region(box=(30.0, 40.0, 20.0))), constraints={"leg_length": (50.0, 900.0)})
+    first = nd.optimize(asked)
+    (row,) = (one for one in first.certify(time_limit=0.01).limits if one.side == "max")
+    for answer, status in (("undecided", "stopped"), ("violated", "infeasible")):
+        one = replace(row, answer=answer, value=(row.value[0], math.inf))
+        monkeypatch.setattr(import_module("ninedof.optimize.reserve"), "open_limits", lambda *_, one=one: [one])
+        result = with_reserve(replace(first, study=replace(asked, tolerances=TOLERANCES)), None, 0)
+        assert (result.status, result.best) == (status, first.best if status == "stopped" else None)
+        assert "the greatest leg length" in result.reason
 
 
 def test_a_listed_pose_and_the_neutral_one_are_proved_too():
