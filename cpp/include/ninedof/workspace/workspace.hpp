@@ -132,7 +132,7 @@ struct WorkspaceLevel {
 struct WorkspaceMap {
   WorkspaceStatus status = WorkspaceStatus::empty;
   double volume = std::numeric_limits<double>::quiet_NaN();  ///< length^3, or radians^3 (8 pi^2 is all of SO(3))
-  /// Estimate, with `unseen`; of a grid or sample without it, at least `unseen` where all points are allowed or none is.
+  /// Estimate, with `unseen`; of a grid or sample without it, at least `unseen` where all points or none are allowed.
   /// Not of a part beyond a neck thinner than the smallest cell.
   double error = std::numeric_limits<double>::quiet_NaN();
   /// Upper bound, at 95 % confidence, of the volume of a feature that neither corners of cells nor audit poses show: a
