@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from datetime import timedelta
 from functools import partial
 from threading import Event, Lock, Thread
 from typing import Any
@@ -20,7 +21,6 @@ from rich.progress import (
     ProgressColumn,
     Task,
     TextColumn,
-    TimeElapsedColumn,
     TimeRemainingColumn,
 )
 from rich.table import Column
@@ -148,6 +148,13 @@ NARROW = partial(BarColumn, bar_width=12)
 VALUE = "{task.fields[value]}"
 
 
+class _Elapsed(ProgressColumn):
+    """The time so far, also where all that is known of is done: boxes are counted, and what follows has no number."""
+
+    def render(self, task: Task) -> Text:
+        return Text(str(timedelta(seconds=int(task.elapsed or 0.0))), style="progress.elapsed")
+
+
 class _ToGo(TimeRemainingColumn):
     """The time that is left; nothing before it is known and when all is done: of the starts rounds may follow."""
 
@@ -158,19 +165,19 @@ class _ToGo(TimeRemainingColumn):
 
 # What a bar shows behind its title, the words for the value of a report, and whether it is shown at once.
 BARS: dict[str, tuple[Sequence[Callable[[], ProgressColumn] | str], Callable[[float | None], str], bool]] = {
-    "starts": ((NARROW, MofNCompleteColumn, VALUE, TimeElapsedColumn, _ToGo), best_words, True),
+    "starts": ((NARROW, MofNCompleteColumn, VALUE, _Elapsed, _ToGo), best_words, True),
     "limits": (
         (NARROW, MofNCompleteColumn, VALUE, _ToGo),
         lambda last: "no design" if last is None else f"{last:.6f}",
         True,
     ),
-    "points": ((NARROW, "{task.percentage:>3.0f} %", _ToGo, TimeElapsedColumn), lambda _: "", False),
+    "points": ((NARROW, "{task.percentage:>3.0f} %", _ToGo, _Elapsed), lambda _: "", False),
     "poses": (
         (NARROW, "{task.completed:,.0f} poses" + VALUE, _ToGo),
         lambda volume: "" if volume is None else f", volume {volume:.4g}",
         False,
     ),
-    "boxes": ((_Boxes, TimeElapsedColumn), lambda _: "", False),
+    "boxes": ((_Boxes, _Elapsed), lambda _: "", False),
 }
 
 

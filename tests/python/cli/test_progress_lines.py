@@ -49,6 +49,13 @@ def test_short_work_prints_no_line(capsys):
     assert lines_of(capsys, "starts", [(9.9, 499, 2.5)]) == []
 
 
+@pytest.mark.parametrize("kind", ["starts", "points", "boxes"])
+def test_the_time_goes_on_when_all_that_is_known_is_done(capsys, kind):
+    """Boxes are as many as there are so far: the time of the first report stood to the end."""
+    lines = lines_of(capsys, kind, [(0.0, 500, 2.5), (12.0, 500, 2.5), (44.0, 500, 2.5)])
+    assert [line.split()[-1] for line in lines] == ["0:00:12", "0:00:44"]
+
+
 def test_a_terminal_has_the_bar_alone(capsys):
     assert not any(
         line.startswith("study.toml  1") for line in lines_of(capsys, "starts", [(12.0, 120, 2.5)], terminal=True)
