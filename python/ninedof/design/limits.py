@@ -13,7 +13,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.design.tool import Tool
 from ninedof.robot.geometry import LEGS
-from ninedof.support.arguments import Vector, choice, items, known_keys, number, shown, vector, whole
+from ninedof.support.arguments import Vector, choice, finite, items, known_keys, number, shown, vector, whole
 from ninedof.support.structs import Check, Fixed, plain, within
 from ninedof.support.units import angle_entry, degrees_of, half_turn, in_radians, kind_unit
 
@@ -231,7 +231,7 @@ def _axis(name: str, value: Any) -> Vector:
 
 
 OPTIONS: dict[str, Check] = {
-    "radius": number,
+    "radius": partial(finite, least=0.0),
     "axis": _axis,
     "steps": partial(whole, least=1, most=MOST_STEPS),
 }

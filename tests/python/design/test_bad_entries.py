@@ -35,7 +35,7 @@ KINDS = {  # what is refused; places, each a call and the way to the entry among
         [*NO_NUMBERS, [1.0], NAN, -INF, -1.0],
         "Pose weight, Region ball, Region tilt, Region.from_dict data.tilt_deg, Region cylinder.0: cylinder, "
         "poses.ball radius, Objective condition_limit, Objective neutral_condition_limit, "
-        "Study constraints.leg_clearance.radius: constraints.leg_clearance",
+        "Study constraints.leg_clearance.radius: constraints.leg_clearance.radius",
     ),
     "bound": (
         [*NO_NUMBERS, *NO_LISTS, *NO_BOUNDS, (None, 1.0), (1.0,), (0.0, 1.0, 2.0), (0, 10**400)],
@@ -149,6 +149,7 @@ LIMITS = {  # text of a limit: its error
     "base_cone = { axis = [0, 0, 1] }": "base_cone: got axis alone",
     "base_cone = { max = 1, steps = 3 }": "base_cone: got the entry 'steps'",
     "leg_clearance = { min = 1, radius = 1 }": "leg_clearance.min: got both min and radius",
+    "leg_clearance = { radius = -12.0 }": "leg_clearance.radius: got -12",
     "singularity_free = { min = 1.0 }": "singularity_free: .*between 0 and 1",
     "singularity_free = { min = 0 }": "singularity_free: .*between 0 and 1",
     "singularity_free = { steps = 4, at = 'neutral' }": "singularity_free.steps: got 4, expected none",
