@@ -20,15 +20,17 @@ from ninedof.support.units import amount
 from ninedof.sweep.result import atlas_table, summary_table
 from ninedof.tables.html import Html, bullets, facts, html_of, joined, paragraphs
 from ninedof.workspace import WorkspaceMap
-from ninedof.workspace.tables import criterion_words, rule_words, workspace_table
+from ninedof.workspace.tables import criterion_words, cut_words, rule_words, workspace_table, workspace_words
 
 
 def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     """Return the page of a workspace; without machine and question where the record does not hold them."""
     question, view, machine = record.question, None, None
+    table = workspace_table(workspace, most=100)
     tool = Tool.from_dict(question.get("tool", {}))
+    remarks = [f"{first}{rest}" for first, rest in (*cut_words(workspace), *workspace_words(workspace))]
     sections = {
-        "answer": html_of(workspace_table(workspace, most=100)),
+        "answer": joined(paragraphs(f"{one[0].upper()}{one[1:]}." for one in remarks), html_of(table)),
         "proof": proof.of_workspace(workspace, question),
         "again": origin.of_question(question, record),
     }

@@ -96,10 +96,12 @@ def test_paths_workspaces_and_sweeps_of_a_run_have_its_title_block_and_its_tool(
     nd.save(nd.optimize(study), "machine")
     drawn = []
     monkeypatch.setattr(plot, "drawing", lambda *a: drawn.append(a[3]) or plot.mechanisms([plot.Robot("", *a[:2])]))
-    asked = {"path": "--line 5 0 5 --points 21", "workspace": "--legs 200 470", "sweep": "--over x_p=-5:5:5"}
+    box = "--x -5 5 --y -5 5 --z 395 400"
+    asked = {"path": "--line 5 0 5 --points 21", "workspace": f"--legs 100 900 {box}", "sweep": "--over x_p=-5:5:5"}
     for name, options in asked.items():
         run(f"{name} machine {options} --out {name}")
         page = shown((tmp_path / name / "report.html").read_text())
         assert "project Polishing head author A. Smith revision C" in page
         assert "lengths in mm" in page or name == "sweep"
+        assert ("The box cuts the workspace: " in page) == (name == "workspace")
     assert drawn == [study.tool]
