@@ -130,7 +130,8 @@ def test_an_impossible_region_is_infeasible():
     study = nd.Study(constraints={"leg_ratio": (None, 1.01)}, objective={"region": region}, starts=1)
     result = nd.optimize(study)
     assert (result.status, result.best, result.region) == ("infeasible", None, None)
-    assert re.search(r"at the poses? neutral shifted by \([^()]+\) and turned \([^()]+\)°", result.reason)
+    assert re.search(r"at the poses neutral, neutral shifted by \([^()]+\),", result.reason)
+    assert "turned" not in result.reason  # the ball has no tilts
     # A warm start has the variables of the study, and none for O at the poses.
     warm = {"a1": 0.0, "a2": 5.0, "b1": 3.0, "b2": 0.0, "zp": 4.0, "zs": 2.0, "theta_z": 0.0}
     assert nd.optimize(study, warm=[warm]).status == "infeasible"
@@ -188,3 +189,9 @@ def test_ranges_of_lengths_divide_what_a_limit_leaves():
     assert found["stroke"] == pytest.approx((0.9, 1.3))
     assert found["stroke_ratio"][1] / found["stroke_ratio"][0] == pytest.approx(1.5)
     assert np.prod(found["leg_ratio"]) == pytest.approx(1.2)
+
+
+def test_poses_that_exclude_a_design_are_named_with_their_turns():
+    region = {"ball": 20.0, "tilt_deg": 10.0}
+    study = nd.Study(constraints={"leg_ratio": (None, 1.01)}, objective={"region": region}, starts=1)
+    assert re.search(r"neutral shifted by \([^()]+\) and turned \([^()]+\)°", nd.optimize(study).reason)
