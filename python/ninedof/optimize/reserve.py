@@ -8,8 +8,6 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-
 from ninedof.design.domains.region_poses import Placing, o_is_placed
 from ninedof.design.duty import LARGEST_TOLERANCE, Tolerances, tolerances_like
 from ninedof.design.limit_numbers import with_scaled_limits
@@ -210,7 +208,9 @@ def _open(study: Study, result: Any, threads: int) -> tuple[dict[str, float], bo
         if row.limit
     }
     limits = open_limits(study, design, study.tolerances, FOR_PROOF, threads)
-    unknown = any(not np.isfinite(one.value).all() for one in limits) and all(one.answer == UNDECIDED for one in limits)
+    unknown = any(not all(map(math.isfinite, one.value)) for one in limits) and all(
+        one.answer == UNDECIDED for one in limits
+    )
     for limit in limits:
         key = f"{limit.name} {limit.side}"
         met, worst = limit.value if limit.side == "max" else limit.value[::-1]
