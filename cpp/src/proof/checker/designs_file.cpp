@@ -263,24 +263,19 @@ std::vector<std::string> robot_of(const DesignsFile& file) {
 /// The centre of the platform's mass as the study has it, in the frame of the plate; the file has it in the tool's. Six
 /// digits of it: for people, no part of a proof.
 std::string centre_of_mass(const DesignsFile& file) {
-  const Triple turn{file.tool[3], file.tool[4], file.tool[5]}, &point = file.duty.centre;
-  const Linear squared = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2];
-  const Linear s = of_angle_squared(squared, 1), c = of_angle_squared(squared, 2);
+  const auto& [px, py, pz, rx, ry, rz] = file.tool;
+  const auto& [x, y, z] = file.duty.centre;
+  const Arrow turn{rx, ry, rz}, own{x, y, z};
+  const Linear squared = dot(turn, turn), s = of_angle_squared(squared, 1), c = of_angle_squared(squared, 2);
   const bool known = s.r < 1.0 && c.r < 1.0;  // not of a turn by more than that of poses
-  const auto crossed = [&](const Triple& v) {
-    return Triple{turn[1] * v[2] - turn[2] * v[1], turn[2] * v[0] - turn[0] * v[2], turn[0] * v[1] - turn[1] * v[0]};
-  };
-  const Triple once = crossed(point), twice = crossed(once);
-  Triple at = point;
+  const Arrow once = cross(turn, own);
+  const Arrow at = known ? Arrow{px, py, pz} + own + s * once + c * cross(turn, once) : own;
   double size = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (known) at[k] += file.tool[k] + s.c * once[k] + c.c * twice[k];
-    size = std::max({size, std::abs(file.tool[k]), std::abs(point[k])});
-  }
-  const auto shown = [&](double x) {
-    return digits(std::abs(x) > 1e-12 * size ? x : 0.0, std::chars_format::general, 6);
+  for (const double one : {px, py, pz, x, y, z}) size = std::max(size, std::abs(one));
+  const auto shown = [&](double one) {
+    return digits(std::abs(one) > 1e-12 * size ? one : 0.0, std::chars_format::general, 6);
   };
-  return "(" + shown(at[0]) + ", " + shown(at[1]) + ", " + shown(at[2]) + ") in the frame of " +
+  return "(" + shown(at.x.c) + ", " + shown(at.y.c) + ", " + shown(at.z.c) + ") in the frame of " +
          (file.space.present() ? "its joints"
           : known              ? "the plate"
                                : "the tool");
