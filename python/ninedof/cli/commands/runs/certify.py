@@ -128,7 +128,7 @@ def certify(options: _Options) -> Answer:
         screen.print(f"certificate {options.certificate}, for `ninedof check`")
         data |= {"certificate": str(options.certificate)}
     status = DONE if certificate.proved and not certificate.left_count else NO_RESULT
-    if certificate.left_count and not certificate.interrupted:
+    if (certificate.left_count or longer) and not certificate.interrupted:
         ended_by_time(without="--time" if longer else "", instead=longer)
     return Answer([], data, INTERRUPTED if certificate.interrupted else status)
 
