@@ -94,9 +94,9 @@ def test_what_time_was_too_short_for_has_the_value_met_and_says_so(tmp_path, mon
     nd.save(nd.optimize(study, starts=1), tmp_path / "run")
     for module in ("ninedof.proof.machine", "ninedof.cli.commands.runs.certify"):
         monkeypatch.setattr(import_module(module), "FOR_LIMITS", 0.0)
-    assert status(tmp_path / "run", "--time", 0.01) == 3
+    assert status(tmp_path / "run", "--time", 1e-9) == 3
     out, err = capsys.readouterr()
-    assert err.endswith(f"to go on, type: ninedof certify {tmp_path / 'run'} --time 0.04\n")  # a longer time
+    assert err.endswith(f"to go on, type: ninedof certify {tmp_path / 'run'} --time 4e-09\n")  # a longer time
     (row,) = [line.split() for line in out.splitlines() if "force" in line and "undecided" in line]
     met = float(row[row.index("met") - 1])
     assert 0.0 < met <= max(one.value for one in nd.sheet(nd.load(tmp_path / "run")).limits)
@@ -104,7 +104,7 @@ def test_what_time_was_too_short_for_has_the_value_met_and_says_so(tmp_path, mon
     said = " ".join(out.split())
     assert f"the worst value met so far is {met:.5g}" in said
     assert "and nothing bounds it yet." in said
-    assert "Each limit had 0.01 s, and begins anew: a longer --time may decide it." in said
+    assert "Each limit had 1e-09 s, and begins anew: a longer --time may decide it." in said
     at = said.split("The worst condition number met is ")[1].split("° from neutral")[0]
     found, pose = at.split(", at p = (")
     p, o, turn = (part.split(")")[0] for part in pose.split("("))
