@@ -282,7 +282,7 @@ def test_what_was_proved_earlier_is_kept_without_a_file_too():
 def test_a_time_limit_ends_the_proof_too(tmp_path):
     """It goes on where another call has more time; a proof that the time did not end is returned as it is."""
     begin = perf_counter()
-    result = nd.optimize(replace(SEVEN, starts=2), certify=True, time_limit=3.0)
+    result = nd.optimize(replace(SIX, starts=2), certify=True, time_limit=3.0)
     assert perf_counter() - begin < 60.0
     assert not result.proof.complete
     first = OptimumProof(2.0, 3.0, False, 10, 1, seconds=5.0, certificate=b"one")
