@@ -144,6 +144,14 @@ def test_evaluate_published_design(run):
     assert min(kinds.values(), key=lambda k: k["condition_number"]) == kinds["optimal"]
 
 
+def test_evaluate_names_the_condition_number_of_each_length(run, monkeypatch):
+    """The line was "107.3: k = 3.896", while every other one says condition number."""
+    monkeypatch.setenv("COLUMNS", "80")
+    out = run("evaluate --a1 0 --a2 581.24 --b1 290.62 --b2 0 --zp 398.28 --zs 244.35")[1]
+    assert "107.299091: condition number 3.896032 │" in out
+    assert " k = " not in out
+
+
 def test_evaluate_a_singular_design(run):
     status, out, _ = run("evaluate --a1 1 --a2 2 --b1 0.5 --b2 1 --zp 3 --zs 1 --json")
     data = json.loads(out)

@@ -115,7 +115,7 @@ def _table(title: str, values: dict[str, Any], unit: str) -> Table:
     rows.append(())
     for kind, at in values["characteristic_lengths"].items():
         if math.isfinite(at["length"]):
-            words = f"{_digits(at['length'])}: k = {_digits(at['condition_number'])}"
+            words = f"{_digits(at['length'])}: condition number {_digits(at['condition_number'])}"
             rows.append(Line(f"at the {kind} length", [words], unit=unit))
     return Table(title, columns("", ">"), rows)
 
