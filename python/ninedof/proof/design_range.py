@@ -121,8 +121,9 @@ class DesignRange:
 
     @property
     def digest(self) -> str:
-        """Digest of the question: another run goes on with the same question only."""
-        parts = (METHOD, self.study.to_dict(), self.vary, self.ranges, sorted(self.at.items()), self.condition_number)
+        """Digest of the question: another run goes on with the same question only, whichever design is marked."""
+        held = sorted((name, value) for name, value in self.at.items() if name not in self.vary)
+        parts = (METHOD, self.study.to_dict(), self.vary, self.ranges, held, self.condition_number)
         return sha256(repr(parts).encode()).hexdigest()
 
     @property

@@ -3,6 +3,7 @@
 import json
 import zlib
 from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -83,6 +84,27 @@ def test_the_same_command_goes_on_and_another_question_begins_anew(run, study, t
     assert "condition_number" in json.loads(out)["excluded"]
 
 
+def test_a_value_of_a_variable_that_varies_is_that_of_the_marked_design(run, study, tmp_path, monkeypatch):
+    """It began the search anew without a word, and left the old one as that of another question."""
+    monkeypatch.setattr(import_module("ninedof.cli.commands.runs.admissible"), "_draw", lambda *_: [])
+    folder = tmp_path / "set"
+    line = f"admissible {study} {ASKED} 0.3 --out {folder}"
+    status, before, _ = run(line)
+    status, out, _ = run(f"{line} --set a2=6")
+    assert status == 0
+    assert "a2 varies: --set says which design is marked and where --around begins." in " ".join(out.split())
+    assert "another question" not in out
+    assert "varies" not in before
+    assert nd.AdmissibleSet.load(folder / "admissible-a2-b1.npz").of.at["a2"] == 6.0
+    whole = nd.AdmissibleSet.load(folder / "admissible-a2-b1.npz")
+    anew = nd.admissible(nd.Study.load(study), ("a2", "b1"), at={"a2": 6.0, "zp": 5.0, "zs": 3.0}, resolution=0.3)
+    assert whole.shares["inside"] >= anew.shares["inside"] > 0.0
+    assert "a2 and b1 vary: --set" in " ".join(run(f"{line} --set a2=6 --set b1=3")[1].split())
+    assert "the middle is marked" in " ".join(run(f"{line} --set a2=60")[1].split())
+    another = line.replace("zs=3", "zs=3.1")
+    assert "another question are kept" in " ".join(run(another)[1].split())
+
+
 @pytest.mark.slow(sanitized=True)
 def test_a_run_gives_the_other_variables(run, study, tmp_path):
     folder = tmp_path / "run"
@@ -137,6 +159,13 @@ def test_what_is_refused(run, study, line, words):
     assert status == 2
     assert not out  # nothing was searched
     assert words in " ".join(err.split())
+
+
+def test_rows_of_a_catalogue_have_no_design_that_is_marked(run, study):
+    study.write_text('actuators = [{ name = "S", shortest = 1.0, longest = 2.0 }]\n' + STUDY)
+    status, out, err = run(f"admissible {study} {ASKED} 0.3 --set a2=6")
+    assert (status, out) == (2, "")
+    assert "--set: got a2, which varies, expected variables that do not: no design is marked" in " ".join(err.split())
 
 
 def test_around_alone_says_how_far_all_free_variables_may_go(run, study):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +13,12 @@ from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.proof.admissible.admissible import ENOUGH
 from ninedof.proof.admissible.result import UNDECIDED, NoRoom, as_drawn, half_widths, room_words
-from ninedof.proof.design_range import MOST_VARIED, design_range
+from ninedof.proof.design_range import MOST_VARIED, DesignRange, design_range
 from ninedof.records.load import split
 from ninedof.records.proofs import admissible_file, load_admissible
 from ninedof.support.kept.store import folder_of
 from ninedof.support.running import ended_by_time, goes_on
-from ninedof.support.units import amount
+from ninedof.support.units import amount, plain_name
 from ninedof.tables import Table, columns
 
 PLACE = 4
@@ -44,7 +44,11 @@ class _Options(Options):
         "A variable that varies, NAME or NAME=LOW:HIGH; angles NAME_deg=LOW:HIGH. Needed, but with --around alone.",
         values=VARIABLES,
     )
-    set: list[str] | None = option("Another variable: zs=320, or zs=+10%. Repeatable.", values=VARIABLES)
+    set: list[str] | None = option(
+        "Another variable: zs=320, or zs=+10%. Of one that varies: which design is marked and where "
+        "--around begins. Repeatable.",
+        values=VARIABLES,
+    )
     condition: float | None = option("A bound of the condition number besides the limits.")
     time: float | None = option(
         f"Seconds, {TIME:g} by default, with --scheduler of each root; what is proved by then is kept."
@@ -88,7 +92,7 @@ def admissible(options: _Options) -> Answer:
     with executor_at(options.scheduler) as executor, bars as bar:
         designs = nd.admissible(of, vary, **how, executor=executor, progress=bar)
     data: dict[str, Any] = {name: getattr(designs, name) for name in ("shares", "excluded", "designs", "boxes")}
-    screen.print(*designs.sentences())
+    screen.print(*designs.sentences(), *_marked(question, at))
     ended = designs.seconds - (earlier.seconds if earlier else 0.0) >= how["time_limit"] and not designs.interrupted
     if ended and designs.shares[UNDECIDED] > ENOUGH:
         screen.print("The time ended the search: a longer --time may decide more.")
@@ -118,10 +122,19 @@ def admissible(options: _Options) -> Answer:
     return Answer([], data, INTERRUPTED if designs.interrupted else DONE)
 
 
+def _marked(question: DesignRange, at: Iterable[str]) -> list[str]:
+    """Return what --set of variables that vary means; nothing where there are none."""
+    names = [name for name in map(plain_name, at) if name in question.vary and name not in question.moved]
+    verb = "vary" if len(names) > 1 else "varies"
+    return [f"{' and '.join(names)} {verb}: --set says which design is marked and where --around begins."] * bool(names)
+
+
 def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: Mapping[str, Any]) -> Answer:
     """Return for which rows of its actuators a study has designs; nothing is kept."""
     alone = "for a study with actuators: its answer is printed alone"
     options.refuse(alone, "condition", "around", "proportions", "certificate", "out", "scheduler")
+    if both := [name for name in at if plain_name(name) in map(plain_name, vary)]:
+        raise ValueError(f"--set: got {both[0]}, which varies, expected variables that do not: no design is marked")
     with screen.bar("boxes", "actuators") as bar:
         answer = nd.admissible_actuators(study, vary, at=at, **_how(options), progress=bar)
     heads = columns("legs", "actuator", "a design exists", "for example")
