@@ -202,6 +202,10 @@ class Tolerances(StudyTable):
         """Whether anything may be off."""
         return self.joints > 0.0 or self.legs > 0.0
 
+    def remark(self) -> list[str]:
+        """Return that an answer is about machines as they are drawn, a sentence; none without tolerances."""
+        return ["Of machines as they are drawn: the tolerances of the study are not looked at."] * bool(self)
+
 
 LARGEST_TOLERANCE = 0.1
 """Of the height zp: no tolerance of a machine is as large."""

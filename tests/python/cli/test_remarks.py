@@ -197,3 +197,20 @@ def test_an_undecided_design_and_tolerances_that_are_not_looked_at_are_told(fold
     assert remark in words("admissible ./built --around")
     assert remark in words("certify ./built --tolerance 0 --time 0.1")
     assert remark not in words("certify ./built --time 0.1")
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "evaluate ./{} --set zp=+1%",
+        "payload ./{} --force 300",
+        "path ./{} --line 5 0 0 --points 51 --no-figures --no-report --out ./path-{}",
+        "workspace ./{} --method sample --points 500 --no-figures --no-report --out ./space-{}",
+    ],
+)
+def test_commands_about_the_machine_as_it_is_drawn_say_that_tolerances_are_not_looked_at(folder, words, line):
+    for name, built in (("exact", {}), ("rough", {"legs": 0.01})):
+        if not (folder / name).exists():
+            nd.save(nd.optimize(replace(STUDY, objective={}, tolerances=built)), folder / name)
+        remark = "Of machines as they are drawn: the tolerances of the study are not looked at."
+        assert words(line.format(name, name)).count(remark) == len(built)

@@ -241,7 +241,7 @@ class AdmissibleSet(Worded, Saved):
             f"Proved, of all designs with {self.of.words}{held}: {inside} keep every limit{bound} at every pose, "
             f"{outside} break one; {undecided} are not decided."
         ]
-        out += as_drawn(self.study)
+        out += self.study.tolerances.remark()
         if self.of.moved:
             out.append(f"The design's {' and '.join(self.of.moved)} is outside of the range: the middle is marked.")
         if self.excluded:
@@ -299,9 +299,3 @@ def _pose(row: Sequence[float]) -> ProofPose:
     if listed >= 0:
         return ProofPose(listed=int(listed))
     return ProofPose((x, y, z), (tilt_x, tilt_y, 0.0), yaw)
-
-
-def as_drawn(study: Study) -> list[str]:
-    """Return the remark that a proof is about machines as they are drawn; none for a study without tolerances."""
-    remark = "Of machines as they are drawn: the tolerances of the study are not looked at."
-    return [remark] if study.tolerances else []

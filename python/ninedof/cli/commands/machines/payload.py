@@ -58,6 +58,7 @@ def payload(options: _Options) -> Answer:
         parts.append(f"from the study: force {_of_kinds(result.limits[0].tolist(), result.force_unit)}")
     if result.not_looked_at:
         parts.append(f"limits of the study that are not looked at: {', '.join(result.not_looked_at)}")
+    parts += chosen.duty.tolerances.remark()
     return Answer(parts, result.to_dict(), DONE if result.fits else NO_RESULT)
 
 

@@ -89,7 +89,7 @@ def _changed(options: _Options) -> Answer:
     changed = result.with_changes(**changes)
     answer = compared(nd.compare(result, changed, names=("run", "changed")), options.plot)
     words = (_set_words(name.removesuffix(DEG), result, changed) for name in changes)
-    return answer._replace(parts=[*words, *answer.parts])
+    return answer._replace(parts=[*words, *answer.parts, *result.study.tolerances.remark()])
 
 
 def _set_words(name: str, result: nd.Result, changed: nd.Result) -> str:

@@ -12,7 +12,7 @@ from ninedof.cli.options import SCHEDULER, THREADS, VARIABLES, Options, argument
 from ninedof.cli.scheduler import executor_at
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.proof.admissible.admissible import ENOUGH
-from ninedof.proof.admissible.result import UNDECIDED, NoRoom, as_drawn, half_widths, room_words
+from ninedof.proof.admissible.result import UNDECIDED, NoRoom, half_widths, room_words
 from ninedof.proof.design_range import MOST_VARIED, DesignRange, design_range
 from ninedof.records.load import split
 from ninedof.records.proofs import admissible_file, load_admissible
@@ -143,7 +143,7 @@ def _rows(screen: Screen, study: nd.Study, options: _Options, vary: Ranges, at: 
     undecided = any(one.state == UNDECIDED for one in answer.rows)
     more = ["Undecided: a longer --time may decide it."] if undecided else []
     return Answer(
-        [Table(f"Of designs with {answer.of}", heads, rows), *more, *as_drawn(study)],
+        [Table(f"Of designs with {answer.of}", heads, rows), *more, *study.tolerances.remark()],
         data,
         INTERRUPTED if answer.interrupted else DONE,
     )
@@ -198,7 +198,7 @@ def _around_alone(screen: Screen, of: nd.Study | nd.Result, options: _Options, a
     alone = "with --around and no --vary: designs are not divided"
     options.refuse(alone, "certificate", "out", "scheduler", "time", "resolution", "threads")
     designs = nd.admissible(of, free, at=at, condition_number=options.condition, time_limit=0.0)
-    return Answer(as_drawn(study), _around(screen, designs, options))
+    return Answer(study.tolerances.remark(), _around(screen, designs, options))
 
 
 def _proportions(text: str) -> dict[str, float]:

@@ -13,7 +13,6 @@ from ninedof.cli.options import THREADS, Options, argument, option, struct, word
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.reserve import largest as largest_tolerance
 from ninedof.optimize.reserve import machine_of
-from ninedof.proof.admissible.result import as_drawn
 from ninedof.proof.machine import FOR_LIMITS, checked_numbers
 from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import UNDECIDED, outward
@@ -110,7 +109,7 @@ def certify(options: _Options) -> Answer:
     if largest:
         sentences.append(_largest(certificate, timed))
     elif tolerance == 0.0:
-        sentences += as_drawn(result.study)
+        sentences += result.study.tolerances.remark()
     longest = max(options.time, FOR_LIMITS)
     longer: list[str] = []
     if any(one.answer == UNDECIDED for one in certificate.limits):

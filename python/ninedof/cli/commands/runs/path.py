@@ -119,6 +119,7 @@ def path(options: _Options) -> None:
     parts: list[Any] = [
         *motion_tables(motion),
         *chosen.tool.remark(chosen.unit),
+        *chosen.duty.tolerances.remark(),
         *(bold(*words) for words in motion_words(result, motion)),
         *_turned(trajectory, home),
         *_faster(result, chosen.duty.speeds),

@@ -111,5 +111,6 @@ def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator
     if asked.replaced:
         yield f"limits of the study that options replace: {', '.join(asked.replaced)}"
     yield from lines
+    yield from chosen.duty.tolerances.remark()
     yield workspace_table(result)
     yield from (bold(*words) for words in workspace_words(result))
