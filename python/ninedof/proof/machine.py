@@ -92,10 +92,12 @@ def certify(
     named = partial(_proof_pose, home=configurations[0], region=region, rule=rule)
     limits = [_limit_proof(limit, only_neutral, named) for limit in over_poses.limits]
 
-    errors = None
+    errors, errors_timed = None, False
     if built:
         phase(progress, "proving the error of the platform")
-        errors = _core.error_over_poses(machine, 2.0 * gap, threads, max(FOR_ERRORS * seconds, FOR_LIMITS))
+        of_errors, start = max(FOR_ERRORS * seconds, FOR_LIMITS), perf_counter()
+        errors = _core.error_over_poses(machine, 2.0 * gap, threads, of_errors)
+        errors_timed = not np.isfinite(errors).all() and perf_counter() - start >= of_errors
 
     phase(progress, "proving the condition number")
     end = perf_counter() + seconds  # what was before does not count: it is done again whenever a proof is gone on with
@@ -130,6 +132,7 @@ def certify(
             joint_tolerance=built.joints,
             leg_tolerance=built.legs,
             errors=errors,
+            errors_timed=errors_timed,
             seconds=perf_counter() - begin,
             interrupted=interrupted,
             rule=rule,

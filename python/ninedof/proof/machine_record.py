@@ -130,6 +130,8 @@ class MachineCertificate(Worded):
     errors: tuple[tuple[float, float], ...] | None = None
     """As built: with the lengths of the drawing p, the platform (radians) and O are off by at most so much. The first
     number is found to first order, the second is proved; None without tolerances."""
+    errors_timed: bool = False
+    """Whether the time ended the search for a bound of `errors` without one."""
     interrupted: bool = False
     rule: PointRule | None = None
     """The rule for O, if a region places it anew at every pose: all of this is proved of O placed by it."""
@@ -219,13 +221,23 @@ class MachineCertificate(Worded):
         joints, legs = (amount(f"{x:.6g}", self.unit) for x in (self.joint_tolerance, self.leg_tolerance))
         words = f"As built: every joint centre within {joints} and every leg length within {legs} of the drawing."
         if self.errors is None or not all(math.isfinite(high) for _, high in self.errors):
-            return f"{words} No bound of the error of its pose is proved."
+            return f"{words} No bound of the error of its pose is proved{self._why_no_bound()}."
         position, turn, point = (high for _, high in self.errors)
         return (
             f"{words} With the lengths of the drawing p is off by at most "
             f"{amount(outward(position, True), self.unit)}, the platform by "
             f"{outward(math.degrees(turn) * (1 + 1e-12), True)}°, O by {amount(outward(point, True), self.unit)}."
         )
+
+    def _why_no_bound(self) -> str:
+        """Return why no bound of the error is proved; "" where that is not known."""
+        if self.errors is None:
+            return ""
+        if not all(math.isfinite(met) for met, _ in self.errors):
+            return ": to first order it is infinite at a pose, which is singular"
+        why = "the time ended the search" if self.errors_timed else "the tolerances are too large for the proof"
+        size = amount(outward(self.errors[0][0], False), self.unit)
+        return f": {why}. To first order p is off by {size} at the worst pose met"
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values, for a file."""

@@ -4,6 +4,9 @@ Oracle: random machines, a good part of them at the ends of their tolerances, by
 reach with the lengths of the drawing, by `error_samples`, which tracks poses and knows nothing of proofs.
 """
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import numpy_model as model
 import pytest
@@ -14,6 +17,7 @@ from sizes import size
 from workspace_oracle import angles
 
 import ninedof as nd
+from ninedof.proof import machine
 
 TOLERANCES = nd.Tolerances(joints=0.1, legs=0.05)
 JOINTS = ("r", "rh", "u", "ut")
@@ -189,8 +193,27 @@ def test_tolerances_as_large_as_the_machine_prove_nothing_and_do_not_fail():
     assert not certificate.proved
     with pytest.raises(ValueError, match="tolerance: got 200, expected less than a tenth of the machine's height, 36"):
         proved(REGIONS["box"], tolerance=200.0)
-    assert "No bound of the error" in certificate.sentences()[0]
+    assert "No bound of the error of its pose is proved: the tolerances are too large" in certificate.sentences()[0]
     assert any(line.startswith("No bound of the condition number is proved") for line in certificate.sentences())
+
+
+def test_an_error_without_a_bound_has_its_reason(monkeypatch):
+    result = nd.optimize(nd.Study.paper(), starts=2)
+    certificate = result.certify(time_limit=0.01, tolerance=1e-4)
+    assert "p is off by at most" in certificate.sentences()[0]
+    assert not certificate.errors_timed
+    open_ends = tuple((low, math.inf) for low, _ in certificate.errors)
+    without = replace(certificate, errors=open_ends)
+    no_bound = "No bound of the error of its pose is proved"
+    too_large = f"{no_bound}: the tolerances are too large for the proof. To first order p is off by 0.00"
+    assert too_large in without.sentences()[0]
+    assert f"{no_bound}: the time ended the search. " in replace(without, errors_timed=True).sentences()[0]
+    with monkeypatch.context() as patch:
+        patch.setattr(machine, "FOR_LIMITS", 0.0)
+        assert result.certify(time_limit=0.0, tolerance=1e-4).errors_timed
+    singular = replace(certificate, errors=((math.inf, math.inf),) * 3)
+    assert f"{no_bound}: to first order it is infinite at a pose, which is singular." in singular.sentences()[0]
+    assert type(certificate).from_dict(without.to_dict()) == without
 
 
 def test_tolerances_of_the_study_are_those_of_its_proofs():
