@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
@@ -24,7 +25,7 @@ from ninedof.cli.options import (
     struct,
     triple,
 )
-from ninedof.cli.screen import DONE, bold
+from ninedof.cli.screen import DONE, Screen, bold
 from ninedof.conditioning.characteristic_length import length_at
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.paper.published import published_variables
@@ -94,6 +95,17 @@ class Chosen:
     def permitted_lengths(self) -> tuple[Floats, Floats] | None:
         """The least and greatest length of each leg by its study; None without one."""
         return None if self.result is None else self.result.permitted_lengths
+
+
+@contextmanager
+def searching(screen: Screen, command: str, *designs: Chosen) -> Iterator[None]:
+    """Show the time so far while a command searches the region of a study; nothing for designs without one."""
+    if all(one.study is None or one.study.objective.region is None for one in designs):
+        yield
+        return
+    with screen.bar("boxes", command) as bar:
+        bar.phase("searching the region")
+        yield
 
 
 C = TypeVar("C", bound=Chosen)

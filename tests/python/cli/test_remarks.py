@@ -214,3 +214,17 @@ def test_commands_about_the_machine_as_it_is_drawn_say_that_tolerances_are_not_l
             nd.save(nd.optimize(replace(STUDY, objective={}, tolerances=built)), folder / name)
         remark = "Of machines as they are drawn: the tolerances of the study are not looked at."
         assert words(line.format(name, name)).count(remark) == len(built)
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["evaluate {}", "evaluate {} --set zp=+1%", "export {} --to csv --out ./x.csv", "payload {} --force 300",
+     "sheet {}", "compare {} ./run", "failure {} --no-pairs"],
+)  # fmt: skip
+def test_commands_that_search_a_region_show_that_they_do(folder, words, line):
+    """On standard error, where a pipe has the last line of the bar; they said nothing for seconds."""
+    name = line.partition(" ")[0]
+    assert f"{name}: searching the region 0:" in words(line.format("./run"))
+    if not (folder / "one-pose").exists():
+        nd.save(nd.optimize(replace(STUDY, objective={})), folder / "one-pose")
+    assert ("searching" in words(line.format("./one-pose"))) == (name == "compare")

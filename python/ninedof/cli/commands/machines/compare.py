@@ -10,7 +10,7 @@ from pathlib import Path
 import ninedof as nd
 from ninedof.cli.answer import FIGURES, Answer
 from ninedof.cli.options import DESIGN, PLOT, Options, argument, option, struct
-from ninedof.cli.posed import named_design
+from ninedof.cli.posed import named_design, searching
 
 PLACE = 3
 EXAMPLES = """
@@ -28,7 +28,8 @@ def compare(options: _Options) -> Answer:
     """Print two or three machines beside each other: numbers, limits, what differs in their studies."""
     plot_argument(options.plot)
     chosen = [named_design(name) for name in options.designs]
-    comparison = nd.compare(*(one.machine for one in chosen))
+    with searching(options.screen, "compare", *chosen):
+        comparison = nd.compare(*(one.machine for one in chosen))
     legend = [f"{letter}: {name}" for letter, name in zip(comparison.names, options.designs, strict=True)]
     answer = compared(comparison, options.plot, legend)
     data = answer.data | {"designs": list(options.designs)}

@@ -9,7 +9,7 @@ import numpy as np
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import ONE_DESIGN, Options, argument, option, struct, typed
-from ninedof.cli.posed import named_design
+from ninedof.cli.posed import named_design, searching
 from ninedof.export.bodies import body_masses
 from ninedof.export.export import formats
 from ninedof.export.model import Format
@@ -67,7 +67,8 @@ def export(options: _Options) -> Answer:
     own_or_new("--out", file, row.mark)
     if row.beside is not None:
         own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
-    path = nd.export(chosen.machine, row.name, file, unit=options.unit, **more)
+    with searching(options.screen, "export", chosen):
+        path = nd.export(chosen.machine, row.name, file, unit=options.unit, **more)
     lines = [f"{row.words}: {path}"]
     if "leg_mass" in row.options:
         masses, assumed = body_masses(chosen.study, options.leg_mass, options.platform_mass)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ninedof as nd
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import LOAD, ONE_DESIGN, Options, argument, loads_option, option, struct
-from ninedof.cli.posed import named_design
+from ninedof.cli.posed import named_design, searching
 from ninedof.sheet.failure.tables import failure_parts
 
 PLACE = 3
@@ -31,10 +31,11 @@ def failure(options: _Options) -> Answer:
     Over the poses of the study, of a region study over its region. Loads and masses of a run's study are taken.
     """
     chosen = named_design(options.design)
-    result = nd.failure(
-        chosen.machine,
-        condition_number=options.condition,
-        loads=loads_option(options.load) or None,
-        pairs=options.pairs,
-    )
+    with searching(options.screen, "failure", chosen):
+        result = nd.failure(
+            chosen.machine,
+            condition_number=options.condition,
+            loads=loads_option(options.load) or None,
+            pairs=options.pairs,
+        )
     return Answer([*chosen.tool.remark(chosen.unit), *failure_parts(result)], result.to_dict())

@@ -9,7 +9,7 @@ import numpy as np
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.options import LOAD, ONE_DESIGN, Options, Three, argument, loads_option, option, struct, triple
-from ninedof.cli.posed import Chosen, named_design
+from ninedof.cli.posed import Chosen, named_design, searching
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.robot.geometry import LEGS
 from ninedof.sheet.payload import Payload, largest_payload
@@ -48,7 +48,8 @@ def payload(options: _Options) -> Answer:
     chosen = named_design(options.design)
     loads = loads_option(options.load) or None
     centre = options.centre or (0.0, 0.0, 0.0)
-    result = largest_payload(chosen.machine, options.force, options.pull, centre, loads)
+    with searching(options.screen, "payload", chosen):
+        result = largest_payload(chosen.machine, options.force, options.pull, centre, loads)
     parts = [*chosen.tool.remark(chosen.unit), *_parts(result, chosen), _meant(result, chosen, centre, loads)]
     if result.fits and result.without_loads < result.mass:
         words = "loads count as always there, also one that carries a part of the payload"

@@ -26,7 +26,7 @@ from ninedof.cli.options import (
     triple,
     typed,
 )
-from ninedof.cli.posed import named_design
+from ninedof.cli.posed import named_design, searching
 from ninedof.design.duty import INTERNAL
 from ninedof.sheet.tables import sheet_parts
 from ninedof.support.arguments import finite
@@ -75,20 +75,21 @@ def sheet(options: _Options) -> None:
         name: several(typed(name), text, VECTORS[name]) for name, text in options.given(*VECTORS).items()
     }
     turn = options.turn_deg
-    result = nd.sheet(
-        chosen.machine,
-        linear_speed=options.speed,
-        angular_speed=None if turn is None else math.radians(finite("--turn-deg", turn, 0.0)),
-        internal=options.internal,
-        loads=loads_option(options.load) or None,
-        mass=options.mass,
-        centre=options.centre,
-        gravity=options.gravity,
-        leg_errors=options.leg_error,
-        joint_errors=options.joint_error,
-        leg_stiffness=options.leg_stiffness,
-        **vectors,
-    )
+    with searching(screen, "sheet", chosen):
+        result = nd.sheet(
+            chosen.machine,
+            linear_speed=options.speed,
+            angular_speed=None if turn is None else math.radians(finite("--turn-deg", turn, 0.0)),
+            internal=options.internal,
+            loads=loads_option(options.load) or None,
+            mass=options.mass,
+            centre=options.centre,
+            gravity=options.gravity,
+            leg_errors=options.leg_error,
+            joint_errors=options.joint_error,
+            leg_stiffness=options.leg_stiffness,
+            **vectors,
+        )
     screen.print(*sheet_parts(result))
     screen.data(result.to_dict())
     if options.csv is not None:  # last: a full disk does not lose the rest

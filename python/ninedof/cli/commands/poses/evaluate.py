@@ -22,7 +22,7 @@ from ninedof.cli.options import (
     option,
     struct,
 )
-from ninedof.cli.posed import beyond_words, chosen_design, named_design
+from ninedof.cli.posed import beyond_words, chosen_design, named_design, searching
 from ninedof.design.indices import computed
 from ninedof.records.design_file import indices
 from ninedof.sheet.pose_words import outside_words
@@ -66,7 +66,8 @@ def evaluate(options: _Options) -> Answer:
     if not 0.0 < chosen.configuration.internal_point[2] < chosen.duty.zp(chosen.configuration):
         parts.append("O is not between base and platform: studies require 0 < zs < zp.")
     if chosen.result is not None:
-        of_run = nd.sheet(chosen.result, characteristic_length=chosen.characteristic_length)
+        with searching(options.screen, "evaluate", chosen):
+            of_run = nd.sheet(chosen.result, characteristic_length=chosen.characteristic_length)
         parts += beyond_words(chosen.geometry, chosen.configuration, of_run.configurations)
         parts += outside_words(of_run.configurations, of_run.tool, of_run.unit)
         fails = chosen.result.status == nd.Status.INFEASIBLE
@@ -82,12 +83,14 @@ def _changed(options: _Options) -> Answer:
     """Return the run beside its design with other values of some variables."""
     plot_argument(options.plot)
     options.refuse("with --set, which changes a run", *HEXAGON, "lc")
-    result = named_design(options.design).result if options.design else None
-    if result is None:
+    chosen = named_design(options.design) if options.design else None
+    if chosen is None or (result := chosen.result) is None:
         raise ValueError(f"--set: got {options.design or 'no design'}, expected a run, whose study has variables")
     changes = changes_option(options.changes or ())
     changed = result.with_changes(**changes)
-    answer = compared(nd.compare(result, changed, names=("run", "changed")), options.plot)
+    with searching(options.screen, "evaluate", chosen):
+        comparison = nd.compare(result, changed, names=("run", "changed"))
+    answer = compared(comparison, options.plot)
     words = (_set_words(name.removesuffix(DEG), result, changed) for name in changes)
     return answer._replace(parts=[*words, *answer.parts, *result.study.tolerances.remark()])
 
