@@ -21,6 +21,11 @@ def certificate_file(run: str | os.PathLike[str]) -> Path:
     return folder_of(place) / (f"certify-{point}.json" if point else "certify.json")
 
 
+def earlier_file(file: Path) -> Path:
+    """Return where a proof is kept that another one of the same name follows."""
+    return file.with_name(f"{file.stem}-earlier{file.suffix}")
+
+
 def save_certificate(certificate: MachineCertificate, file: str | os.PathLike[str]) -> Path:
     """Write a certificate; return its path."""
     return write_whole(Path(file), json_bytes("certificate", certificate.to_dict()))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ninedof.design.actuators import price_words
@@ -35,9 +35,11 @@ def of_result(
     run: str = "RUN",
     again: Html | None = None,
     certificate: MachineCertificate | None = None,
+    kept: Sequence[str] = (),
 ) -> Page:
     """Return the page of an optimization; `again` says how to reproduce it, where its study alone does not.
 
+    `kept` is a sentence on a certificate for other tolerances, if there is one.
     `run` is the run in the commands of the page: "RUN#7" for a point of a front.
     """
     best, study = result.best, result.study
@@ -52,7 +54,7 @@ def of_result(
         machines += [design_machine(f"optimum no. {k}", other, study) for k, other in others]
         view = scene.scene(machines, study.unit)
         machine, words = (best.geometry, best.configuration), result.words
-    sections["proof"] = proof.of_result(result, certificate)
+    sections["proof"] = proof.of_result(result, certificate, kept)
     sections["again"] = again or origin.of_study(study, "ninedof optimize study.toml", record)
     headline, good = words[:1].upper() + words[1:], result.status == Status.OPTIMAL
     return Page("optimization", headline, _key_figures(result, sheet), sections, view, good, machine)

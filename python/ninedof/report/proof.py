@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ninedof.design.limits import OF_LENGTHS
@@ -25,11 +25,14 @@ STATUS = {
 }
 
 
-def of_result(result: Result, certificate: MachineCertificate | None) -> Html:
-    """Return what is established of an optimization and what is not; `certificate`: what `ninedof certify` proved."""
-    proofs = [*(certificate.sentences() if certificate else ()), *_checked(result)]
+def of_result(result: Result, certificate: MachineCertificate | None, kept: Sequence[str] = ()) -> Html:
+    """Return what is established of an optimization and what is not.
+
+    `certificate` is what `ninedof certify` proved, `kept` a sentence on another one for other tolerances.
+    """
+    proofs = [*(certificate.sentences() if certificate else ()), *kept, *_checked(result)]
     as_built = result.reserve is not None and result.reserve.proved  # of every machine within the tolerances
-    if as_built and certificate is None:
+    if as_built and (certificate is None or certificate.tolerances != result.study.tolerances):
         proofs.append("Proved: every machine within the tolerances keeps the limits at every pose.")
     between = not as_built and (certificate is None or not certificate.proved)
     return _two(proofs, list(_searched(result, between)), STATUS[result.status], result.status)

@@ -15,6 +15,7 @@ from rich.console import Console
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.cli.commands.runs.certify import certificate_table
+from ninedof.records.proofs import save_certificate
 from ninedof.tables.terminal import terminal
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples" / "18_requirement.toml"
@@ -291,6 +292,32 @@ def test_a_run_with_a_reserve_says_so_and_its_tolerances_are_proved(tmp_path, ca
     said = " ".join(capsys.readouterr().out.split())
     assert "The largest tolerances that were proved, to 5 %: joints 0.0001" in said
     assert nd.load_certificate(folder).leg_tolerance == 0.0
+
+
+def test_the_report_names_the_certificate_for_other_tolerances_that_is_kept(tmp_path):
+    """After `certify --tolerance 0` it had no word on the proof of the machine as built."""
+    folder = tmp_path / "built"
+    nd.save(nd.optimize(replace(nd.Study.paper(), tolerances=nd.Tolerances(joints=0.0001)), starts=2), folder)
+    assert status(folder) == 0
+    assert status(folder, "--tolerance", 0) == 0
+    page = nd.report(folder).read_text()
+    kept = "a certificate for tolerances of 0.0001 for joint centres and 0 for leg lengths"
+    assert f"Kept in certify-earlier.json: {kept}, by which every limit is proved." in page
+    assert "Proved: every machine within the tolerances keeps the limits at every pose." in page
+    assert status(folder) == 0
+    page = nd.report(folder).read_text()
+    assert "Kept in certify-earlier.json: a certificate of the machine as it is drawn, by which every limit" in page
+    assert "Proved: every machine within the tolerances" not in page  # the certificate itself says more
+
+    def not_every_limit(file):
+        first, *rest = nd.load_certificate(file).limits
+        return replace(nd.load_certificate(file), limits=(replace(first, answer="undecided"), *rest))
+
+    earlier = folder / "certify-earlier.json"
+    save_certificate(not_every_limit(earlier), earlier)
+    assert "as it is drawn, by which not every limit is proved." in nd.report(folder).read_text()
+    save_certificate(replace(nd.load_certificate(earlier), machine="another"), earlier)
+    assert "Kept in" not in nd.report(folder).read_text()
 
 
 @pytest.mark.parametrize(

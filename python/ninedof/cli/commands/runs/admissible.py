@@ -15,7 +15,7 @@ from ninedof.proof.admissible.admissible import ENOUGH
 from ninedof.proof.admissible.result import UNDECIDED, NoRoom, half_widths, room_words
 from ninedof.proof.design_range import MOST_VARIED, DesignRange, design_range
 from ninedof.records.load import split
-from ninedof.records.proofs import admissible_file, load_admissible
+from ninedof.records.proofs import admissible_file, earlier_file, load_admissible
 from ninedof.support.kept.store import folder_of
 from ninedof.support.running import ended_by_time, goes_on
 from ninedof.support.units import amount, plain_name
@@ -107,7 +107,7 @@ def admissible(options: _Options) -> Answer:
     if file is not None:
         file.parent.mkdir(parents=True, exist_ok=True)
         if earlier is None and file.exists():  # that of another question
-            other = file.replace(file.with_name(f"{file.stem}-earlier{file.suffix}"))
+            other = file.replace(earlier_file(file))
             screen.print(f"the designs of another question are kept as {other}")
         designs.save(file)
         figures = _draw(designs, file) if len(designs.vary) > 1 else []

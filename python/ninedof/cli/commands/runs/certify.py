@@ -16,7 +16,7 @@ from ninedof.optimize.reserve import machine_of
 from ninedof.proof.machine import FOR_LIMITS, checked_numbers
 from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import UNDECIDED, outward
-from ninedof.records.proofs import certificate_file, save_certificate
+from ninedof.records.proofs import certificate_file, earlier_file, save_certificate
 from ninedof.robot.geometry import LEGS
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.margins import margin_words
@@ -81,8 +81,8 @@ def certify(options: _Options) -> Answer:
     if options.certificate is not None:
         require_replayable(result.study, built)
     if earlier is not None and earlier.tolerances != built:  # a proof of other machines is kept, and not gone on with
-        other = file.with_name(f"{file.stem}-earlier{file.suffix}")
-        screen.print(f"the certificate for other tolerances is kept as {save_certificate(earlier, other)}")
+        other = save_certificate(earlier, earlier_file(file))
+        screen.print(f"the certificate for other tolerances is kept as {other}")
         earlier = None
     states = []
 
