@@ -101,6 +101,8 @@ def _key_figures(result: Result, sheet: Sheet | None) -> list[tuple[object, obje
     rows: list[tuple[object, object]] = [("status", result.status), ("objective", f"{best.objective:.6f}")]
     if abs(best.neutral_condition_number - best.objective) > 1e-9:
         rows.append(("condition number, neutral pose", f"{best.neutral_condition_number:.6f}"))
+    if result.actuators is not None:
+        rows.append(("actuators", result.actuators.chosen.words))
     rows.append(("limits reached", ", ".join(name.replace("_", " ") for name in best.active) or "none"))
     return rows
 

@@ -20,6 +20,7 @@ from ninedof import _core
 from ninedof.cli.answer import Answer, write_job
 from ninedof.cli.app import main
 from ninedof.cli.screen import Screen
+from ninedof.optimize.actuator_choice import ActuatorChoice, Combination
 from ninedof.optimize.pareto import Front
 from ninedof.optimize.pareto.limits import without_degrees
 from ninedof.records.record import Record
@@ -137,6 +138,17 @@ def test_the_question_names_the_catalogue(more, words):
     many = [{"name": f"N{k}", "shortest": 1.0, "longest": 2.0} for k in range(40)]
     assert "catalogue of 40, one of them for each kind of legs: N0, N1, " in question(nd.Study(actuators=many))
     assert ", N11 and 28 more." in question(nd.Study(actuators=many))
+
+
+def test_the_rows_that_were_chosen_are_a_key_figure_and_in_the_answer(tmp_path):
+    rows = [nd.Actuator(name, 1.0, 9.0, price=10.0) for name in ("A", "B<i>", "C")]
+    chosen = Combination(*rows, objective=3.76)
+    result = nd.optimize(nd.Study.paper(), starts=2)
+    with_rows = replace(result, actuators=ActuatorChoice(chosen, combinations=27, solved=4))
+    page = nd.report(with_rows, tmp_path / "rows.html").read_text(encoding="utf-8")
+    assert "<dt>actuators</dt><dd>external A, upper B&lt;i&gt;, lower C</dd>" in page
+    assert "Actuators: external A, upper B&lt;i&gt;, lower C; price 90." in page
+    assert "<dt>actuators</dt>" not in nd.report(result, tmp_path / "none.html").read_text(encoding="utf-8")
 
 
 def test_the_study_file_in_the_page_makes_the_same_study(page, result):
