@@ -218,9 +218,16 @@ def test_commands_about_the_machine_as_it_is_drawn_say_that_tolerances_are_not_l
 
 @pytest.mark.parametrize(
     "line",
-    ["evaluate {}", "evaluate {} --set zp=+1%", "export {} --to csv --out ./x.csv", "payload {} --force 300",
-     "sheet {}", "compare {} ./run", "failure {} --no-pairs"],
-)  # fmt: skip
+    [
+        "evaluate {}",
+        "evaluate {} --set zp=+1%",
+        "export {} --to csv --out ./x.csv",
+        "payload {} --force 300",
+        "sheet {}",
+        "compare {} ./run",
+        "failure {} --no-pairs",
+    ],
+)
 def test_commands_that_search_a_region_show_that_they_do(folder, words, line):
     """On standard error, where a pipe has the last line of the bar; they said nothing for seconds."""
     name = line.partition(" ")[0]
