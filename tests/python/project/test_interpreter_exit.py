@@ -94,6 +94,8 @@ import os, signal
 children = []
 
 def forked(*_):
+    if children and children[0] > 0:
+        raise KeyboardInterrupt  # the parent need not go on
     if children:
         return
     children.append(os.fork())
@@ -106,7 +108,7 @@ def alarmed():
 
 status = 0
 try:
-    nd.optimize(study, starts=300, threads=2, progress=forked)
+    nd.optimize(study, starts=10**5, threads=2, progress=forked)
 except KeyboardInterrupt:
     status = 5
 except RuntimeError as error:
