@@ -110,6 +110,27 @@ def worst_joints(m, radius, value):
     return m._replace(**moved)
 
 
+@pytest.mark.parametrize("joints", [0.01, 0.5, 3.0])
+def test_a_cone_is_proved_as_large_as_a_machine_within_tolerances_has_it(joints):
+    """Errors counted as if all led away from the axis: a small cone was proved 40 % too large, and optimize ended."""
+    one = {"position": [40.0, 30.0, 20.0], "rotation": [0.1, 0.05, 0.0], "internal_point": "held"}
+    drawn = nd.Study(
+        unit="mm",
+        variables={"a1": 0.0, "a2": 700.0, "b1": 200.0, "b2": 0.0, "zp": 450.0, "zs": 280.0, "theta_z": 0.0},
+        constraints={name: {"max_deg": 30.0} for name in ("base_cone", "platform_cone")},
+        objective={"poses": [one]},
+        characteristic_length=150.0,
+    )
+    certificate = nd.optimize(drawn).certify(tolerance=nd.Tolerances(joints=joints))
+    cones = [one.value for one in certificate.limits if "cone" in one.name]
+    assert len(cones) == 2
+    for met, high in cones:
+        assert met > 0.1
+        assert met <= high <= met * (1.0 + 1e-8 + 1e-4 * (joints / 3.0) ** 2)
+    assert certificate.condition_boxes < 1000  # listed poses are proved at once, up to what their tolerances allow
+    assert certificate.condition[1] < 1.5 * certificate.condition[0]
+
+
 def test_what_is_violated_a_machine_within_tolerances_passes():
     region = REGIONS["box"]
     _, _, drawn = proved(region, time_limit=0.01)

@@ -12,6 +12,7 @@
 #include "ninedof/math/parallel.hpp"
 #include "proof/region/pose.hpp"
 #include "proof/region/worst_machine.hpp"
+#include "robot/joint_cones.hpp"
 
 namespace ninedof {
 namespace over_region {
@@ -53,12 +54,14 @@ class Sought {
   double bound(const Box& box, std::array<double, PoseForm::size>& slope, Moves& moves) const {
     const FormPose pose = domain_.pose(box);
     const AsBuilt nominal{domain_.machine().geometry};
-    const FormLook look(row_.first_leg < 0 ? domain_.built() : nominal, pose, home_);
+    const bool cone = row_.cone_body >= 0;
+    const FormLook look(row_.first_leg < 0 && !cone ? domain_.built() : nominal, pose, home_);
     if (row_.pairs) return less_distance(look, box, slope, moves);
     const PoseForm f = sign_ * row_.form(look, item_);
     slope = f.a;
     row_.moves(look, item_, moves);
-    return domain_.greatest(f, box);
+    const double most = domain_.greatest(f, box);
+    return cone && loose() ? leg_turned(look, box, most) : most;
   }
   /// At most the value of one machine at a box of one pose.
   double attained(const Geometry& g, const Box& point) const {
@@ -76,6 +79,22 @@ class Sought {
   }
 
  private:
+  /// At least every cosine, or less it, of a leg of the drawing turned by the errors of its joints, where that of the
+  /// drawing is at most `most`. The errors in a cosine itself would count as if they all led away from the axis: a
+  /// small angle would be several times too large.
+  double leg_turned(const FormLook& look, const Box& box, double most) const {
+    const int leg = leg_at(row_.cone_body == 1, row_.first_at_body + item_);
+    const double error = joint_error(domain_.machine().tolerances, leg);
+    if (error == 0.0) return most;
+    const auto v = look.at(leg_ends(leg).to) - look.at(leg_ends(leg).from);
+    const Vec3 along = centre(v).normalized() * (1.0 - 0x1p-50);
+    const double shortest = -domain_.greatest(-(v.x * along[0] + v.y * along[1] + v.z * along[2]), box);
+    if (!(error < shortest)) return 1.0;
+    const Interval sine = Interval(error) / Interval(shortest), cosine = sqrt(Interval(1.0) - square(sine));
+    if (!(most < cosine.lo)) return 1.0;
+    const Interval drawn(std::max(most, -1.0));
+    return (drawn * cosine + sqrt(Interval(1.0) - square(drawn)) * sine).hi;
+  }
   double less_distance(const FormLook& look, const Box& box, std::array<double, PoseForm::size>& slope,
                        Moves& moves) const {
     const LegPairForms legs = leg_pair_forms(look, item_);

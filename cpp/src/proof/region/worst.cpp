@@ -238,7 +238,7 @@ WorstOverPoses worst(const IndexOverPoses& index, Met met, const ProofSettings& 
   std::erase_if(gaps, [&](double gap) { return gap <= settings.gap; });
   if (!from.empty()) gaps.clear();
   gaps.push_back(settings.gap);
-  if (domain.machine().region.empty())  // points need no division
+  if (domain.machine().region.empty() && !(settings.condition > 0.0))  // points need no division
     for (const double narrow : {1e-6, 1e-9})
       if (narrow < settings.gap) gaps.push_back(narrow);
   WorstSearch search(index, std::move(met));

@@ -7,14 +7,17 @@
 
 namespace ninedof::over_region {
 
+/// How far the joints of a leg may be from those of the drawing, of both ends together and with what is given.
+inline double joint_error(const Tolerances& t, int leg, double with = 0.0) {
+  const LegEnds ends = leg_ends(leg);
+  for (const int joint : {ends.from, ends.to})
+    if (joint != point_s) with = detail::above(with + t.joints[at_index(joint)]);
+  return with;
+}
 /// How far the length of a leg may be from that of the drawing, at every pose: an error of a joint counts along the
 /// leg.
 inline double reading_error(const Tolerances& t, int leg) {
-  double out = t.legs[leg];
-  const LegEnds ends = leg_ends(leg);
-  for (const int joint : {ends.from, ends.to})
-    if (joint != point_s) out = detail::above(out + t.joints[at_index(joint)]);
-  return out;
+  return joint_error(t, leg, t.legs[leg]);
 }
 
 /// One where a number is large: each joint is moved to the end of its ball where the slope of `value`, a function of a
