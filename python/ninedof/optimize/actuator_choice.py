@@ -73,8 +73,10 @@ class ActuatorChoice(StudyTable):
         out = [f"actuators: {self.chosen.words}{_priced(self.chosen)}"]
         if (other := self.next_best) is not None:
             more = other.objective / self.chosen.objective - 1.0
-            value = f"{other.objective:.6f}, {100.0 * more:.2g} % more" if more >= 5e-7 else "the same objective"
-            out.append(f"the next best: {other.words} has {value}{_priced(other)}")
+            apart = f"{other.objective:.6f}, {100.0 * abs(more):.2g} % {'more' if more > 0.0 else 'less'}"
+            value = apart if abs(more) >= 5e-7 else "the same objective"
+            of = " of the rows that were tried" * bool(self.left_out)
+            out.append(f"the next best{of}: {other.words} has {value}{_priced(other)}")
         out.append(f"{self.solved} studies solved for {self.combinations} combinations of actuators")
         if self.left_out:
             why = "another can do as much for no more, or the region needs a longer stroke"

@@ -23,6 +23,7 @@ from ninedof.optimize.candidate import Candidate, best_of
 from ninedof.optimize.result import Result, Status
 
 FEW = 4  # starts of a study of the search, besides those from the studies before it
+ROUNDING = 1e-12  # of a price: sums of decimal prices are rounded
 Rows = tuple[Actuator | None, ...]
 """A row for each group of legs; None where it may be any."""
 Solve = Callable[[Study, Sequence[Candidate], str, bool], Result]
@@ -46,13 +47,18 @@ class ActuatorSearch:
         self.rows = [[row for row in best if row.longest - row.shortest >= least] for least in needed]
         self.left_out = tuple(row.name for row in own if not any(row in rows for rows in self.rows))
         self.results: dict[Rows, Result] = {}
+        self.passed_over = set[Rows]()
         self.seconds = 0.0
 
     def result(self) -> Result:
-        """Return the best design with its rows, that of an interrupted search, or why there is none."""
+        """Return the best design with its rows, that of an interrupted search, or why there is none.
+
+        Every further call passes over the rows that the ones before it chose.
+        """
         try:
             choices = self._best_first() if all(self.rows) else []
             result = self._chosen(choices) if choices else self._nothing_fits()
+            self.passed_over.update(choices[:1])
         except SearchEnded as end:
             result = self._so_far(end.args[0])
         except KeyboardInterrupt:  # between two studies
@@ -84,7 +90,7 @@ class ActuatorSearch:
             if question is not None:
                 push(max(bound, self._value(self._ask(question), None not in question)), rows)
             elif None not in rows:
-                choices.append(rows)
+                choices += [rows] * (rows not in self.passed_over)
             else:
                 for row in self.rows[g := len(fixed)]:
                     more = (*rows[:g], row, *rows[g + 1 :])
@@ -100,7 +106,7 @@ class ActuatorSearch:
 
     def _is_within_price(self, rows: Rows) -> bool:
         most = self.study.greatest_price
-        return most is None or self._least_price(rows) <= most
+        return most is None or self._least_price(rows) <= most * (1.0 + ROUNDING)
 
     def _least_price(self, rows: Rows) -> float:
         every = zip(self.groups, self.rows, rows, strict=True)
@@ -131,9 +137,11 @@ class ActuatorSearch:
         return result
 
     def _value(self, result: Result, complete: bool = False) -> float:
-        """Return the bound that a study is, infinite without a design; one without an optimum is no bound."""
-        if result.best is None or (result.region is not None and not result.region.keeps_limits):
-            return math.inf if result.best is None or complete else 0.0
+        """Return the bound that a study is, infinite where it is infeasible; one without an optimum is no bound."""
+        if result.best is None:
+            return math.inf if complete or result.status == Status.INFEASIBLE else 0.0
+        if result.region is not None and not result.region.keeps_limits:
+            return math.inf if complete else 0.0
         return result.best.objective if complete or result.status == Status.OPTIMAL else 0.0
 
     def _by_kind(self, rows: Sequence[Actuator]) -> dict[str, Actuator]:
@@ -172,6 +180,11 @@ class ActuatorSearch:
 
     def _nothing_fits(self) -> Result:
         """Return why no rows fit: of each kind of legs the nearest row, and the limit that fails."""
+        unsure = any(one.best is None and one.status != Status.INFEASIBLE for one in self.results.values())
+        status = Status.STOPPED if unsure else Status.INFEASIBLE
+        if self.passed_over:  # some rows fit: whoever passed over them knows why
+            some = next(iter(self.results.values()))
+            return replace(some, status=status, candidates=(), region=None, study=self.study)
         free = self._solved(self.study.with_actuators({}), (), "none", explain=True)
         if free.best is None:
             return replace(free, study=self.study, reason=f"without limits of actuators too: {free.reason}")
@@ -191,9 +204,11 @@ class ActuatorSearch:
             price = "" if most is None else f" of at most {price_words(most)}"
             cheapest = "" if most is None else f"; the cheapest costs {price_words(least)}"
             reasons = [f"rows fit each kind of legs, but no combination{price} does{cheapest}"]
+        if unsure:
+            reasons.append("not every study of the search came to an answer: more starts may find a design")
         return replace(
             free,
-            status=Status.INFEASIBLE,
+            status=status,
             reason="; ".join(reasons),
             causes=tuple(causes) or ("actuators",),
             candidates=(),

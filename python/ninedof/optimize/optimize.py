@@ -138,13 +138,8 @@ def optimize(
     }
     with nullcontext() if out is None else Store(out, question, 1) as store:
         run = _Run(count, progress, Pieces(store), perf_counter() + seconds)
-        result = _with_actuators(study, additional, run) if study.actuators else run.result(study, additional)
-        if study.tolerances:
-
-            def again(one: Study, known: Result) -> Result:
-                return run.result(one, warm_variables(known), "a reserve for tolerances")
-
-            result = with_reserve(result, again, count, progress, lambda: perf_counter() >= run.end)
+        solve = _with_actuators if study.actuators else _Run.of
+        result = solve(run, study, additional)
         if not certify or result.best is None or result.interrupted:
             return result
         return _proved(result, run)
@@ -174,15 +169,55 @@ class _Run:
         )
         return self.pieces.result(study, lambda: _anew(study, settings, progress), left)
 
+    def of(self, study: Study, warm: Sequence[Mapping[str, float]]) -> Result:
+        """Solve a study with the reserve that its tolerances need."""
+        return self.built(self.result(study, warm))
 
-def _with_actuators(study: Study, warm: Sequence[Mapping[str, float]], run: _Run) -> Result:
+    def built(self, result: Result) -> Result:
+        """Return a result with the reserve that the tolerances of its study need."""
+
+        def again(one: Study, known: Result) -> Result:
+            return self.result(one, warm_variables(known), "a reserve for tolerances")
+
+        if not result.study.tolerances:
+            return result
+        made: Result = with_reserve(result, again, self.threads, self.progress, lambda: perf_counter() >= self.end)
+        return made
+
+
+OTHERS = 3  # combinations of actuators that are tried where the best one leaves no room for tolerances
+
+
+def _with_actuators(run: _Run, study: Study, warm: Sequence[Mapping[str, float]]) -> Result:
+    """Return the best design with its actuators, or the next ones where these leave no room for the tolerances."""
+
     def solve(one: Study, others: Sequence[Candidate], words: str, explain: bool) -> Result:
         result = run.result(one, [*warm, *(other.variables for other in others)], words, explain)
         if result.interrupted or perf_counter() >= run.end:
             raise SearchEnded(result)
         return result
 
-    return ActuatorSearch(study, solve).result()
+    search = ActuatorSearch(study, solve)
+    drawn = search.result()
+    first = result = run.built(drawn)
+    passed_over = list[str]()
+    while drawn.actuators is not None and result.status == Status.INFEASIBLE:
+        passed_over.append(drawn.actuators.chosen.words)
+        none = f"{first.reason}; the actuators are {passed_over[0]}"
+        if len(passed_over) > OTHERS:
+            reason = f"{none}, the next {OTHERS} combinations leave no room either, and no others were tried"
+            return replace(first, status=Status.STOPPED, reason=reason)
+        drawn = search.result()
+        if drawn.actuators is None:
+            no_others = "no others leave room for the tolerances"
+            words = no_others if drawn.status == Status.INFEASIBLE else "the search of others came to no answer"
+            reason = f"{none}, and {words}"
+            return replace(first, status=drawn.status, reason=reason, interrupted=drawn.interrupted)
+        result = run.built(drawn)
+    if passed_over and result.actuators is not None:
+        note = f"passed over, as they leave no room for the tolerances: {'; '.join(passed_over)}"
+        return replace(result, actuators=replace(result.actuators, notes=(*result.actuators.notes, note)))
+    return result
 
 
 def _anew(study: Study, settings: _core.Settings, progress: Progress | None) -> Result:

@@ -4,6 +4,8 @@ import itertools
 import math
 import random
 from dataclasses import replace
+from decimal import Decimal
+from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -11,6 +13,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.design.actuators import LEG_KINDS
+from ninedof.optimize.actuator_choice import ActuatorChoice, Combination
 from ninedof.optimize.actuators import ActuatorSearch
 
 REQUIREMENT = nd.Study.load(Path(__file__).parents[3] / "examples" / "18_requirement.toml")
@@ -146,6 +149,95 @@ def test_a_price_may_be_too_low():
     assert none.status == nd.Status.INFEASIBLE
     assert none.reason == "rows fit each kind of legs, but no combination of at most 1000 does; the cheapest costs 900"
     assert none.study.actuators == study.actuators
+
+
+def test_prices_are_compared_as_decimals():
+    """Nine times 109.9 is 989.1, and was more than that."""
+    for price in ("109.9", "50.01", "0.07"):
+        row = nd.Actuator("one", 150.0, 800.0, price=float(price))
+        most = float(9 * Decimal(price))
+        for limit, within in ((most, True), (most - 0.01, False)):
+            search = ActuatorSearch(replace(REGION, actuators=[row], greatest_price=limit), None)
+            assert search._is_within_price((row,) * 3) == within
+
+
+def test_a_study_without_an_answer_is_no_bound():
+    """It counted as one without a design: a combination four times as good was never looked at."""
+    search = ActuatorSearch(replace(REGION, actuators=[LARGE]), None)
+    for status, bound in ((nd.Status.STOPPED, 0.0), (nd.Status.INFEASIBLE, math.inf)):
+        none = SimpleNamespace(best=None, status=status)
+        assert (search._value(none), search._value(none, complete=True)) == (bound, math.inf)
+
+
+@pytest.mark.slow
+def test_a_known_design_that_the_region_excludes_leads_nowhere():
+    """Starts followed it, and the study with it ended without a design: rows were chosen that are four times as bad."""
+    study = nd.Study(
+        unit="mm",
+        characteristic_length=150.0,
+        starts=4,
+        variables={"a1": 0.0, "a2": (100.0, 850.0), "b1": (50.0, 350.0), "b2": (0.0, 100.0), "zp": (250.0, 700.0)}
+        | {"zs": (50.0, 650.0), "theta_z": (-0.5, 0.5)},
+        tool={"position": [24.2081, 0.0, -90.0]},
+        constraints={"leg_clearance": {"min": 15.0}},
+        objective={"region": {"ball": 40.0, "tilt": 0.150897, "internal_point": "held"}},
+    )
+    rows = {"A": (257.8, 364.2), "B": (478.2, 491.2), "C": (617.8, 799.5)}
+    catalogue = {name: nd.Actuator(name, *ends) for name, ends in rows.items()}
+    most = nd.Actuator("any", 257.8, 799.5)
+    known = nd.optimize(study.with_actuators({"external": most, "upper": most, "lower": most}))
+    upper = study.with_actuators({"external": most, "upper": catalogue["A"], "lower": most})
+    assert nd.optimize(upper, warm=known.best).objective == pytest.approx(nd.optimize(upper).objective, rel=1e-6)
+    result = nd.optimize(replace(study, actuators=list(catalogue.values())))
+    best = study.with_actuators({kind: catalogue[name] for kind, name in zip(LEG_KINDS, "CAB", strict=True)})
+    assert names(result.actuators.chosen) == ["C", "A", "B"]
+    assert result.objective == pytest.approx(nd.optimize(best).objective, rel=1e-6)
+
+
+def tight_for_tolerances():
+    """A study with one variable and rows for it; the first row fits the drawing alone."""
+    variables = {"a1": 0.0, "a2": 700.0, "b1": 200.0, "b2": 0.0, "zp": 450.0, "zs": (200.0, 400.0), "theta_z": 0.0}
+    study = replace(POSES, constraints={}, variables=variables)
+    lengths = nd.leg_lengths(nd.optimize(study).geometry, nd.optimize(study).configurations[1:])
+    legs = (("cheap", lengths[:, :3], 0.3), ("upper", lengths[:, 3:6], 20.0), ("lower", lengths[:, 6:], 20.0))
+    rows = [nd.Actuator(name, x.min() - room, x.max() + room, price=100.0) for name, x, room in legs]
+    return replace(study, actuators=rows, tolerances={"joints": 0.5, "legs": 0.1}), lengths[:, :3]
+
+
+@pytest.mark.slow
+def test_rows_that_leave_no_room_for_tolerances_are_passed_over(monkeypatch):
+    study, external = tight_for_tolerances()
+    dear = nd.Actuator("dear", external.min() - 10.0, external.max() + 10.0, price=110.0)
+    more = replace(study, actuators=[*study.actuators, dear])
+    drawn = nd.optimize(replace(more, tolerances={}))
+    assert names(drawn.actuators.chosen) == ["cheap", "upper", "lower"]
+    result = nd.optimize(more)
+    assert (result.status, result.reserve.proved) == (nd.Status.OPTIMAL, True)
+    assert names(result.actuators.chosen) == ["dear", "upper", "lower"]
+    note = "passed over, as they leave no room for the tolerances: external cheap, upper upper, lower lower"
+    assert note in result.summary()
+    none = nd.optimize(study)
+    assert (none.status, none.best, none.actuators) == (nd.Status.INFEASIBLE, None, None)
+    assert none.reason.endswith(
+        "; the actuators are external cheap, upper upper, lower lower, and no others leave room for the tolerances"
+    )
+    monkeypatch.setattr(import_module("ninedof.optimize.optimize"), "OTHERS", 0)
+    stopped = nd.optimize(more)
+    assert (stopped.status, stopped.best) == (nd.Status.STOPPED, None)
+    assert stopped.reason.endswith("the next 0 combinations leave no room either, and no others were tried")
+
+
+def test_the_next_best_is_one_of_those_tried_and_may_be_better():
+    """The chosen one is solved again, with another choice of starts: it is no better then, as a rule."""
+    row = nd.Actuator("A", 1.0, 9.0)
+    chosen = Combination(row, row, row, objective=4.0)
+    for objective, left_out, words in (
+        (4.0, (), "the next best: A for all legs has the same objective"),
+        (4.4, ("B",), "the next best of the rows that were tried: A for all legs has 4.400000, 10 % more"),
+        (3.8, (), "the next best: A for all legs has 3.800000, 5 % less"),
+    ):
+        other = replace(chosen, objective=objective)
+        assert ActuatorChoice(chosen, other, 3, 4, left_out).words[1] == words
 
 
 @pytest.mark.slow

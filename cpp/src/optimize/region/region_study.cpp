@@ -247,7 +247,16 @@ RegionResult optimize_region(const Problem& problem, const Region& region, const
   const Control limited{limit.stop(), control.progress};
   Region with_rule = region;
   with_rule.shifted |= region.placed;
-  RegionResult out = RegionStudy(problem, with_rule, settings, limited, control).solve();
+  const auto solved = [&](const RegionStudySettings& how) {
+    return RegionStudy(problem, with_rule, how, limited, control).solve();
+  };
+  RegionResult out = solved(settings);
+  const bool ended = out.result.status != Status::stopped || limited.stop.stop_requested();
+  if (out.result.candidates.empty() && !ended && !settings.warm.empty()) {
+    RegionStudySettings cold = settings;  // known designs that the region excludes: the others followed them
+    cold.warm.clear();
+    out = solved(cold);
+  }
   if (region.placed && limited.stop.stop_requested()) {
     out.result.reason = "ended before O was placed; the design is the optimum with O shifted so far";
     out.region.gain = infinity;  // with O placed it may be better by any amount
