@@ -60,6 +60,13 @@ def apart(g: Geometry, study: Study | None = None) -> list[int]:
     return [k for k, meet in enumerate(exempt_pairs(g, study)) if not meet]
 
 
+def crossed(study: Study, factor: Callable[[str, str], float]) -> set[str]:
+    """Return the limits whose ends, each times factor(label, side), leave no number between them."""
+    return {
+        one.label for one in study.limits if one.low * factor(one.label, "min") > one.high * factor(one.label, "max")
+    }
+
+
 def with_scaled_limits(study: Study, factor: Callable[[str, str], float]) -> Study:
     """Return a study with each end of its limits times factor(label, side); an angle is at most pi.
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from ninedof.design.domains.region_poses import Placing, o_is_placed
 from ninedof.design.duty import LARGEST_TOLERANCE, Tolerances, tolerances_like
-from ninedof.design.limit_numbers import with_scaled_limits
+from ninedof.design.limit_numbers import crossed, with_scaled_limits
 from ninedof.design.limits import limit_words
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import Study
@@ -129,13 +129,16 @@ class Reserve(StudyTable):
     note: str = entry(text, "")
     """Why it is not proved."""
 
+    def _share(self, label: str, side: str) -> float:
+        return self.shares.get(f"{NEUTRAL_LIMIT if label == 'neutral_condition_limit' else label} {side}", 1.0)
+
+    def leaves_room(self, study: Study) -> bool:
+        """Whether there is a number between the ends of every limit that leaves the reserve."""
+        return not crossed(study, self._share)
+
     def study(self, study: Study) -> Study:
         """Return the study that was solved: with limits that leave the reserve, and without tolerances."""
-        labels = {"neutral_condition_limit": NEUTRAL_LIMIT}
-        tighter = with_scaled_limits(
-            study, lambda label, side: self.shares.get(f"{labels.get(label, label)} {side}", 1.0)
-        )
-        return replace(tighter, tolerances=Tolerances())
+        return replace(with_scaled_limits(study, self._share), tolerances=Tolerances())
 
     @property
     def words(self) -> list[str]:
@@ -184,6 +187,8 @@ def with_reserve(
             break
         taken = {key: shares.get(key, 1.0) * share for key, share in lacking.items()}
         if left == 0 or not all(LEAST_SHARE < share < 1.0 / LEAST_SHARE for share in taken.values()):
+            break
+        if not Reserve(shares | taken).leaves_room(study):
             break
         shares |= taken
         result = solve(Reserve(shares).study(study), result)

@@ -13,7 +13,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.domains.region_poses import configurations_at, o_is_placed
-from ninedof.design.limit_numbers import with_scaled_limits
+from ninedof.design.limit_numbers import crossed, with_scaled_limits
 from ninedof.design.study import Study
 from ninedof.design.variables import angles_in_radians, given_values
 from ninedof.robot.configuration import Configuration
@@ -75,9 +75,9 @@ class DesignRange:
     def eased(self, share: float) -> DesignRange:
         """Return the same question with every limit wider by a share of it, or narrower where that is negative."""
         sides = {"min": 1.0 - share, "max": 1.0 + share}
-        crossed = {one.label for one in self.study.limits if one.low * sides["min"] > one.high * sides["max"]}
+        without = crossed(self.study, lambda _, side: sides[side])
         condition = None if self.condition_number is None else self.condition_number * sides["max"]
-        study = with_scaled_limits(self.study, lambda label, side: 1.0 if label in crossed else sides[side])
+        study = with_scaled_limits(self.study, lambda label, side: 1.0 if label in without else sides[side])
         return replace(self, study=study, condition_number=condition)
 
     def values(self, names: Collection[str]) -> str:

@@ -121,6 +121,25 @@ def test_limits_that_need_no_reserve_leave_the_optimum_as_it_is():
     assert kept.best == plain.best
 
 
+@pytest.mark.slow
+def test_a_range_that_is_narrower_than_its_reserve_is_infeasible():
+    """Its ends crossed, and the message was about numbers that nobody had typed."""
+    variables = {"a1": 0.0, "a2": (100.0, 850.0), "b1": (50.0, 350.0), "b2": 0.0, "zp": (300.0, 700.0)}
+    study = nd.Study(
+        unit="mm",
+        characteristic_length=150.0,
+        variables=variables | {"zs": (50.0, 650.0), "theta_z": 0.0},
+        constraints={"upper_length": (152.5, 152.9)},
+        objective={"poses": nd.poses.box(half=(60.0, 60.0, 40.0))},
+        tolerances={"joints": 0.3, "legs": 0.1},
+        starts=2,
+    )
+    result = nd.optimize(study)
+    assert (result.status, result.best, result.reserve.proved) == ("infeasible", None, False)
+    words = "not proved of every machine within the tolerances: the least upper length, the greatest upper length"
+    assert result.reason == words
+
+
 def test_tolerances_beyond_a_fixed_design_are_said():
     asked = replace(study_of(nd.Region(box=(30.0, 40.0, 20.0))), constraints={"leg_length": (50.0, 900.0)})
     longest = max(high for _, high in nd.optimize(asked).certify(time_limit=0.01).lengths)
