@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "limits/table.hpp"
+#include "math/numbers.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
+#include "ninedof/kinematics/velocity.hpp"
 #include "ninedof/robot/legs.hpp"
 
 namespace ninedof {
@@ -43,6 +45,7 @@ SheetNumbers::SheetNumbers(const SheetQuestion& question) : question_(question) 
   if (question_.errors) groups_.push_back({"error", 3, greatest});
   if (question_.leg_stiffness) groups_.push_back({"stiffness", 2, least});
   if (question_.characteristic_length) groups_.push_back({"condition_number", 1, greatest});
+  if (question_.characteristic_length && !question_.locked.empty()) groups_.push_back({"free", 9, both});
   first_locked_ = groups_.size();
   if (question_.characteristic_length) groups_.insert(groups_.end(), question_.locked.size(), {"locked", 1, greatest});
 }
@@ -91,6 +94,9 @@ void SheetNumbers::evaluate(std::size_t group, const Configuration& c, double* o
     const LeastStiffness least = least_stiffness(g, c, *q.leg_stiffness);
     out[0] = least.shift;
     out[1] = least.turn;
+  } else if (name == "free") {
+    const Vec9 sizes = jacobian(g, c, *q.characteristic_length).colwise().norm();
+    nine(sizes.hasNaN() ? Vec9::Constant(infinity) : sizes);
   } else if (name == "locked") {
     const PosedPoints here = posed_points(g, c);
     *out = LockedLegs(here.at, here.legs, *q.characteristic_length).condition_number(q.locked[group - first_locked_]);

@@ -9,6 +9,7 @@
 
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/domains/region_sample.hpp"
+#include "ninedof/kinematics/velocity.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "support/support.hpp"
 
@@ -78,6 +79,11 @@ TEST_SUITE("sheet_region") {
     CHECK(all[all.size() - 6] == bounds.position);
     CHECK(all[all.size() - 5] == bounds.rotation);
     CHECK(all[all.size() - 3] == least_stiffness(g, c, *q.leg_stiffness).shift);
+    SheetQuestion failing = q;
+    failing.locked = {{0, -1}};
+    const std::vector<double> more = numbers(SheetNumbers(failing), c);
+    REQUIRE(more.size() == all.size() + 10);
+    CHECK(more[all.size() + 4] == jacobian(g, c, 1.3).col(4).norm());
     // Alone, it asks for nothing.
     CHECK(SheetNumbers({.geometry = g, .neutral = home}).groups().empty());
   }

@@ -50,8 +50,9 @@ class SheetNumbers {
 
   /// Each limit; "speed" and "acceleration" (9) of the motion; "twist_speed" and "twist_acceleration" (9) of its given
   /// one; "force" (9 a load); "power" (9, the most of |force| x speed); "payload" (18 a load, payload_shares); "error"
-  /// (position, rotation, internal point); "stiffness" (LeastStiffness); "condition_number"; "locked" (1) for each set
-  /// of legs: that of the motions left. Those that were not asked for are left out.
+  /// (position, rotation, internal point); "stiffness" (LeastStiffness); "condition_number"; with legs locked "free"
+  /// (9), the sizes of the columns of J', and "locked" (1) for each set, that of the motions left. Those that were not
+  /// asked for are left out.
   const std::vector<SheetGroup>& groups() const { return groups_; }
   /// `out` has room for the numbers of the group. Pairs of legs that may meet have an infinite distance.
   void evaluate(std::size_t group, const Configuration& c, double* out) const;
