@@ -21,7 +21,7 @@ from ninedof.motion.rotations import from_vectors
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate, ProofPose
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration, arrays_of
-from ninedof.robot.geometry import Geometry, triples
+from ninedof.robot.geometry import LEGS, Geometry, triples
 from ninedof.sheet.pose_words import turn_deg
 from ninedof.support.arguments import finite, instance, shown, whole
 from ninedof.support.arrays import MOST_THREADS as MOST
@@ -88,7 +88,9 @@ def certify(
 
     phase(progress, "proving the limits")
     machine = posed_robot(study, geometry, configurations, characteristic_length, rule, built)
-    over_poses = _core.limits_over_poses(machine, study.problem(), slack, threads, max(seconds, FOR_LIMITS))
+    start, of_limits = perf_counter(), max(seconds, FOR_LIMITS)
+    over_poses = _core.limits_over_poses(machine, study.problem(), slack, threads, of_limits)
+    limits_ended = perf_counter() - start >= of_limits / len(LEGS)  # the legs of a limit share its time
     named = partial(_proof_pose, home=configurations[0], region=region, rule=rule)
     limits = [_limit_proof(limit, only_neutral, named) for limit in over_poses.limits]
 
@@ -133,6 +135,7 @@ def certify(
             leg_tolerance=built.legs,
             errors=errors,
             errors_timed=errors_timed,
+            limits_timed=limits_ended and any(one.answer == UNDECIDED for one in limits),
             seconds=perf_counter() - begin,
             interrupted=interrupted,
             rule=rule,

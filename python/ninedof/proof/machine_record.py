@@ -130,6 +130,8 @@ class MachineCertificate(Worded):
     errors: tuple[tuple[float, float], ...] | None = None
     """As built: with the lengths of the drawing p, the platform (radians) and O are off by at most so much. The first
     number is found to first order, the second is proved; None without tolerances."""
+    limits_timed: bool = False
+    """Whether the time may have ended the search for a limit that is undecided."""
     errors_timed: bool = False
     """Whether the time ended the search for a bound of `errors` without one."""
     interrupted: bool = False

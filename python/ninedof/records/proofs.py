@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
+from itertools import chain, count
 from pathlib import Path
 
 from ninedof.design.study import Study
@@ -22,8 +24,18 @@ def certificate_file(run: str | os.PathLike[str]) -> Path:
 
 
 def earlier_file(file: Path) -> Path:
-    """Return where a proof is kept that another one of the same name follows."""
-    return file.with_name(f"{file.stem}-earlier{file.suffix}")
+    """Return where a proof is kept that another one of the same name follows: a name that is free."""
+    names = (f"{file.stem}-earlier{k}{file.suffix}" for k in chain([""], (f"-{n}" for n in count(2))))
+    return next(path for path in map(file.with_name, names) if not path.exists())
+
+
+def kept_certificates(file: Path) -> dict[Path, MachineCertificate]:
+    """Return the certificates for other tolerances that are kept beside one; without those that cannot be read."""
+    out = {}
+    for path in sorted(file.parent.glob(f"{file.stem}-earlier*{file.suffix}")):
+        with suppress(ValueError):
+            out[path] = load_certificate(path)
+    return out
 
 
 def save_certificate(certificate: MachineCertificate, file: str | os.PathLike[str]) -> Path:

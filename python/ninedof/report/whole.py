@@ -16,7 +16,7 @@ from ninedof.optimize.result import Result
 from ninedof.paper.comparison import comparison_table
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.records.load import load
-from ninedof.records.proofs import certificate_file, earlier_file, load_certificate
+from ninedof.records.proofs import certificate_file, kept_certificates, load_certificate
 from ninedof.records.record import Record, load_record
 from ninedof.report import origin
 from ninedof.report.optimization import of_front, of_result
@@ -48,7 +48,7 @@ def page_of_path(place: Path, point: str, run: str | os.PathLike[str]) -> str:
         whole = load(place) if point else None
         again = origin.of_front(whole, record, point) if isinstance(whole, Front) else None
         certificate = _certificate_of(contents, run)
-        page_ = of_result(contents, record, typed, again, certificate, _kept(contents, run))
+        page_ = of_result(contents, record, typed, again, certificate, _kept(contents, run, certificate))
         if record.kind == "comparison" and not point:
             published = html_of(comparison_table(record.results["designs"]))
             page_.sections["answer"] = joined(published, page_.sections["answer"])
@@ -75,18 +75,19 @@ def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCer
     return certificate
 
 
-def _kept(contents: Result, run: str | os.PathLike[str]) -> list[str]:
-    """Return which certificate for other tolerances a run keeps, a sentence; none without one."""
-    file = earlier_file(certificate_file(run))
-    certificate = load_certificate(file) if file.is_file() else None
-    if certificate is None or not contents.is_certified_by(certificate):
-        return []
-    built = certificate.tolerances
-    joints, legs = (amount(f"{x:.6g}", certificate.unit) for x in (built.joints, built.legs))
-    of = f"for tolerances of {joints} for joint centres and {legs} for leg lengths"
-    words = of if built else "of the machine as it is drawn"
-    which = "every limit" if certificate.proved else "not every limit"
-    return [f"Kept in {file.name}: a certificate {words}, by which {which} is proved."]
+def _kept(contents: Result, run: str | os.PathLike[str], shown: MachineCertificate | None) -> list[str]:
+    """Return which certificates for other tolerances than those of the one shown a run keeps, a sentence each."""
+    out = list[str]()
+    for file, certificate in kept_certificates(certificate_file(run)).items():
+        if not contents.is_certified_by(certificate) or (shown and shown.tolerances == certificate.tolerances):
+            continue
+        built = certificate.tolerances
+        joints, legs = (amount(f"{x:.6g}", certificate.unit) for x in (built.joints, built.legs))
+        of = f"for tolerances of {joints} for joint centres and {legs} for leg lengths"
+        words = of if built else "of the machine as it is drawn"
+        which = "every limit" if certificate.proved else "not every limit"
+        out.append(f"Kept in {file.name}: a certificate {words}, by which {which} is proved.")
+    return out
 
 
 def _text(page_: Page, record: Record, folder: Path | None, name: str, run: Any) -> str:

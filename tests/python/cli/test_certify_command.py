@@ -306,18 +306,64 @@ def test_the_report_names_the_certificate_for_other_tolerances_that_is_kept(tmp_
     assert "Proved: every machine within the tolerances keeps the limits at every pose." in page
     assert status(folder) == 0
     page = nd.report(folder).read_text()
-    assert "Kept in certify-earlier.json: a certificate of the machine as it is drawn, by which every limit" in page
+    assert "Kept in certify-earlier-2.json: a certificate of the machine as it is drawn, by which every limit" in page
+    assert "Kept in certify-earlier.json" not in page
     assert "Proved: every machine within the tolerances" not in page  # the certificate itself says more
 
     def not_every_limit(file):
         first, *rest = nd.load_certificate(file).limits
         return replace(nd.load_certificate(file), limits=(replace(first, answer="undecided"), *rest))
 
-    earlier = folder / "certify-earlier.json"
+    earlier = folder / "certify-earlier-2.json"
     save_certificate(not_every_limit(earlier), earlier)
     assert "as it is drawn, by which not every limit is proved." in nd.report(folder).read_text()
     save_certificate(replace(nd.load_certificate(earlier), machine="another"), earlier)
     assert "Kept in" not in nd.report(folder).read_text()
+
+
+def test_no_certificate_is_lost_and_the_one_for_the_same_tolerances_goes_on(run, tmp_path, capsys):
+    """A third one took the place of the first, which was complete, and the first was begun anew."""
+    folder = tmp_path / "run"
+    shutil.copytree(run, folder, ignore=shutil.ignore_patterns("certify*"))
+    files = [folder / name for name in ("certify.json", "certify-earlier.json", "certify-earlier-2.json")]
+    for tolerance in (0.001, 0, 0.002, 0.001, 0):
+        assert status(folder, "--tolerance", tolerance) in (0, 3)  # a limit of an optimum has no room
+    assert [nd.load_certificate(file).joint_tolerance for file in files] == [0.0, 0.001, 0.0]
+    assert not (folder / "certify-earlier-4.json").exists()
+    assert nd.load_certificate(folder / "certify-earlier-3.json").joint_tolerance == 0.002
+    boxes = nd.load_certificate(files[0]).condition_boxes
+    assert nd.load_certificate(files[2]).condition_boxes == boxes  # it went on, with nothing left to do
+    files[1].write_text("{}")
+    assert status(folder, "--tolerance", 0.001) == 3
+    assert (
+        "Kept in certify-earlier-2.json: a certificate of the machine as it is drawn" in nd.report(folder).read_text()
+    )
+    capsys.readouterr()
+
+
+@pytest.mark.slow(sanitized=True)
+def test_what_no_longer_time_decides_is_said(tmp_path, monkeypatch, capsys):
+    """It asked for four times the time, again and again."""
+    study = replace(nd.Study.load(EXAMPLE), loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -400.0]]})
+    nd.save(nd.optimize(replace(study, constraints={"force": {"max": 900.0}}), starts=1), tmp_path / "run")
+    real = nd.Result.certify
+
+    def ended(self, **options):
+        return replace(real(self, **options), limits_timed=False)
+
+    for module in ("ninedof.proof.machine", "ninedof.cli.commands.runs.certify"):
+        monkeypatch.setattr(import_module(module), "FOR_LIMITS", 0.0)
+    monkeypatch.setattr(nd.Result, "certify", ended)
+    assert status(tmp_path / "run", "--time", 1e-9, "--gap", 9) == 3
+    out, err = capsys.readouterr()
+    said = " ".join(out.split())
+    assert "No longer --time decides what is undecided: its search came to an end; a narrower region may." in said
+    assert "to go on" not in err
+    monkeypatch.setattr(nd.Result, "certify", real)
+    assert status(tmp_path / "run", "--time", 1e-9, "--certificate", tmp_path / "file") == 2
+    _, err = capsys.readouterr()
+    assert " undecided, expected one in which every limit is proved" in " ".join(err.split())
+    assert f"to go on, type: ninedof certify {tmp_path / 'run'} --certificate {tmp_path / 'file'} --time 4e-09" in err
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from ninedof.optimize.reserve import machine_of
 from ninedof.proof.machine import FOR_LIMITS, checked_numbers
 from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import UNDECIDED, outward
-from ninedof.records.proofs import certificate_file, earlier_file, save_certificate
+from ninedof.records.proofs import certificate_file, earlier_file, kept_certificates, save_certificate
 from ninedof.robot.geometry import LEGS
 from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.margins import margin_words
@@ -80,10 +80,17 @@ def certify(options: _Options) -> Answer:
         built, timed = _largest_of(result, how, screen)
     if options.certificate is not None:
         require_replayable(result.study, built)
+    kept = kept_certificates(file)
     if earlier is not None and earlier.tolerances != built:  # a proof of other machines is kept, and not gone on with
-        other = save_certificate(earlier, earlier_file(file))
+        same = (
+            path for path, one in kept.items() if (one.machine, one.tolerances) == (earlier.machine, earlier.tolerances)
+        )
+        other = save_certificate(earlier, next(same, earlier_file(file)))
         screen.print(f"the certificate for other tolerances is kept as {other}")
         earlier = None
+    if earlier is None:
+        fits = (one for one in kept.values() if one.tolerances == built and result.is_certified_by(one))
+        earlier = next(fits, None)
     states = []
 
     def keep(so_far: nd.MachineCertificate) -> None:
@@ -112,12 +119,17 @@ def certify(options: _Options) -> Answer:
         sentences += result.study.tolerances.remark()
     longest = max(options.time, FOR_LIMITS)
     longer: list[str] = []
-    if any(one.answer == UNDECIDED for one in certificate.limits):
+    if certificate.limits_timed:
         longer = ["--time", f"{4.0 * longest:g}"]
         sentences.append(
             f"Each limit had {longest:g} s, and begins anew: a longer --time may decide it. "
             f"`ninedof sheet {run}` has the worst values that a search meets, unproved."
         )
+    elif any(one.answer == UNDECIDED for one in certificate.limits):
+        smaller = "smaller tolerances may" * bool(built) or "a narrower region may"
+        sentences.append(f"No longer --time decides what is undecided: its search came to an end; {smaller}.")
+    if (certificate.left_count or longer) and not certificate.interrupted:
+        ended_by_time(without="--time" if longer else "", instead=longer)
     answer = Answer([certificate_table(certificate), *sentences], data)
     write_job(screen, answer, lambda _: save_certificate(certificate, file))
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
@@ -127,8 +139,6 @@ def certify(options: _Options) -> Answer:
         screen.print(f"certificate {options.certificate}, for `ninedof check`")
         data |= {"certificate": str(options.certificate)}
     status = DONE if certificate.proved and not certificate.left_count else NO_RESULT
-    if (certificate.left_count or longer) and not certificate.interrupted:
-        ended_by_time(without="--time" if longer else "", instead=longer)
     return Answer([], data, INTERRUPTED if certificate.interrupted else status)
 
 
