@@ -168,7 +168,8 @@ class ActuatorSearch:
 
     def _so_far(self, ended: Result) -> Result:
         """Return the best complete combination that was solved before the end; none before the first."""
-        values = {rows: self._value(result, True) for rows, result in self.results.items() if None not in rows}
+        left = {rows: result for rows, result in self.results.items() if None not in rows}
+        values = {rows: self._value(result, True) for rows, result in left.items() if rows not in self.passed_over}
         best = min(values, key=lambda rows: values[rows], default=())
         words = f"the search of actuators ended after {len(self.results)} studies"
         how: dict[str, Any] = {"status": Status.STOPPED, "interrupted": ended.interrupted}
@@ -193,8 +194,13 @@ class ActuatorSearch:
         for kinds in self.groups:
             rows = sorted(self.study.actuators, key=lambda row: -self._least_margin(free, kinds, row))
             studies = [self.study.with_actuators(dict.fromkeys(kinds, row)) for row in rows]
-            alone = (self._solved(one, free.candidates[:1], row.name) for one, row in zip(studies, rows, strict=True))
-            if all(result.best is None for result in alone):
+            alone = [self._solved(one, free.candidates[:1], row.name) for one, row in zip(studies, rows, strict=True)]
+            if any(result.best is not None for result in alone):
+                continue
+            if any(result.status != Status.INFEASIBLE for result in alone):
+                status = Status.STOPPED
+                reasons.append(f"no row is known to fit the {' and '.join(kinds)} legs: more starts may find a design")
+            else:
                 nearest = self._solved(studies[0], free.candidates[:1], rows[0].name, explain=True)
                 which = f"no row fits the {' and '.join(kinds)} legs; the nearest, {rows[0].name}"
                 reasons.append(f"{which}: {nearest.reason}")

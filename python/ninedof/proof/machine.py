@@ -93,6 +93,9 @@ def certify(
     limits_ended = perf_counter() - start >= of_limits / len(LEGS)  # the legs of a limit share its time
     named = partial(_proof_pose, home=configurations[0], region=region, rule=rule)
     limits = [_limit_proof(limit, only_neutral, named) for limit in over_poses.limits]
+    if resume is not None and resume.slack == slack:  # what was decided with more time stays so
+        known = {(one.name, one.side, one.limit): one for one in resume.limits if one.answer != UNDECIDED}
+        limits = [known.get((one.name, one.side, one.limit), one) if one.answer == UNDECIDED else one for one in limits]
 
     errors, errors_timed = None, False
     if built:

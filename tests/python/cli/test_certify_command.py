@@ -342,6 +342,29 @@ def test_no_certificate_is_lost_and_the_one_for_the_same_tolerances_goes_on(run,
 
 
 @pytest.mark.slow(sanitized=True)
+def test_less_time_takes_no_proof_away(tmp_path, monkeypatch):
+    """Limits began anew with every call, and a hurried one took the place of what had been proved."""
+    study = replace(nd.Study.load(EXAMPLE), loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -400.0]]})
+    study = replace(study, constraints={"force": {"max": 1200.0}})
+    folder = tmp_path / "run"
+    nd.save(nd.optimize(study, starts=1), folder)
+    assert status(folder) == 0
+    whole = nd.load_certificate(folder)
+    for module in ("ninedof.proof.machine", "ninedof.cli.commands.runs.certify"):
+        monkeypatch.setattr(import_module(module), "FOR_LIMITS", 0.0)
+    assert status(folder, "--time", 1e-9) == 0
+    assert nd.load_certificate(folder).limits == whole.limits
+    assert status(folder, "--time", 1e-9, "--slack", 0.0) == 3  # another question
+    assert status(folder, "--time", 1e-9, "--tolerance", 0.01) == 3
+    assert not nd.load_certificate(folder / "certify-earlier.json").proved
+    save_certificate(whole, folder / "certify.json")
+    assert status(folder, "--time", 1e-9, "--tolerance", 0.01) == 3
+    assert nd.load_certificate(folder / "certify-earlier-2.json").limits == whole.limits
+    assert status(folder, "--time", 1e-9, "--condition", 1.000001 * whole.condition[0]) == 3
+    assert nd.load_certificate(folder).limits[:-1] == whole.limits
+
+
+@pytest.mark.slow(sanitized=True)
 def test_what_no_longer_time_decides_is_said(tmp_path, monkeypatch, capsys):
     """It asked for four times the time, again and again."""
     study = replace(nd.Study.load(EXAMPLE), loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -400.0]]})
@@ -359,6 +382,9 @@ def test_what_no_longer_time_decides_is_said(tmp_path, monkeypatch, capsys):
     said = " ".join(out.split())
     assert "No longer --time decides what is undecided: its search came to an end; a narrower region may." in said
     assert "to go on" not in err
+    assert status(tmp_path / "run", "--time", 1e-9, "--gap", 9, "--condition", 3.9) == 3
+    out, err = capsys.readouterr()
+    assert ("No longer --time" in " ".join(out.split())) != ("to go on" in err)
     monkeypatch.setattr(nd.Result, "certify", real)
     assert status(tmp_path / "run", "--time", 1e-9, "--certificate", tmp_path / "file") == 2
     _, err = capsys.readouterr()

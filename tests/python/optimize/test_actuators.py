@@ -221,6 +221,18 @@ def test_rows_that_leave_no_room_for_tolerances_are_passed_over(monkeypatch):
     assert none.reason.endswith(
         "; the actuators are external cheap, upper upper, lower lower, and no others leave room for the tolerances"
     )
+    real = import_module("ninedof.optimize.optimize").ActuatorSearch.result
+
+    def once(search):
+        if search.passed_over:
+            search._chosen = lambda choices: (_ for _ in ()).throw(KeyboardInterrupt)
+        return real(search)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(ActuatorSearch, "result", once)
+        interrupted = nd.optimize(more)
+    assert interrupted.interrupted
+    assert interrupted.actuators is None or names(interrupted.actuators.chosen) != ["cheap", "upper", "lower"]
     monkeypatch.setattr(import_module("ninedof.optimize.optimize"), "OTHERS", 0)
     stopped = nd.optimize(more)
     assert (stopped.status, stopped.best) == (nd.Status.STOPPED, None)

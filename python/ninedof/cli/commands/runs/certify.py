@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -82,15 +83,12 @@ def certify(options: _Options) -> Answer:
         require_replayable(result.study, built)
     kept = kept_certificates(file)
     if earlier is not None and earlier.tolerances != built:  # a proof of other machines is kept, and not gone on with
-        same = (
-            path for path, one in kept.items() if (one.machine, one.tolerances) == (earlier.machine, earlier.tolerances)
-        )
-        other = save_certificate(earlier, next(same, earlier_file(file)))
+        other = save_certificate(earlier, _place_of(earlier, kept, file))
         screen.print(f"the certificate for other tolerances is kept as {other}")
         earlier = None
     if earlier is None:
         fits = (one for one in kept.values() if one.tolerances == built and result.is_certified_by(one))
-        earlier = next(fits, None)
+        earlier = min(fits, key=lambda one: (not one.proved, one.condition[1]), default=None)
     states = []
 
     def keep(so_far: nd.MachineCertificate) -> None:
@@ -119,13 +117,14 @@ def certify(options: _Options) -> Answer:
         sentences += result.study.tolerances.remark()
     longest = max(options.time, FOR_LIMITS)
     longer: list[str] = []
+    undecided = any(one.answer == UNDECIDED for one in certificate.limits)
     if certificate.limits_timed:
         longer = ["--time", f"{4.0 * longest:g}"]
         sentences.append(
             f"Each limit had {longest:g} s, and begins anew: a longer --time may decide it. "
             f"`ninedof sheet {run}` has the worst values that a search meets, unproved."
         )
-    elif any(one.answer == UNDECIDED for one in certificate.limits):
+    elif not certificate.left_count and not certificate.interrupted and undecided:
         smaller = "smaller tolerances may" * bool(built) or "a narrower region may"
         sentences.append(f"No longer --time decides what is undecided: its search came to an end; {smaller}.")
     if (certificate.left_count or longer) and not certificate.interrupted:
@@ -140,6 +139,19 @@ def certify(options: _Options) -> Answer:
         data |= {"certificate": str(options.certificate)}
     status = DONE if certificate.proved and not certificate.left_count else NO_RESULT
     return Answer([], data, INTERRUPTED if certificate.interrupted else status)
+
+
+def _place_of(certificate: nd.MachineCertificate, kept: Mapping[Path, nd.MachineCertificate], file: Path) -> Path:
+    """Return where a certificate is kept: a new place, or that of one that proves no more of the same machines."""
+    for path, one in kept.items():
+        same = (one.machine, one.tolerances, one.slack) == (
+            certificate.machine,
+            certificate.tolerances,
+            certificate.slack,
+        )
+        if same and one.proved <= certificate.proved and one.condition[1] >= certificate.condition[1]:
+            return path
+    return earlier_file(file)
 
 
 def _largest_of(result: nd.Result, how: dict[str, Any], screen: Screen) -> tuple[nd.Tolerances, bool]:
