@@ -223,7 +223,7 @@ TEST_SUITE("limits") {
     machine.region.push_back(region);
     PoseQuantity angle{.limit_name = "base_cone", .relative = 1e-4};
     const double drawn = pose_extremes(machine, {angle}, {}).front().high;
-    machine.tolerances.joints.fill(5e-4);
+    machine.tolerances.joints.fill(5e-3);  // more than the search leaves open
     const Extreme far = pose_extremes(machine, {angle}, {}).front();
     angle.limit = drawn;
     const Extreme near = pose_extremes(machine, {angle}, {}).front();
