@@ -93,9 +93,10 @@ def certify(
     limits_ended = perf_counter() - start >= of_limits / len(LEGS)  # the legs of a limit share its time
     named = partial(_proof_pose, home=configurations[0], region=region, rule=rule)
     limits = [_limit_proof(limit, only_neutral, named) for limit in over_poses.limits]
-    if resume is not None and resume.slack == slack:  # what was decided with more time stays so
-        known = {(one.name, one.side, one.limit): one for one in resume.limits if one.answer != UNDECIDED}
-        limits = [known.get((one.name, one.side, one.limit), one) if one.answer == UNDECIDED else one for one in limits]
+    question = sha256(repr((study.to_dict(), slack)).encode()).hexdigest()
+    if resume is not None and rule is None and resume.question == question:  # decided with more time it stays so
+        pairs = zip(limits, resume.limits[: len(limits)], strict=True)  # those of the condition number follow
+        limits = [before if one.answer == UNDECIDED != before.answer else one for one, before in pairs]
 
     errors, errors_timed = None, False
     if built:
@@ -137,6 +138,7 @@ def certify(
             joint_tolerance=built.joints,
             leg_tolerance=built.legs,
             errors=errors,
+            question=question,
             errors_timed=errors_timed,
             limits_timed=limits_ended and any(one.answer == UNDECIDED for one in limits),
             seconds=perf_counter() - begin,

@@ -130,6 +130,8 @@ class MachineCertificate(Worded):
     errors: tuple[tuple[float, float], ...] | None = None
     """As built: with the lengths of the drawing p, the platform (radians) and O are off by at most so much. The first
     number is found to first order, the second is proved; None without tolerances."""
+    question: str = ""
+    """Digest of what the proofs of `limits` depend on besides the machine: the study and the slack."""
     limits_timed: bool = False
     """Whether the time may have ended the search for a limit that is undecided."""
     errors_timed: bool = False

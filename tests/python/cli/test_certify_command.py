@@ -354,6 +354,9 @@ def test_less_time_takes_no_proof_away(tmp_path, monkeypatch):
         monkeypatch.setattr(import_module(module), "FOR_LIMITS", 0.0)
     assert status(folder, "--time", 1e-9) == 0
     assert nd.load_certificate(folder).limits == whole.limits
+    heavier = replace(study, loads={"wrenches": [[0.0, 0.0, 0.0, 0.0, 0.0, -4000.0]]})
+    other = replace(nd.load(folder), study=heavier).certify(time_limit=1e-9, resume=whole)
+    assert "proved" not in {one.answer for one in other.limits if one.name == "force"}
     assert status(folder, "--time", 1e-9, "--slack", 0.0) == 3  # another question
     assert status(folder, "--time", 1e-9, "--tolerance", 0.01) == 3
     assert not nd.load_certificate(folder / "certify-earlier.json").proved
