@@ -26,9 +26,10 @@ auto shortened_slopes(const Vector& v, double longest) {
   return Matrix(longest / length * (Matrix::Identity() - v * v.transpose() / (length * length)));
 }
 
-/// A point of a path, its derivative by t, and the t of the corners between which it lies.
+/// A point of a path, its derivative by t, the way on which it lies, and the t of the corners at its ends.
 struct PathPoint {
   Vec3 at, slope = Vec3::Zero();
+  int way = 0;
   double from = 0.0, to = 1.0;
 };
 
@@ -42,7 +43,8 @@ PathPoint along(const std::vector<Vec3>& corners, double t) {
     const Vec3 way = corners[k] - corners[k - 1];
     const double step = way.norm();
     if (step > 0.0)
-      out = {corners[k - 1] + left / step * way, length / step * way, done / length, (done + step) / length};
+      out = {corners[k - 1] + left / step * way, length / step * way, static_cast<int>(k) - 1, done / length,
+             (done + step) / length};
     if (left <= step && step > 0.0) return out;
     left -= step;
     done += step;
@@ -139,9 +141,9 @@ PoseSlopes Region::slopes(const Vec6& at) const {
   return out;
 }
 
-std::pair<double, double> Region::straight(double first) const {
+Region::Straight Region::straight(double first) const {
   const PathPoint point = along(corners, 0.5 * (1.0 + first));
-  return {2.0 * point.from - 1.0, 2.0 * point.to - 1.0};
+  return {point.way, 2.0 * point.from - 1.0, 2.0 * point.to - 1.0};
 }
 
 Configuration Region::configuration(const Vec6& at, const Configuration& neutral) const {

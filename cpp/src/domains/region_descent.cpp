@@ -117,7 +117,7 @@ class SmoothDescent {
     nlp.low = Eigen::VectorXd::Constant(n, -1.0);
     nlp.high = -nlp.low;
     if (region_.shape == Region::Shape::path) {
-      const auto [from, to] = region_.straight(met.at[0]);
+      const auto [way, from, to] = region_.straight(met.at[0]);
       nlp.low[0] = from + corner_gap;
       nlp.high[0] = to - corner_gap;
     }

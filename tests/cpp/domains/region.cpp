@@ -133,7 +133,7 @@ TEST_SUITE("region") {
             const Vec6 at = n == 0 ? Vec6(Vec6::Zero()) : even_sample(region, n, 11);
             if (shape == Region::Shape::path && std::abs(at[0] - 0.5) < 1e-3) continue;  // at the corner
             if (shape == Region::Shape::path) {
-              const auto [from, to] = region.straight(at[0]);
+              const auto [way, from, to] = region.straight(at[0]);
               CHECK((from <= at[0] && at[0] <= to && (from == 0.5 || to == 0.5)));
             }
             const PoseSlopes slopes = region.slopes(at);

@@ -1,7 +1,6 @@
 #pragma once
 /// A continuous set of poses about the neutral one: every tilt and yaw at every position.
 
-#include <utility>
 #include <vector>
 
 #include "ninedof/domains/pose.hpp"
@@ -47,8 +46,12 @@ struct Region {
   Vec6 coordinates(const Pose& pose) const;
   /// The derivatives of `pose`; at a corner of a path those of the way that ends there.
   PoseSlopes slopes(const Vec6& at) const;
-  /// The first coordinates of the corners of a path between which one lies.
-  std::pair<double, double> straight(double first) const;
+  /// The straight way of a path on which a first coordinate lies, and those of the corners at its ends.
+  struct Straight {
+    int way;
+    double from, to;
+  };
+  Straight straight(double first) const;
   /// The unit of its positions: zp, or 1.
   double unit(const Configuration& neutral) const { return in_zp ? neutral.position[2] - tool_height : 1.0; }
   /// That pose of a design.

@@ -45,7 +45,7 @@ Ways free_ways(const Region& region, const Vec6& at) {
       line(2);
       break;
     case Region::Shape::path: {
-      const auto [from, to] = region.straight(at[0]);
+      const auto [way, from, to] = region.straight(at[0]);
       if (at[0] - from > 2.0 * step && to - at[0] > 2.0 * step) out.push_back(Vec6::Unit(0));
     }
   }

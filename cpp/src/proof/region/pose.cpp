@@ -132,6 +132,18 @@ Configuration Domain::configuration(const Box& point) const {
   return {centre(at.p), rotation, centre(at.s)};
 }
 
+Box Domain::point(const Vec6& at) const {
+  Box out;
+  std::copy(at.begin(), at.end(), out.low.begin());
+  if (const Region& region = machine_.region.front(); region.shape == Region::Shape::path) {
+    const auto [way, from, to] = region.straight(at[0]);
+    out.piece = way;
+    out.low[0] = std::clamp((at[0] - from) / (to - from), 0.0, 1.0);
+  }
+  out.high = out.low;
+  return nearest(out);
+}
+
 bool Domain::outside(const Box& box) const {
   return cut(box) && std::ranges::any_of(discs_, [&](const Disc& disc) {
            const double least = least_length(box, disc);  // infinite where squares leave the doubles: not known then

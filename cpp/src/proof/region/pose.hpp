@@ -42,6 +42,8 @@ class Domain {
   MetAt met(const Box& point) const;
   /// A box of one pose in doubles.
   Configuration configuration(const Box& point) const;
+  /// The pose at coordinates of the region, as a box of one point.
+  Box point(const Vec6& at) const;
   /// Whether no point of the box is a pose of the domain.
   bool outside(const Box& box) const;
   /// The nearest pose of the domain to a point.

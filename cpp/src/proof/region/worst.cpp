@@ -6,9 +6,8 @@
 
 #include "domains/bound.hpp"
 #include "math/numbers.hpp"
-#include "math/sort_by.hpp"
-#include "math/splitmix.hpp"
 #include "math/time_limit.hpp"
+#include "ninedof/domains/region_extremes.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "proof/region/worst_machine.hpp"
@@ -17,84 +16,42 @@ namespace ninedof::over_region {
 namespace {
 
 constexpr std::size_t most_boxes = 8'000'000;  // open at a time: a gigabyte
+constexpr long samples = 2000;  // of the region, for the first look
 
 const Geometry& drawn_machine(const IndexOverPoses& index) {
   return index.domain().machine().geometry;
 }
 
-/// Moves along coordinates and along random directions while the index grows: the greatest condition numbers lie on
-/// ridges, where singular values meet, and along a ridge no coordinate leads upward.
-Met climbed(const IndexOverPoses& index, const Box& root, Met met, double first_step, double last_step,
-            const std::stop_token& stop) {
-  constexpr std::size_t ways = 36;  // two of each coordinate, the others random
-  std::uint64_t drawn = 0;
-  for (double step = first_step; step > last_step; step *= 0.5) {
-    bool better = true;
-    while (better && !stop.stop_requested()) {
-      better = false;
-      for (std::size_t way = 0; way < ways; ++way) {
-        Box next = met.at;
-        for (std::size_t k = 0; k < PoseForm::size; ++k) {
-          const double part = way >= 2 * PoseForm::size ? 2.0 * uniform_from(stream(0, drawn++)) - 1.0
-                              : way / 2 == k            ? (way % 2 == 0 ? -1.0 : 1.0)
-                                                        : 0.0;
-          const double x = next.low[k] + step * part * (root.high[k] - root.low[k]);
-          next.low[k] = next.high[k] = std::clamp(x, root.low[k], root.high[k]);
-        }
-        next = index.domain().nearest(next);
-        const double value = index.at(drawn_machine(index), next);
-        if (value > met.value * (1.0 + 1e-9)) {
-          met = {value, next};
-          better = true;
-        }
-      }
-    }
-  }
-  return met;
-}
+/// Less the index of the drawing's machine, at a pose of its region.
+class LessIndex : public PoseNumbers {
+ public:
+  explicit LessIndex(const IndexOverPoses& index) : index_(index) {}
+  std::vector<int> groups() const override { return {1}; }
+  void go(const Vec6& at) override { at_ = index_.domain().point(at); }
+  void evaluate(int, double* out) override { *out = -index_.at(drawn_machine(index_), at_); }
+
+ private:
+  const IndexOverPoses& index_;
+  Box at_;
+};
 
 }  // namespace
 
 Met searched(const IndexOverPoses& index, int threads, const std::stop_token& stop, bool roughly) {
-  constexpr std::size_t samples = 64;
-  struct Start {
-    Met met;
-    std::size_t root;
-  };
   const Domain& domain = index.domain();
-  const std::vector<Box>& roots = domain.roots();
-  std::vector<Start> starts;
-  for (std::size_t from = 0; from < roots.size(); ++from)
-    starts.insert(starts.end(), roots[from].low < roots[from].high ? samples : 1, Start{{}, from});
-  parallel_for(static_cast<long>(starts.size()), 16, threads, [&](long first, long last) {
-    for (long n = first; n < last; ++n) {
-      const std::size_t sample = static_cast<std::size_t>(n) % samples, from = starts[static_cast<std::size_t>(n)].root;
-      const Box& root = roots[from];
-      Box at = root;
-      for (std::size_t k = 0; k < PoseForm::size; ++k) {
-        const double part = std::clamp(1.5 * uniform_from(stream(from, sample * PoseForm::size + k)) - 0.25, 0.0, 1.0);
-        at.low[k] = at.high[k] =  // a good part on the boundary
-            std::clamp(root.low[k] + part * (root.high[k] - root.low[k]), root.low[k], root.high[k]);
-      }
-      at = domain.nearest(at);
-      starts[static_cast<std::size_t>(n)] = {{index.at(drawn_machine(index), at), at}, from};
-    }
+  const PosedRobot& machine = domain.machine();
+  std::vector<Met> met;
+  for (const Box& root : domain.roots()) met.push_back({0.0, domain.nearest(middle_of(root))});
+  parallel_for(std::ssize(met), 16, threads, [&](long first, long last) {
+    for (auto n = at_index(first); n < at_index(last); ++n) met[n].value = index.at(machine.geometry, met[n].at);
   });
-  struct Climb {
-    std::size_t starts;
-    double first_step, last_step;
-  };
-  const Climb coarse{roughly ? 8U : 24U, 0x1p-2, 0x1p-7};
-  const Climb fine = roughly ? Climb{3, 0x1p-7, 0x1p-14} : Climb{6, 0x1p-7, 0x1p-20};  // few are worth the last digits
-  for (const Climb& climb : {coarse, fine}) {
-    sort_by(starts, [](const Start& start) { return -start.met.value; });
-    starts.resize(std::min(starts.size(), climb.starts));
-    parallel_for(static_cast<long>(starts.size()), 1, threads, [&](long n, long) {
-      Start& start = starts[static_cast<std::size_t>(n)];
-      start.met = climbed(index, roots[start.root], start.met, climb.first_step, climb.last_step, stop);
-    });
+  if (!machine.region.empty() && !stop.stop_requested()) {
+    RegionSettings settings{.samples = samples, .threads = threads, .last_step = roughly ? 1e-4 : 1e-9};
+    const Region& region = machine.region.front();
+    const RegionExtremes ends = region_extremes(region, [&] { return std::make_unique<LessIndex>(index); }, settings);
+    if (!ends.ends[0].empty()) met.push_back({-ends.least(0).value, domain.point(ends.least(0).at)});
   }
-  Met best = std::ranges::max_element(starts, {}, [](const Start& one) { return one.met.value; })->met;
+  Met best = *std::ranges::max_element(met, {}, &Met::value);
   const auto here = [&](const Geometry& g) { return index.at(g, best.at); };
   best.value = std::max(best.value, here(worst_machine(domain.machine(), here)));
   return best;
