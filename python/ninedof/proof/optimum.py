@@ -58,10 +58,6 @@ def prove_optimum(
     progress : callable, optional
         Called as progress(boxes examined, 0, lower bound so far).
 
-    Returns
-    -------
-    OptimumProof
-
     Raises
     ------
     ValueError
