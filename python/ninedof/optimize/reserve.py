@@ -15,7 +15,8 @@ from ninedof.design.limits import limit_words
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import Study
 from ninedof.optimize.candidate import best_of
-from ninedof.proof.machine import FOR_LIMITS, NEUTRAL_LIMIT, certify, open_limits
+from ninedof.proof.machine import FOR_LIMITS, Certify, certify
+from ninedof.proof.machine_limits import NEUTRAL_LIMIT, open_limits
 from ninedof.proof.machine_record import UNDECIDED, MachineCertificate
 from ninedof.proof.point_rule import PointRule, rule_of
 from ninedof.robot.configuration import Configuration
@@ -48,12 +49,13 @@ def largest(result: Any, options: dict[str, Any]) -> tuple[Tolerances, bool]:
     """
     known_keys("largest_tolerance", options, {"condition_number", "slack", "time_limit", "threads", "rule", "progress"})
     study, place, design = result.study, placing_of(result), machine_of(result)
-    seconds = finite("time_limit", options.pop("time_limit", 60.0), 0.0)
-    progress = progress_argument(options.pop("progress", None))
-    threads = options.setdefault("threads", 0)
-    rule = options.pop("rule", None)
-    if place is not None and not isinstance(rule, PointRule):
-        rule = rule_of(place, *design, threads, progress)
+    asked = Certify(**{"time_limit": 60.0, "slack": 0.0} | options)
+    seconds, progress, rule = asked.time_limit, asked.progress, None
+    if isinstance(asked.rule, PointRule):
+        rule = asked.rule
+    elif place is not None:
+        rule = rule_of(place, *design, asked.threads, progress)
+    how: dict[str, Any] = {name: getattr(asked, name) for name in ("threads", "slack", "condition_number")}
     height = study.zp(design[1][0])
     first, least, most, limit = (share * height for share in (FIRST, LEAST, MOST, LARGEST_TOLERANCE))
     own = max(study.tolerances.joints, study.tolerances.legs)
@@ -67,7 +69,7 @@ def largest(result: Any, options: dict[str, Any]) -> tuple[Tolerances, bool]:
         phase(progress, f"proving {size:.3g}")
         each = max(seconds, FOR_LIMITS) if size == own else max(seconds / PROOFS, 0.5)  # its own ones as `certify` does
         begin = perf_counter()
-        unproved = open_limits(study, (*design, rule), of(size), each, **options)
+        unproved = open_limits(study, (*design, rule), of(size), each, **how)
         if unproved:  # the legs of a limit share its time
             ended = perf_counter() - begin >= each / len(LEGS)
             timed = ended and all(one.answer == UNDECIDED for one in unproved)
