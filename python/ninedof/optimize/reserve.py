@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
-from ninedof.design.domains.region_poses import Placing, o_is_placed
+from ninedof.design.domains.region_poses import o_is_placed, placing_of
 from ninedof.design.duty import LARGEST_TOLERANCE, Tolerances, tolerances_like
 from ninedof.design.limit_numbers import crossed, with_scaled_limits
 from ninedof.design.limits import limit_words
@@ -34,7 +34,7 @@ STEP, HALVINGS = 4.0, 5
 
 def certified(result: Any, options: dict[str, Any]) -> MachineCertificate:
     """Return the certificate of a machine, for the options of `Result.certify`."""
-    design, place = machine_of(result), placing_of(result)
+    design, place = machine_of(result), placing_of(result, result.configuration)
     progress = progress_argument(options.get("progress"))
     if options.get("rule") is None and options.get("resume") is None and place is not None:
         options["rule"] = lambda: rule_of(place, *design, options.get("threads", 0), progress)
@@ -48,7 +48,7 @@ def largest(result: Any, options: dict[str, Any]) -> tuple[Tolerances, bool]:
     none at all where not even the least ones are proved. A KeyboardInterrupt has the largest ones proved so far.
     """
     known_keys("largest_tolerance", options, {"condition_number", "slack", "time_limit", "threads", "rule", "progress"})
-    study, place, design = result.study, placing_of(result), machine_of(result)
+    study, place, design = result.study, placing_of(result, result.configuration), machine_of(result)
     asked = Certify(**{"time_limit": 60.0, "slack": 0.0} | options)
     seconds, progress, rule = asked.time_limit, asked.progress, None
     if isinstance(asked.rule, PointRule):
@@ -95,15 +95,6 @@ def machine_of(result: Any) -> tuple[Geometry, Configuration, float]:
     """Return geometry, neutral and listed poses, and characteristic length of the best design."""
     best = best_of(result)
     return best.geometry, best.configurations[: 1 + len(result.study.objective.poses)], best.characteristic_length
-
-
-def placing_of(result: Any) -> Placing | None:
-    """Return how O is placed in the region, where the study places it anew at every pose."""
-    best = result.best
-    if best is None or not o_is_placed(result.study):
-        return None
-    ranges = () if result.region is None else result.region.leg_ranges
-    return Placing(result.study, best.configuration, best.variables, best.objective, ranges)
 
 
 ROUNDS = 6  # two are enough where limits change little with the design

@@ -98,9 +98,8 @@ def mechanism(
     Examples
     --------
     >>> import ninedof as nd
-    >>> from ninedof import plot
     >>> design = nd.Geometry.hexagonal(a1=0.0, a2=6.0, b1=3.0, b2=0.0)
-    >>> figure = plot.mechanism(plot.Robot("mine", design, nd.Configuration.neutral(zp=5.0, zs=3.2)), unit="m")
+    >>> figure = nd.plot.mechanism(nd.plot.Robot("mine", design, nd.Configuration.neutral(zp=5.0, zs=3.2)), unit="m")
 
     """
     if ax is None:
@@ -136,10 +135,9 @@ def mechanisms(robots: Sequence[Robot], unit: str = "", figure: Figure | None = 
     Examples
     --------
     >>> import ninedof as nd
-    >>> from ninedof import plot
     >>> design = nd.Geometry.hexagonal(a1=0.0, a2=6.0, b1=3.0, b2=0.0)
     >>> stand = [nd.Configuration.neutral(zp=5.0, zs=zs) for zs in (2.0, 3.2)]
-    >>> figure = plot.mechanisms([plot.Robot(f"zs {c.internal_point[2]}", design, c) for c in stand])
+    >>> figure = nd.plot.mechanisms([nd.plot.Robot(f"zs {c.internal_point[2]}", design, c) for c in stand])
 
     """
     style.counted("robots", robots, 6)
