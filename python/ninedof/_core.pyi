@@ -20,6 +20,11 @@ _LimitBreak = tuple[str, float, float, float, float]
 _Range = tuple[str, Sequence[float], Sequence[float], float]
 _Progress = Callable[[int, int, float | None], object]
 
+class _Struct:
+    """A struct of the core: its attributes by name, those left out as they are by default."""
+
+    def __init__(self, **attributes: Any) -> None: ...
+
 version: str
 built_with: dict[str, str]
 
@@ -85,24 +90,21 @@ def track(
 track_statuses: list[str]
 internal_point_statuses: list[str]
 
-class LegLimits:
+class LegLimits(_Struct):
     low: _Floats
     high: _Floats
-    def __init__(self, **attributes: Any) -> None: ...
 
-class InternalPointProblem:
+class InternalPointProblem(_Struct):
     criterion: str
     limits: LegLimits
     characteristic_length: float
     clearance: float
-    def __init__(self, **attributes: Any) -> None: ...
 
-class MapSettings:
+class MapSettings(_Struct):
     seed_every: int
     audit_every: int
     audit_seed: int
     threads: int
-    def __init__(self, **attributes: Any) -> None: ...
 
 class MapAudit:
     poses: int
@@ -249,7 +251,7 @@ def self_stress(g: Geometry, c: _Poses, /) -> _Floats: ...
 def stiffness(g: Geometry, c: _Poses, legs: _Floats, threads: int, /) -> _Floats: ...
 def stiffness_with_o(g: Geometry, c: _Poses, legs: _Floats, threads: int, /) -> _Floats: ...
 
-class Masses:
+class Masses(_Struct):
     platform: float
     centre: Sequence[float] | _Floats
     inertia: _Floats
@@ -260,7 +262,6 @@ class Masses:
     cylinder_inertia: _Floats
     rod_inertia: _Floats
     internal_point: float
-    def __init__(self, **attributes: Any) -> None: ...
 
 # Rows of 27: velocity, acceleration, load; forces, rates and what is unbalanced.
 def inverse_dynamics(
@@ -291,14 +292,13 @@ singularity_free_steps: tuple[int, int]
 
 def family_variables(family: str, /) -> list[tuple[str, str, float, float]]: ...
 
-class Duty:
+class Duty(_Struct):
     loads: Any
     masses: Masses
     gravity: _Floats
     motion: PlatformMotion
-    def __init__(self, **attributes: Any) -> None: ...
 
-class Limit:
+class Limit(_Struct):
     name: str
     low: float
     high: float
@@ -307,29 +307,26 @@ class Limit:
     steps: int
     at: str
     duty: Duty | None
-    def __init__(self, **attributes: Any) -> None: ...
     @property
     def label(self) -> str: ...
 
-class Pose:
+class Pose(_Struct):
     position: Sequence[float] | _Floats
     rotation: Sequence[float] | _Floats
     internal: Sequence[float] | _Floats
     best_internal: bool
     in_zp: bool
     weight: float
-    def __init__(self, **attributes: Any) -> None: ...
 
-class Objective:
+class Objective(_Struct):
     index: str
     aggregate: str
     weight: float
     condition_limit: float
     neutral_condition_limit: float
     poses: list[Pose]
-    def __init__(self, **attributes: Any) -> None: ...
 
-class Region:
+class Region(_Struct):
     shape: str
     size: Sequence[float] | _Floats
     corners: Sequence[Sequence[float]]
@@ -339,7 +336,6 @@ class Region:
     placed: bool
     in_zp: bool
     tool_height: float
-    def __init__(self, **attributes: Any) -> None: ...
     @property
     def reach(self) -> list[float]: ...
 
@@ -407,11 +403,10 @@ class Settings:
         explain: bool = ...,
     ) -> None: ...
 
-class PointRule:
+class PointRule(_Struct):
     scale: Sequence[float] | _Floats
     powers: Sequence[Sequence[int]]
     coefficients: Sequence[Sequence[float] | _Floats]
-    def __init__(self, **attributes: Any) -> None: ...
 
 class PosedRobot:
     def __init__(
@@ -425,12 +420,11 @@ class PosedRobot:
         /,
     ) -> None: ...
 
-class MetAt:
+class MetAt(_Struct):
     shift: _Triple
     tilt: _Triple
     yaw: float
     pose: int
-    def __init__(self, **attributes: Any) -> None: ...
 
 class LimitOverPoses:
     name: str
@@ -490,7 +484,7 @@ def search_condition(
     /,
 ) -> ConditionState: ...
 
-class DesignQuestion:
+class DesignQuestion(_Struct):
     problem: Problem
     region: Sequence[Region]
     at: Sequence[float]
@@ -498,7 +492,6 @@ class DesignQuestion:
     low: Sequence[float]
     high: Sequence[float]
     condition: float
-    def __init__(self, **values: Any) -> None: ...
 
 def admissible_designs(
     question: DesignQuestion,
@@ -549,39 +542,27 @@ def search_region_placed(
     /,
 ) -> dict[str, Any]: ...
 
-class PlacedDesign:
+class PlacedDesign(_Struct):
     problem: Problem
     variables: Sequence[float] | _Floats
     log_index: float
     ranges: Sequence[_Range]
     known: Sequence[Sequence[float]]
-    def __init__(self, **attributes: Any) -> None: ...
 
 class OptimumCheck:
-    @property
-    def residual(self) -> float: ...
-    @property
-    def active(self) -> int: ...
-    @property
-    def steps(self) -> int: ...
-    @property
-    def better(self) -> int: ...
-    @property
-    def gain(self) -> float: ...
+    residual: float
+    active: int
+    steps: int
+    better: int
+    gain: float
 
 class RegionCheck:
-    @property
-    def index(self) -> float: ...
-    @property
-    def margin(self) -> float: ...
-    @property
-    def excess(self) -> float: ...
-    @property
-    def poses(self) -> int: ...
-    @property
-    def mean(self) -> float: ...
-    @property
-    def standard_error(self) -> float: ...
+    index: float
+    margin: float
+    excess: float
+    poses: int
+    mean: float
+    standard_error: float
 
 def check_optimum(problem: Problem, variables: Sequence[float], steps: int, seed: int, /) -> OptimumCheck: ...
 def check_region(
@@ -649,13 +630,12 @@ def optimize_region(
 ) -> tuple[Result, RegionReport]: ...
 def trace(problem: Problem, start: Sequence[float], formulation: str, /) -> Trace: ...
 
-class OptimumSettings:
+class OptimumSettings(_Struct):
     target: float
     threads: int
     box_limit: int
     time_limit: float
     keep_tree: bool
-    def __init__(self, **attributes: Any) -> None: ...
 
 class OptimumProof:
     lower_bound: float
@@ -681,35 +661,31 @@ def check_certificate(certificate: bytes, progress: _Progress | None, seconds: f
 
 workspace_limits: list[str]
 
-class OrientationRegion:
+class OrientationRegion(_Struct):
     chart: str
     angle: float
     torsion_low: float
     torsion_high: float
-    def __init__(self, **attributes: Any) -> None: ...
 
-class WorkspaceDomain:
+class WorkspaceDomain(_Struct):
     archetype: str
     low: _Floats
     high: _Floats
     position: _Floats
     rotations: _Floats
     region: OrientationRegion
-    def __init__(self, **attributes: Any) -> None: ...
 
-class InternalPointRule:
+class InternalPointRule(_Struct):
     kind: str
     fraction: float
     point: _Floats
-    def __init__(self, **attributes: Any) -> None: ...
 
-class WorkspaceCriteria:
+class WorkspaceCriteria(_Struct):
     legs: LegLimits | None
     limits: list[Limit]
     exempt: list[bool]
     condition_number: float | None
     characteristic_length: float
-    def __init__(self, **attributes: Any) -> None: ...
 
 class WorkspaceQuestion:
     domain: WorkspaceDomain
@@ -720,7 +696,7 @@ class WorkspaceQuestion:
     @property
     def geometry(self) -> Geometry: ...
 
-class WorkspaceSettings:
+class WorkspaceSettings(_Struct):
     method: str
     tolerance: float
     resolution: int
@@ -729,7 +705,6 @@ class WorkspaceSettings:
     shifts: int
     seed: int
     threads: int
-    def __init__(self, **attributes: Any) -> None: ...
 
 class WorkspaceCells:
     centre: _Floats
@@ -772,12 +747,11 @@ def workspace(
     question: WorkspaceQuestion, settings: WorkspaceSettings, progress: _Progress | None, /
 ) -> WorkspaceMap: ...
 
-class CertifySettings:
+class CertifySettings(_Struct):
     gap: float
     seconds: float
     threads: int
     boxes: int
-    def __init__(self, **attributes: Any) -> None: ...
 
 class CertifiedWorkspace:
     end: str
@@ -812,35 +786,30 @@ class RegionShare:
 def region_share(question: WorkspaceQuestion, region: Region, count: int, /) -> RegionShare: ...
 def spread_rotations(count: int, angle: float) -> _Floats: ...
 
-class TwistMotion:
+class TwistMotion(_Struct):
     twist: Sequence[float] | _Floats
     rate: Sequence[float] | _Floats
-    def __init__(self, **attributes: Any) -> None: ...
 
-class PlatformMotion:
+class PlatformMotion(_Struct):
     internal: str
     linear_speed: float
     angular_speed: float
     given: TwistMotion | None
-    def __init__(self, **attributes: Any) -> None: ...
 
-class Weight:
+class Weight(_Struct):
     mass: float
     centre: Sequence[float] | _Floats
     gravity: Sequence[float] | _Floats
-    def __init__(self, **attributes: Any) -> None: ...
 
-class Tolerances:
+class Tolerances(_Struct):
     legs: _Floats
     joints: Sequence[float] | _Floats
-    def __init__(self, **attributes: Any) -> None: ...
 
-class PayloadLimits:
+class PayloadLimits(_Struct):
     push: _Floats
     pull: _Floats
     centre: Sequence[float] | _Floats
     gravity: Sequence[float] | _Floats
-    def __init__(self, **attributes: Any) -> None: ...
 
 class SheetQuestion:
     limits: Sequence[Limit]

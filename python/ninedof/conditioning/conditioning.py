@@ -60,16 +60,8 @@ def axis_singular_values(
 
     A second, independent computation of `singular_values`, accurate for any condition number. It takes the first joint
     of each triple for exact: where the legs are shorter than the coordinates of their ends by a factor f, the rounding
-    of the others makes the two differ by up to about 1e-15 f, relative.
-
-    Parameters
-    ----------
-    geometry : Geometry, Result or Design
-        Every joint triple a C3 orbit about z.
-    configuration : Configuration
-        Shape (...); position and internal point on z, rotation about z.
-    characteristic_length : float, array_like of shape (...), or str
-        Length l_c > 0, or a kind as in `characteristic_length`; 1 by default, of a design its own.
+    of the others makes the two differ by up to about 1e-15 f, relative. Parameters as in `singular_values`, with every
+    joint triple a C3 orbit about z, position and internal point on z, and a rotation about z.
 
     Returns
     -------

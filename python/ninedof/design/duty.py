@@ -21,23 +21,24 @@ Six = tuple[float, ...]
 positive_or_zero = partial(finite, least=0.0)
 
 
-def _six(name: str, value: Any, expected: str) -> Six:
+def six(name: str, value: Any, expected: str) -> Six:
+    """Return six finite numbers."""
     return tuple(finite(f"{name}[{k}]", x) for k, x in enumerate(items(name, value, expected, 6)))
 
 
 def _wrenches(name: str, value: Any) -> tuple[Six, ...]:
     rows = items(name, value, "a list of [mx, my, mz, fx, fy, fz]")
-    return tuple(_six(f"{name}[{k}]", one, "[mx, my, mz, fx, fy, fz]") for k, one in enumerate(rows))
+    return tuple(six(f"{name}[{k}]", one, "[mx, my, mz, fx, fy, fz]") for k, one in enumerate(rows))
 
 
 def _inertia(name: str, value: Any) -> Six:
-    six = _six(name, value, "[ixx, iyy, izz, ixy, ixz, iyz]")
-    small, middle, large = np.linalg.eigvalsh(inertia_matrix(six))
+    moments = six(name, value, "[ixx, iyy, izz, ixy, ixz, iyz]")
+    small, middle, large = np.linalg.eigvalsh(inertia_matrix(moments))
     slack = 1e-9 * max(abs(small), abs(large))
     if small < -slack or large > small + middle + slack:
-        moments = ", ".join(f"{x:g}" for x in (small, middle, large))
-        raise ValueError(f"{name}: got principal moments {moments}, expected none below 0 or above the other two's sum")
-    return six
+        got = ", ".join(f"{x:g}" for x in (small, middle, large))
+        raise ValueError(f"{name}: got principal moments {got}, expected none below 0 or above the other two's sum")
+    return moments
 
 
 @short_repr

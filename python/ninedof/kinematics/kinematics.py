@@ -76,15 +76,7 @@ def velocity_matrices(
 ) -> VelocityMatrices:
     """Return A, B, C, D, E, F and G of eqs. (30)-(35) by name.
 
-    They act on the twist (l_c omega, pdot). (Eqs. (27) and (29) as printed omit l_c.)
-
-    Parameters
-    ----------
-    geometry : Geometry, Result or Design
-    configuration : Configuration
-        Shape (...).
-    characteristic_length : float, array_like of shape (...), or str
-        Length l_c > 0 that makes the matrices homogeneous, or a kind as in `characteristic_length`.
+    They act on the twist (l_c omega, pdot). (Eqs. (27) and (29) as printed omit l_c.) Parameters as in `jacobian`.
 
     Raises
     ------

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from enum import StrEnum
 from typing import Any, Self
 
@@ -42,10 +41,14 @@ class PositionStatus(StrEnum):
     """The row of lengths has NaN."""
 
 
-def _value(method: Callable[[Any], Any]) -> property:
-    """Return a property that has a value of `Solutions` of its name."""
-    name = method.__name__
-    return property(lambda solutions: solutions._values[name], doc=method.__doc__)
+class _Value(property):
+    """A value of `Solutions`, under the name that it has there."""
+
+    def __init__(self, doc: str) -> None:
+        super().__init__(lambda solutions: solutions._values[self._name], doc=doc)
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
 
 
 class Solutions(Configuration):
@@ -70,45 +73,28 @@ class AssemblyModes(Solutions):
 
     __slots__ = ()
 
-    @_value
-    def status(self) -> Any:
-        """A PositionStatus, or an array of them, shape (...)."""
-
-    @_value
-    def reason(self) -> Any:
-        """Why there is no mode; empty if there is one. A string, or an array of shape (...)."""
-
-    @_value
-    def count(self) -> Any:
-        """Number of modes, 0 to 32. An integer, or an array of shape (...)."""
-
-    @_value
-    def certain(self) -> Any:
+    status = _Value("A PositionStatus, or an array of them, shape (...).")
+    reason = _Value("Why there is no mode; empty if there is one. A string, or an array of shape (...).")
+    count = _Value("Number of modes, 0 to 32. An integer, or an array of shape (...).")
+    certain = _Value(
         """Whether the count is confirmed. A bool, or an array of shape (...).
 
         A count of zero included. True if every root of the eliminant was isolated and became a separate mode, or if the
         null-space method found simple solutions only. False near a double solution, where two modes may be one or none,
         and where the scales of the robot and its lengths are too different to decide.
         """
-
-    @_value
-    def certificate(self) -> Any:
-        """A ModesCertificate if it was asked for, None otherwise."""
-
-    @_value
-    def separation(self) -> Any:
+    )
+    certificate = _Value("A ModesCertificate if it was asked for, None otherwise.")
+    separation = _Value(
         """Separation of each mode from the nearest other one, shape of the stack; 0 if singular, at most sqrt(3).
 
         Smallest singular value of the rows (Q w_i) x d_i, d_i and w_i being unit vectors from O to the external joints.
         """
-
-    @_value
-    def base_side(self) -> Any:
-        """Side of O relative to the plane of the base's internal joints: 1 along (c2 - c1) x (c3 - c1), -1, 0 in it."""
-
-    @_value
-    def platform_side(self) -> Any:
-        """The same for the platform's internal joints, in the platform frame."""
+    )
+    base_side = _Value(
+        "Side of O relative to the plane of the base's internal joints: 1 along (c2 - c1) x (c3 - c1), -1, 0 in it."
+    )
+    platform_side = _Value("The same for the platform's internal joints, in the platform frame.")
 
     def __repr__(self) -> str:
         """Show the number of modes, or the reason for having none."""
@@ -224,34 +210,23 @@ class Tracked(Solutions):
 
     __slots__ = ()
 
-    @_value
-    def status(self) -> Any:
-        """A TrackStatus, or an array of them of the stack's shape."""
-
-    @_value
-    def certificate(self) -> Any:
+    status = _Value("A TrackStatus, or an array of them of the stack's shape.")
+    certificate = _Value(
         """Kantorovich's number h = sqrt(3) beta eta of the end of the last step at its start, shape (...).
 
         For h <= 1/2 Newton's method is proved to converge, and to the only mode within `alone_within`. Above 1/2 the
         start is nearer than 0.385 times its `separation`, from where Newton's method converges too. In both cases
         bounds over the step prove that the mode reached is the continuous one.
         """
-
-    @_value
-    def alone_within(self) -> Any:
-        """No second mode with O on these sides is nearer to the start of the last step, rad; NaN where h > 1/2."""
-
-    @_value
-    def separation(self) -> Any:
-        """Separation of the mode from the nearest other one, as in AssemblyModes, shape (...)."""
-
-    @_value
-    def steps(self) -> Any:
-        """Number of steps into which the path was divided, shape (...)."""
-
-    @_value
-    def reached(self) -> Any:
-        """Fraction of the path from the lengths of the start to the given ones, shape (...); 1 where tracked."""
+    )
+    alone_within = _Value(
+        "No second mode with O on these sides is nearer to the start of the last step, rad; NaN where h > 1/2."
+    )
+    separation = _Value("Separation of the mode from the nearest other one, as in AssemblyModes, shape (...).")
+    steps = _Value("Number of steps into which the path was divided, shape (...).")
+    reached = _Value(
+        "Fraction of the path from the lengths of the start to the given ones, shape (...); 1 where tracked."
+    )
 
     def __repr__(self) -> str:
         """Show a single configuration with its status, or the shape of a stack."""

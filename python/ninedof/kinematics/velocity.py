@@ -160,12 +160,7 @@ def null_motion(geometry: Geometry, configuration: Configuration) -> Floats:
     leg rates, null_motion @ v moves O with velocity v and does not move the platform: J' maps every column to zero. The
     rank of the matrix is the redundancy: 3, nine legs for six coordinates. It is smaller only if O lies in the plane of
     the lower joints and in that of the upper ones, and these planes coincide: there O can move with all legs locked.
-
-    Parameters
-    ----------
-    geometry : Geometry, Result or Design
-    configuration : Configuration
-        Shape (...).
+    Parameters as in `leg_lengths`.
 
     Returns
     -------

@@ -288,10 +288,6 @@ def follow(
     gravity : array_like, shape (3,)
         Force per mass, base axes; (0, 0, -9.81) by default, of a study its own. Of the masses only.
 
-    Returns
-    -------
-    Followed
-
     Raises
     ------
     ValueError

@@ -4,32 +4,23 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import partial
-from typing import Any
 
 from ninedof.design.actuators import LEG_KINDS, Actuator, price_words
-from ninedof.design.duty import duty
 from ninedof.design.study import Study
-from ninedof.support.arguments import items, number, text, whole
-from ninedof.support.structs import StudyTable, entry
 from ninedof.support.text import short_repr
 
 EACH = 3  # legs of a kind
 
 
-def _texts(name: str, value: Any) -> tuple[str, ...]:
-    return tuple(text(name, one) for one in items(name, value, "a list of texts"))
-
-
 @short_repr
 @dataclass(frozen=True)
-class Combination(StudyTable):
+class Combination:
     """A row for each kind of legs, and the objective of the best design found with them."""
 
-    external: Actuator = entry(duty(Actuator))
-    upper: Actuator = entry(duty(Actuator))
-    lower: Actuator = entry(duty(Actuator))
-    objective: float = entry(number)
+    external: Actuator
+    upper: Actuator
+    lower: Actuator
+    objective: float
 
     @property
     def rows(self) -> dict[str, Actuator]:
@@ -52,19 +43,19 @@ class Combination(StudyTable):
 
 @short_repr
 @dataclass(frozen=True)
-class ActuatorChoice(StudyTable):
+class ActuatorChoice:
     """The combination of rows that a result has, and the search that chose it."""
 
-    chosen: Combination = entry(duty(Combination))
-    next_best: Combination | None = entry(duty(Combination), None)
+    chosen: Combination
+    next_best: Combination | None = None
     """The best of the others; None where none was found, or the search ended before."""
-    combinations: int = entry(partial(whole, least=0), 0)
+    combinations: int = 0
     """All combinations of the rows that were tried."""
-    solved: int = entry(partial(whole, least=0), 0)
+    solved: int = 0
     """Continuous studies that were solved for the choice."""
-    left_out: tuple[str, ...] = entry(_texts, ())
+    left_out: tuple[str, ...] = ()
     """Rows that were not tried: another can do as much and costs no more, or their stroke is too short."""
-    notes: tuple[str, ...] = entry(_texts, ())
+    notes: tuple[str, ...] = ()
     """The file that the rows are from, and what was not looked at."""
 
     @property

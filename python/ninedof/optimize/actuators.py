@@ -175,7 +175,7 @@ class ActuatorSearch:
         how: dict[str, Any] = {"status": Status.STOPPED, "interrupted": ended.interrupted}
         if values.get(best, math.inf) == math.inf:
             reason = f"{words}, before a combination was solved"
-            return replace(ended, candidates=(), region=None, study=self.study, reason=reason, **how)
+            return self._without_design(ended, reason=reason, **how)
         reason = f"{words}: other combinations may be better"
         return self._with_choice(replace(self.results[best], reason=reason, **how), best, None)
 
@@ -184,8 +184,7 @@ class ActuatorSearch:
         unsure = any(one.best is None and one.status != Status.INFEASIBLE for one in self.results.values())
         status = Status.STOPPED if unsure else Status.INFEASIBLE
         if self.passed_over:  # some rows fit: whoever passed over them knows why
-            some = next(iter(self.results.values()))
-            return replace(some, status=status, candidates=(), region=None, study=self.study)
+            return self._without_design(next(iter(self.results.values())), status=status)
         free = self._solved(self.study.with_actuators({}), (), "none", explain=True)
         if free.best is None:
             return replace(free, study=self.study, reason=f"without limits of actuators too: {free.reason}")
@@ -212,15 +211,11 @@ class ActuatorSearch:
             reasons = [f"rows fit each kind of legs, but no combination{price} does{cheapest}"]
         if unsure:
             reasons.append("not every study of the search came to an answer: more starts may find a design")
-        return replace(
-            free,
-            status=status,
-            reason="; ".join(reasons),
-            causes=tuple(causes) or ("actuators",),
-            candidates=(),
-            region=None,
-            study=self.study,
-        )
+        why = {"reason": "; ".join(reasons), "causes": tuple(causes) or ("actuators",)}
+        return self._without_design(free, status=status, **why)
+
+    def _without_design(self, result: Result, **how: Any) -> Result:
+        return replace(result, candidates=(), region=None, study=self.study, **how)
 
     def _least_margin(self, free: Result, kinds: Sequence[str], row: Actuator) -> float:
         """Return the least margin of the limits of a row at the poses and the design of a study without them."""

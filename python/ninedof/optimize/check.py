@@ -112,10 +112,6 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0, *, certify: 
     certify : bool
         Whether to prove the limits too, as `Result.certify` does: it takes up to minutes.
 
-    Returns
-    -------
-    Check
-
     Raises
     ------
     ValueError

@@ -12,13 +12,12 @@ from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.domains.poses import Pose
 from ninedof.design.domains.region import Region, circle, section_outline
-from ninedof.design.domains.region_poses import configurations_at, o_is_placed
+from ninedof.design.domains.region_poses import configurations_at, o_is_placed, placing_of
 from ninedof.design.limit_numbers import SPREADS, compared
 from ninedof.design.limits import kind_of
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.rotations import from_vectors
-from ninedof.optimize.reserve import placing_of
 from ninedof.optimize.result import Result
 from ninedof.proof.point_rule import tilt_and_yaw
 from ninedof.robot.configuration import Configuration
@@ -114,7 +113,7 @@ def region_map(result: Result) -> RegionMap | None:
     if region is None or best is None or (plane := _plane(region)) is None:
         return None
     g, neutral, length = best.geometry, best.configuration, best.characteristic_length
-    placing = placing_of(result)
+    placing = placing_of(result, neutral)
     places = _places(region, plane, placing is not None)
     at, words = _poses_at(region, plane, places)
     shape, rows = at.shape[:-1], at.reshape(-1, 6)

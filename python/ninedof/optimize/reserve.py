@@ -8,14 +8,15 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
-from ninedof.design.domains.region_poses import Placing, o_is_placed
+from ninedof.design.domains.region_poses import o_is_placed, placing_of
 from ninedof.design.duty import LARGEST_TOLERANCE, Tolerances, tolerances_like
 from ninedof.design.limit_numbers import crossed, with_scaled_limits
 from ninedof.design.limits import limit_words
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import Study
 from ninedof.optimize.candidate import best_of
-from ninedof.proof.machine import FOR_LIMITS, NEUTRAL_LIMIT, certify, open_limits
+from ninedof.proof.machine import FOR_LIMITS, Certify, certify
+from ninedof.proof.machine_limits import NEUTRAL_LIMIT, open_limits
 from ninedof.proof.machine_record import UNDECIDED, MachineCertificate
 from ninedof.proof.point_rule import PointRule, rule_of
 from ninedof.robot.configuration import Configuration
@@ -33,7 +34,7 @@ STEP, HALVINGS = 4.0, 5
 
 def certified(result: Any, options: dict[str, Any]) -> MachineCertificate:
     """Return the certificate of a machine, for the options of `Result.certify`."""
-    design, place = machine_of(result), placing_of(result)
+    design, place = machine_of(result), placing_of(result, result.configuration)
     progress = progress_argument(options.get("progress"))
     if options.get("rule") is None and options.get("resume") is None and place is not None:
         options["rule"] = lambda: rule_of(place, *design, options.get("threads", 0), progress)
@@ -47,13 +48,14 @@ def largest(result: Any, options: dict[str, Any]) -> tuple[Tolerances, bool]:
     none at all where not even the least ones are proved. A KeyboardInterrupt has the largest ones proved so far.
     """
     known_keys("largest_tolerance", options, {"condition_number", "slack", "time_limit", "threads", "rule", "progress"})
-    study, place, design = result.study, placing_of(result), machine_of(result)
-    seconds = finite("time_limit", options.pop("time_limit", 60.0), 0.0)
-    progress = progress_argument(options.pop("progress", None))
-    threads = options.setdefault("threads", 0)
-    rule = options.pop("rule", None)
-    if place is not None and not isinstance(rule, PointRule):
-        rule = rule_of(place, *design, threads, progress)
+    study, place, design = result.study, placing_of(result, result.configuration), machine_of(result)
+    asked = Certify(**{"time_limit": 60.0, "slack": 0.0} | options)
+    seconds, progress, rule = asked.time_limit, asked.progress, None
+    if isinstance(asked.rule, PointRule):
+        rule = asked.rule
+    elif place is not None:
+        rule = rule_of(place, *design, asked.threads, progress)
+    how: dict[str, Any] = {name: getattr(asked, name) for name in ("threads", "slack", "condition_number")}
     height = study.zp(design[1][0])
     first, least, most, limit = (share * height for share in (FIRST, LEAST, MOST, LARGEST_TOLERANCE))
     own = max(study.tolerances.joints, study.tolerances.legs)
@@ -67,7 +69,7 @@ def largest(result: Any, options: dict[str, Any]) -> tuple[Tolerances, bool]:
         phase(progress, f"proving {size:.3g}")
         each = max(seconds, FOR_LIMITS) if size == own else max(seconds / PROOFS, 0.5)  # its own ones as `certify` does
         begin = perf_counter()
-        unproved = open_limits(study, (*design, rule), of(size), each, **options)
+        unproved = open_limits(study, (*design, rule), of(size), each, **how)
         if unproved:  # the legs of a limit share its time
             ended = perf_counter() - begin >= each / len(LEGS)
             timed = ended and all(one.answer == UNDECIDED for one in unproved)
@@ -93,15 +95,6 @@ def machine_of(result: Any) -> tuple[Geometry, Configuration, float]:
     """Return geometry, neutral and listed poses, and characteristic length of the best design."""
     best = best_of(result)
     return best.geometry, best.configurations[: 1 + len(result.study.objective.poses)], best.characteristic_length
-
-
-def placing_of(result: Any) -> Placing | None:
-    """Return how O is placed in the region, where the study places it anew at every pose."""
-    best = result.best
-    if best is None or not o_is_placed(result.study):
-        return None
-    ranges = () if result.region is None else result.region.leg_ranges
-    return Placing(result.study, best.configuration, best.variables, best.objective, ranges)
 
 
 ROUNDS = 6  # two are enough where limits change little with the design

@@ -12,13 +12,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from ninedof.design.design_point import DERIVED, design_point
-from ninedof.design.domains.region_poses import posed
+from ninedof.design.domains.region_poses import o_is_placed, posed
 from ninedof.design.duty import Tolerances
 from ninedof.design.study import Study
 from ninedof.design.variables import changed_variables
 from ninedof.optimize.actuator_choice import ActuatorChoice
 from ninedof.optimize.candidate import Candidate, OfStudy, RegionReport, best_of, candidate_at, candidate_from
-from ninedof.optimize.reserve import Reserve, certified, largest, machine_of, placing_of
+from ninedof.optimize.reserve import Reserve, certified, largest, machine_of
 from ninedof.optimize.tables import agreement_sentence, candidates_table, internal_point_words, summary_lines
 from ninedof.proof.machine import machine_digest
 from ninedof.proof.machine_file import machine_file
@@ -213,7 +213,7 @@ class Result(OfStudy):
             )
         values = changed_variables(self.study, best.variables, changes)
         # Where O is placed anew, the poses that ruled have it where the old design wants it.
-        imposed = () if region is None or placing_of(self) is not None else region.poses
+        imposed = () if region is None or o_is_placed(self.study) else region.poses
         problem = posed(self.study, imposed).problem()
         with within(", ".join(changes), ": "):  # plates without a size
             point = design_point(problem, [values[name] for name in problem.names])

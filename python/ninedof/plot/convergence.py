@@ -46,11 +46,10 @@ def convergence(
     Examples
     --------
     >>> import ninedof as nd
-    >>> from ninedof import plot
     >>> study = nd.Study.paper()
     >>> starts = [dict(zip(study.variables, x)) for x in study.problem().starts(4, 0)]
     >>> runs = {form: [nd.trace(study, x, form).best for x in starts] for form in ("minimax", "plain")}
-    >>> figure = plot.convergence(runs["minimax"], runs["plain"], best=nd.optimize(study).condition_number)
+    >>> figure = nd.plot.convergence(runs["minimax"], runs["plain"], best=nd.optimize(study).condition_number)
 
     """
     methods = {"minimax SQP": minimax, "plain SQP": plain}

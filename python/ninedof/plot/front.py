@@ -62,8 +62,7 @@ def front(front: Front, sketches: int = 4, figure: Figure | None = None) -> Figu
     Examples
     --------
     >>> import ninedof as nd
-    >>> from ninedof import plot
-    >>> figure = plot.front(nd.pareto(nd.Study.paper(), "radius_ratio", values=[1.5, 2.0, 3.0]))
+    >>> figure = nd.plot.front(nd.pareto(nd.Study.paper(), "radius_ratio", values=[1.5, 2.0, 3.0]))
 
     """
     radians = front.unit == "rad"

@@ -41,10 +41,9 @@ def motion(followed: Followed, margins: Mapping[str, ArrayLike] | None = None, f
     Examples
     --------
     >>> import ninedof as nd
-    >>> from ninedof import plot
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> home = nd.Configuration.neutral(3.9828, 2.4432)
-    >>> figure = plot.motion(nd.follow(g, nd.Trajectory.circle(home, radius=0.5), home))
+    >>> figure = nd.plot.motion(nd.follow(g, nd.Trajectory.circle(home, radius=0.5), home))
 
     """
     t, lengths, kappa = followed.time, followed.leg_lengths, followed.condition_number

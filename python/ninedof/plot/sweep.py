@@ -47,10 +47,9 @@ def sweep(result: SweepResult, name: str = "", note: str = "", figure: Figure | 
     Examples
     --------
     >>> import ninedof as nd
-    >>> from ninedof import plot
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> home = nd.Configuration.neutral(zp=3.9828, zs=2.4435)
-    >>> figure = plot.sweep(nd.sweep(g, home, {"x_p": (-1.0, 1.0, 41), "y_p": (-1.0, 1.0, 41)}))
+    >>> figure = nd.plot.sweep(nd.sweep(g, home, {"x_p": (-1.0, 1.0, 41), "y_p": (-1.0, 1.0, 41)}))
 
     """
     name = name or next(iter(result))

@@ -108,15 +108,8 @@ def axis_condition_number_bounds(
 
     The first joint of each triple is taken as exact and the other two as its exact images; so are the heights of p and
     s, which lie on the axis exactly. The platform joints are Q u_i with Q as it stands.
-
-    Parameters
-    ----------
-    geometry : Geometry, Result or Design
-        Every joint triple a C3 orbit about z, to 1e-9 of its size.
-    configuration : Configuration
-        Shape (...); position and internal point on z, rotation about z.
-    characteristic_length, threads : optional
-        As in `condition_number_bounds`.
+    Parameters as in `condition_number_bounds`, with every joint triple a C3 orbit about z, to 1e-9 of its size,
+    position and internal point on z, and a rotation about z.
 
     Returns
     -------
@@ -147,13 +140,7 @@ def hexagonal_condition_number_bounds(
     """Return numbers between which the condition numbers of many hexagonal designs lie, by the closed form.
 
     The six numbers of a design are taken as exact, and the joints are those of eqs. (37)-(38) without rounding.
-
-    Parameters
-    ----------
-    a1, a2, b1, b2, zp, zs : array_like
-        Sides of base and platform, heights of platform and O, divided by the characteristic length. They broadcast.
-    threads : int, optional
-        As in `condition_number_bounds`.
+    Parameters as in `hexagonal_condition_number`.
 
     Returns
     -------

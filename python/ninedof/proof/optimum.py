@@ -12,6 +12,7 @@ from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.proof.optimum_steps import MOST_BOXES, StepByStep, prove_class, ways_of
 from ninedof.support.arguments import finite, instance, path_argument
 from ninedof.support.arrays import thread_argument
+from ninedof.support.kept.files import read_whole
 from ninedof.support.running import Progress, progress_argument
 from ninedof.support.structs import from_core
 from ninedof.support.text import short_repr
@@ -57,10 +58,6 @@ def prove_optimum(
         One per processor by default. Without a time limit the result is the same for any number.
     progress : callable, optional
         Called as progress(boxes examined, 0, lower bound so far).
-
-    Returns
-    -------
-    OptimumProof
 
     Raises
     ------
@@ -170,9 +167,6 @@ def check_certificate(
         If the file cannot be read.
 
     """
-    try:
-        data = path_argument("path", path).read_bytes()
-    except OSError as error:
-        raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
+    data = read_whole(path_argument("path", path))
     seconds = LONGEST if time_limit is None else finite("time_limit", time_limit, least=0.0)
     return from_core(CertificateCheck, _core.check_certificate(data, progress_argument(progress), seconds))

@@ -167,10 +167,6 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     home : Configuration
         The neutral configuration, a single one: for the axes of cones and the signs of determinants.
 
-    Returns
-    -------
-    PathLimits
-
     Examples
     --------
     >>> import ninedof as nd

@@ -86,10 +86,6 @@ def payload_along(
     centre : (3,) floats
         Centre of the payload, a point mass, in the frame of the plate; its origin by default.
 
-    Returns
-    -------
-    PathPayload
-
     Raises
     ------
     ValueError

@@ -106,10 +106,6 @@ def largest_payload(
     samples : int
         Half of the poses of the sample of a region; 10000 by default.
 
-    Returns
-    -------
-    Payload
-
     Raises
     ------
     ValueError

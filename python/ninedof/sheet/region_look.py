@@ -9,7 +9,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_at
 from ninedof.design.domains.poses import Pose
-from ninedof.design.domains.region_poses import Placing, configurations_at, o_is_placed, poses_at
+from ninedof.design.domains.region_poses import Placing, configurations_at, o_is_placed, placing_of, poses_at
 from ninedof.design.limit_numbers import compared
 from ninedof.robot.configuration import Configuration, flat
 from ninedof.robot.geometry import Geometry
@@ -59,11 +59,9 @@ def look_over(design: Any, c: Configuration, question: _core.SheetQuestion, coun
     """
     study: Any = getattr(design, "study", None)
     region = None if study is None else study.objective.region
-    report: Any = getattr(design, "region", None)
-    ranges = () if report is None else report.leg_ranges
-    if region is None or (o_is_placed(study) and report is None and compared(study)):
+    if region is None or (o_is_placed(study) and getattr(design, "region", None) is None and compared(study)):
         return Looked(c)
-    place = None if not o_is_placed(study) else Placing(study, c[0], design.variables, design.objective, ranges)
+    place = placing_of(design, c[0])
     samples = 2 * (count if place is None else min(count, PLACED))
     end = _core.sheet_over_region(question, region.for_core(), samples, None if place is None else place.for_core())
     search, at = from_core(RegionSearch, end, region=region.worded(study.unit)), end.worst

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.duty import INTERNAL, Masses
+from ninedof.design.duty import INTERNAL, Masses, six
 from ninedof.design.limit_numbers import CONES, JOINTS, PARTS, cone_limits, exempt_pairs
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
@@ -79,16 +79,9 @@ def weight_of(study: Study, mass: float | None, centre: ArrayLike | None, gravit
             if value is not None:
                 raise ValueError(f"{name}: got {shown(value)} without a mass, expected a mass too")
         return None
-    at = _vector("centre", masses.centre if centre is None else centre)
-    return Weight(
-        finite("mass", mass, 0.0),
-        study.tool.seen(at),
-        _vector("gravity", study.loads.gravity if gravity is None else gravity),
-    )
-
-
-def _vector(name: str, value: ArrayLike) -> Vector:
-    return vector(name, as_floats(name, value, (3,)).tolist())
+    at = vector("centre", masses.centre if centre is None else centre)
+    force_per_mass = vector("gravity", study.loads.gravity if gravity is None else gravity)
+    return Weight(finite("mass", mass, 0.0), study.tool.seen(at), force_per_mass)
 
 
 def masses_of(study: Study, mass: float | None = None, centre: Vector | None = None) -> Masses | None:
@@ -176,8 +169,9 @@ def motion_of(options: Mapping[str, Any], c: Configuration, rule: str) -> Motion
     internal, twist, rate = (options[name] for name in ("internal", "twist", "twist_rate"))
     internal = rule or _internal_over(c) if internal is None else choice("internal", internal, INTERNAL)
     if twist is not None:
-        rate = (0.0,) * 6 if rate is None else _six("twist_rate", rate)
-        return Motion(linear, angular, internal, _six("twist", twist), rate)
+        expected = "six finite numbers, rotation first"
+        rate = (0.0,) * 6 if rate is None else six("twist_rate", rate, expected)
+        return Motion(linear, angular, internal, six("twist", twist, expected), rate)
     if rate is not None:
         raise ValueError(f"twist_rate: got {shown(rate)} without a twist, expected a twist too")
     return Motion(linear, angular, internal)
@@ -220,13 +214,6 @@ def _limits(study: Study) -> list[_core.Limit]:
         out.append(_core.Limit(name=name, axis=axis))
     cones = (one for one in study.limits if one.row.is_angle and one.name not in JOINTS)
     return out + [study.limit_for_core(one) for one in cones]
-
-
-def _six(name: str, value: ArrayLike) -> tuple[float, ...]:
-    numbers = as_floats(name, value, (6,))
-    if numbers.shape != (6,) or not np.isfinite(numbers).all():
-        raise ValueError(f"{name}: got {shown(value)}, expected six finite numbers, rotation first")
-    return tuple(numbers.tolist())
 
 
 def load_rows(loads: ArrayLike | None) -> Floats:

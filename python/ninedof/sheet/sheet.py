@@ -302,10 +302,6 @@ def sheet(design: Any, poses: Configuration | None = None, **options: Unpack[She
         Name of the length unit; that of the study or the design file by default. With one, times are in seconds: the
         speed of a leg is labelled mm/s. The unit of forces is the caller's and has no name.
 
-    Returns
-    -------
-    Sheet
-
     Raises
     ------
     ValueError

@@ -105,15 +105,7 @@ def singularity_margins(
 
 @takes_designs
 def singularity(geometry: Geometry, configuration: Configuration, threads: int | None = None) -> Singularity:
-    """Return the weakest mechanism, and the motion that locked legs resist least.
-
-    Parameters
-    ----------
-    geometry : Geometry, Result or Design
-    configuration : Configuration
-        Shape (...).
-    threads : int, optional
-        Number of threads; one per processor by default. The result does not depend on it.
+    """Return the weakest mechanism, and the motion that locked legs resist least. Parameters as in `leg_lengths`.
 
     Returns
     -------

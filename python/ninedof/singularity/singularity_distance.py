@@ -144,10 +144,6 @@ def nearest_singularity(
     threads : int, optional
         Number of threads; one per processor by default. The result does not depend on it.
 
-    Returns
-    -------
-    NearestSingularity
-
     Raises
     ------
     ValueError

@@ -44,12 +44,7 @@ def error_map(geometry: Geometry, configuration: Configuration) -> Floats:
 
     An error d of a joint at the beginning of a leg (r_i, r^_i and u~_i) acts like a leg that is longer by the component
     of d along it, an error at its end (u_i) like a shorter leg. Directions are those of e, e~ and e^.
-
-    Parameters
-    ----------
-    geometry : Geometry, Result or Design
-    configuration : Configuration
-        Shape (...).
+    Parameters as in `leg_lengths`.
 
     Returns
     -------

@@ -101,10 +101,6 @@ def inverse_dynamics(
         moments newtons times the unit, so that gravity stays 9.81. "" by default: units that go together, where
         gravity is an acceleration in the unit of length.
 
-    Returns
-    -------
-    InverseDynamics
-
     Raises
     ------
     ValueError

@@ -230,17 +230,8 @@ def force_ellipsoid(
 
     {w : |J'^T w| <= 1} for w = (moment about p / l_c, force): the polar of the velocity ellipsoid, with the same
     directions and reciprocal semi-axes, so that the direction of the largest speed is that of the smallest force.
-
-    Parameters
-    ----------
-    geometry : Geometry, Result or Design
-    configuration : Configuration
-        Shape (...).
-    part : {"translation", "rotation", "twist"}
-        Forces through p without moment (n = 3), pure moments over l_c (n = 3), or wrenches (moment / l_c, force) (n =
-        6).
-    characteristic_length : float, array_like of shape (...), or str
-        As in `velocity_ellipsoid`.
+    Parameters as in `velocity_ellipsoid`; a part is of forces through p without moment, of pure moments over l_c, or of
+    wrenches (moment / l_c, force).
 
     Returns
     -------

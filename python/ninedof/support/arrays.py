@@ -79,22 +79,10 @@ def all_finite(name: str, values: Floats, missing: bool = False) -> Floats:
 
 def checked_out(out: Any, shape: tuple[int, ...]) -> Floats | None:
     """Return `out` if it is None or an array that can take a result of this shape."""
-    if out is None:
-        return None
-    if not isinstance(out, np.ndarray):
-        got = repr(type(out).__name__)
-    elif out.shape != shape:
-        got = f"shape {out.shape}"
-    elif out.dtype != np.float64:
-        got = f"dtype {out.dtype}"
-    elif not out.flags.c_contiguous:
-        got = f"strides {out.strides}"
-    elif not out.flags.aligned:
-        got = "a misaligned array"
-    elif not out.flags.writeable:
-        got = "a read-only array"
-    else:
-        return out
+    is_array = isinstance(out, np.ndarray)
+    if out is None or (is_array and out.shape == shape and out.dtype == np.float64 and out.flags.carray):
+        return out  # type: ignore[no-any-return]  # the condition says what it is
+    got = f"one of {out.dtype} and shape {out.shape}" if is_array else repr(type(out).__name__)
     raise ValueError(f"out: got {got}, expected a writeable aligned C-contiguous float64 array of shape {shape}")
 
 

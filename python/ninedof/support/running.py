@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
-from typing import cast
-from warnings import catch_warnings, simplefilter
+from typing import Any, cast
+from warnings import catch_warnings
 
 from ninedof.support.arguments import shown
 
@@ -41,12 +41,9 @@ class _Part:
         phase(self._whole, f"{self._name}, {words}")
 
 
-@contextmanager
-def notes_told() -> Iterator[None]:
+def notes_told() -> AbstractContextManager[Any]:
     """Leave out warnings: the notes of a study, which were told once."""
-    with catch_warnings():
-        simplefilter("ignore", UserWarning)
-        yield
+    return catch_warnings(action="ignore", category=UserWarning)
 
 
 def progress_argument(progress: object) -> Progress | None:

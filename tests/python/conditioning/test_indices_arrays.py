@@ -57,12 +57,6 @@ def test_out(published, stack, neutral, index):
     assert single == index(published, neutral)
 
 
-def test_out_in_fortran_order_is_rejected(published):
-    grid = nd.Configuration.neutral([[3.0], [4.0]], [1.0, 1.5, 2.0])
-    with pytest.raises(ValueError, match=r"^out: got"):
-        nd.condition_number(published, grid, out=np.zeros((2, 3), order="F"))
-
-
 def off_by_one(array):
     """Return equal numbers at an address that no double may have, as they come out of packed records and messages."""
     array = np.asarray(array, dtype=float)

@@ -12,9 +12,8 @@ from unsolved import unsolved
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.design.domains.region_poses import configurations_at, posed, poses_at
+from ninedof.design.domains.region_poses import configurations_at, placing_of, posed, poses_at
 from ninedof.export.model import model_of
-from ninedof.optimize.reserve import placing_of
 
 
 def cone_angles(g, c):
@@ -154,7 +153,7 @@ def test_lengths_where_o_is_placed_are_those_of_the_region():
         assert leg.shortest <= external[:, k].min() <= leg.shortest * 1.01
         assert leg.longest >= external[:, k].max() >= leg.longest * 0.99
     near = np.concatenate([shift, tilt], axis=1)[: size(1000, 20_000)]
-    placed, _ = placing_of(result)(near)
+    placed, _ = placing_of(result, result.configuration)(near)
     lengths = nd.leg_lengths(g, placed)
     needed = np.array([(leg.shortest, leg.longest) for leg in sheet.legs]).T
     permitted = np.array([leg.permitted for leg in sheet.legs]).T

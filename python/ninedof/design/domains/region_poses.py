@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -54,6 +55,14 @@ class Placing:
             ranges=[("", low, high, 0.0)] if self.leg_ranges else [],
             known=[[self.variables[f"{pose}.s_{axis}"] for axis in "xyz"] for pose in ruled],  # shifts of O in zp
         )
+
+
+def placing_of(design: Any, neutral: Configuration | None) -> Placing | None:
+    """Return how O is placed in the region of a design's study, where that places it anew at every pose."""
+    if neutral is None or not o_is_placed(design.study):
+        return None
+    ranges = () if getattr(design, "region", None) is None else design.region.leg_ranges
+    return Placing(design.study, neutral, design.variables, design.objective, ranges)
 
 
 def o_is_placed(study: Study) -> bool:

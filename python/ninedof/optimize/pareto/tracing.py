@@ -73,10 +73,6 @@ def pareto(
         Folder in which every solved limit is kept, made if it is missing. The same call with the same folder continues
         there, however the last one ended, and gives the same front.
 
-    Returns
-    -------
-    Front
-
     Raises
     ------
     ValueError

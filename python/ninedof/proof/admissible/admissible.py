@@ -78,10 +78,6 @@ def admissible(
     progress : callable, optional
         Called as progress(boxes of designs, 0, undecided share); with an executor progress(roots done, roots, None).
 
-    Returns
-    -------
-    AdmissibleSet
-
     Raises
     ------
     ValueError

@@ -70,10 +70,6 @@ def admissible_actuators(
     time_limit : float, optional
         Seconds for all rows together; none by default. A row that was not decided is "undecided".
 
-    Returns
-    -------
-    AdmissibleRows
-
     Raises
     ------
     ValueError

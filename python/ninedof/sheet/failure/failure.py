@@ -71,10 +71,6 @@ def failure(
     samples : int
         Half of the poses of the sample of a region, and even poses for shares; 10000 by default.
 
-    Returns
-    -------
-    Failure
-
     Raises
     ------
     ValueError

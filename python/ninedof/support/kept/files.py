@@ -68,12 +68,18 @@ def naming(error: OSError, path: Path) -> OSError:
     return OSError(error.errno, error.strerror or str(error), os.fspath(path)) if error.errno else error
 
 
-def read_text(path: str | os.PathLike[str]) -> str:
-    """Return the text of a file, without a byte order mark; ValueError names one that cannot be read."""
+def read_whole(path: Path) -> bytes:
+    """Return the bytes of a file; ValueError names one that cannot be read."""
     try:
-        return Path(path).read_text(encoding="utf-8-sig")
+        return path.read_bytes()
     except OSError as error:
         raise ValueError(f"{path}: cannot be read ({error.strerror or error})") from None
+
+
+def read_text(path: str | os.PathLike[str]) -> str:
+    """Return the text of a file, without a byte order mark and with line feeds; ValueError as `read_whole`."""
+    try:
+        return read_whole(Path(path)).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError:
         raise ValueError(f"{path}: cannot be read (not UTF-8 text)") from None
 
@@ -172,10 +178,7 @@ def read_json(path: Path, kind: str) -> dict[str, Any]:
 
     ValueError names a file that cannot be read, was changed, or is of another kind or version.
     """
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
+    data = read_whole(path)
     body, _, end = data.rpartition(DIGEST)
     if end != sha256(body).hexdigest().encode() + b'"\n}\n':
         raise ValueError(f"{path}: {CHANGED}")

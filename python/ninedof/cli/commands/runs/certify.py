@@ -14,7 +14,7 @@ from ninedof.cli.options import THREADS, Options, argument, option, struct, word
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.reserve import largest as largest_tolerance
 from ninedof.optimize.reserve import machine_of
-from ninedof.proof.machine import FOR_LIMITS, checked_numbers
+from ninedof.proof.machine import FOR_LIMITS, Certify
 from ninedof.proof.machine_file import require_replayable
 from ninedof.proof.machine_record import UNDECIDED, outward
 from ninedof.records.proofs import certificate_file, earlier_file, kept_certificates, save_certificate
@@ -69,8 +69,8 @@ def certify(options: _Options) -> Answer:
             f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
         )
     largest, timed = tolerance == LARGEST, False
-    numbers = {**how, "gap": options.gap, "tolerance": None if largest else tolerance}
-    *_, built, _, _ = checked_numbers(numbers, result.study, machine_of(result)[1])  # before anything is written
+    numbers = Certify(**how, gap=options.gap, tolerance=None if largest else tolerance)
+    built = numbers.built(result.study, machine_of(result)[1])  # before anything is written
     file = certificate_file(run)
     try:
         earlier = nd.load_certificate(run) if file.exists() else None
