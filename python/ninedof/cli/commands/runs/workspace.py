@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ninedof.cli.answer import Answer, finish_job, write_job
+from ninedof.cli.answer import Answer, finish_job, write_and_print
 from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
@@ -57,7 +57,7 @@ def workspace(options: WorkspaceOptions) -> None:
 
     # At once: an interruption of what follows does not lose the map.
     keep = Answer(_parts(result, question, chosen), {"workspace": result.to_dict()})
-    write_job(screen, keep, lambda _: write_run(result, directory, None, record))
+    write_and_print(screen, keep, partial(write_run, result, directory, record))
     if (proof := question.proof) is not None and not result.interrupted:
 
         def prove() -> CertifiedWorkspace:
@@ -70,7 +70,7 @@ def workspace(options: WorkspaceOptions) -> None:
             proved = proved.with_estimate(result.volume, result.error)
         result = replace(result, certified=proved)
         keep = Answer(proved.sentences(), {"workspace": result.to_dict()})
-        write_job(screen, keep, lambda _: write_run(result, directory, None, record))
+        write_and_print(screen, keep, partial(write_run, result, directory, record))
     data: dict[str, Any] = {"workspace": result.to_dict()}
     if region is not None and region.internal_point != "best" and not result.interrupted:
         keywords = question.keywords
@@ -86,7 +86,7 @@ def workspace(options: WorkspaceOptions) -> None:
         return workspace_figures.draw(result, screen, home, None if result.of_angles else region, folder)
 
     answer = Answer([], data, INTERRUPTED if stopped else DONE if result.volume > 0.0 else NO_RESULT)
-    write = partial(write_run, result, directory, question=record)
+    write = partial(write_run, result, directory, record)
     finish_job(options, directory, answer, write, draw if with_figures else None)
 
 
