@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import fields
 from inspect import Parameter, Signature, get_annotations
 from pathlib import Path
-from typing import Any, NamedTuple, NoReturn, get_type_hints
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, get_type_hints
 
 import typer
 
+import ninedof as nd
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.records.record import FILE as RECORD
 from ninedof.records.record import add_files
@@ -17,7 +18,12 @@ from ninedof.report.report import FILE, report
 from ninedof.support.kept.store import QUESTION
 from ninedof.support.text import one_line
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 FIGURES = (".png", ".svg", ".pdf")
+Figures = Iterable[tuple[str, "Figure"]]
+"""Figures as they are drawn, each behind the name of its files."""
 
 
 class Answer(NamedTuple):
@@ -65,7 +71,7 @@ def write_and_print(screen: Screen, answer: Answer, write: Callable[[], Path]) -
 
 
 def finish_job(
-    options: Any, folder: Path, answer: Answer, write: Callable[[], Path], draw: Callable[[Path], list[Path]] | None
+    options: Any, folder: Path, answer: Answer, write: Callable[[], Path], draw: Callable[[], Figures] | None
 ) -> NoReturn:
     """Write a run, print its answer, draw its figures, write its report, and end with the status of the answer.
 
@@ -75,7 +81,10 @@ def finish_job(
     record = write_and_print(screen, answer, write)
     try:
         (folder / FILE).unlink(missing_ok=True)  # that of an interrupted run would not agree with the record
-        files = draw(folder) if with_figures and draw is not None else []
+        files = []
+        for stem, figure in draw() if with_figures and draw is not None else ():
+            files += nd.plot.save(figure, folder, stem)
+            screen.say(f"figure {stem}")
         add_files(folder, files + (_report(folder, screen) if with_figures and options.report else []))
     except KeyboardInterrupt:
         screen.print(f"interrupted while drawing; run folder {folder} has the record")

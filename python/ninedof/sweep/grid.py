@@ -76,7 +76,9 @@ class GridWork:
         """Compute everything and return it with its labels; `unit` is the name of the length unit."""
         with computed(self, out, executor, progress) as (store, chunks):
             shapes = {i.name: (*self.grid.shape, *i.tail) for i in self.indices}
-            arrays = _in_memory(chunks, shapes) if store is None else _in_files(chunks, shapes, store.folder)
+            arrays = (
+                _in_memory(chunks, shapes, self.points) if store is None else _in_files(chunks, shapes, store.folder)
+            )
         swept = tuple(axis.name for axis in self.grid.axes)
         labelled = {name: "deg" if name.endswith(DEG) else units[name] for name in swept}
         labelled |= {i.name: i.unit for i in self.indices}
@@ -92,13 +94,12 @@ class GridWork:
         )
 
 
-def _in_memory(chunks: Computed, shapes: Mapping[str, tuple[int, ...]]) -> dict[str, Floats]:
+def _in_memory(chunks: Computed, shapes: Mapping[str, tuple[int, ...]], points: int) -> dict[str, Floats]:
     """Return an array for each index, filled by chunks."""
     try:
         arrays = {name: np.empty(shape) for name, shape in shapes.items()}
     except MemoryError:
-        words = f"arrays of the shapes {', '.join(map(str, shapes.values()))}"
-        raise ValueError(f"over: got {words}, expected what fits into memory, or out for a folder") from None
+        raise ValueError(f"over: got {points} points, expected what fits into memory, or out for a folder") from None
     for (first, last), values in chunks:
         for name, array in arrays.items():
             array.reshape(-1, *values[name].shape[1:])[first:last] = values[name]

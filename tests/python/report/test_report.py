@@ -377,12 +377,12 @@ def test_a_report_that_fails_does_not_fail_the_job(run, tmp_path, monkeypatch, e
     def fails(folder):
         raise error
 
-    def drawn(folder):
+    def drawn(figure, folder, stem):
         (folder / "front.svg").write_text("<svg xmlns='http://www.w3.org/2000/svg'/>")
         return [folder / "front.svg"]
 
     monkeypatch.setattr("ninedof.cli.answer.report", fails)
-    monkeypatch.setattr("ninedof.cli.commands.runs.pareto._draw", lambda front, screen, folder: drawn(folder))
+    monkeypatch.setattr("ninedof.plot.save", drawn)
     place = tmp_path / "run"
     status, out, _ = run(f"pareto --against radius_ratio --value 2 --starts 2 --out {place}")
     assert status == 0

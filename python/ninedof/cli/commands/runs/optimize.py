@@ -74,7 +74,7 @@ def optimize(options: _Options) -> None:
     if options.figures:
         from ninedof.records.figures import figures_of
 
-        draw = figures_of(run, screen.say, options.convergence)
+        draw = figures_of(run, options.convergence)
     proof = result.proof
     ended = result.status == nd.Status.STOPPED or (proof is not None and not proof.complete and proof.better is None)
     if options.time is not None and ended and seconds >= options.time and not result.interrupted:

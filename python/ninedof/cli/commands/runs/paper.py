@@ -5,9 +5,8 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from ninedof.cli.answer import Answer, finish_job
+from ninedof.cli.answer import Answer, Figures, finish_job
 from ninedof.cli.options import REPORT, THREADS, Options, option, struct
-from ninedof.cli.screen import Screen
 from ninedof.paper.verdicts import verdicts, verdicts_table
 from ninedof.records.record import Record, run_folder, write_record
 from ninedof.support.kept.store import Store
@@ -35,7 +34,7 @@ def paper(options: _Options) -> Answer:
     with run_folder(options.out) as directory, Store(directory, {"kind": "paper"}):
         answer = _answer(options)
     write = partial(write_record, Record("paper", {}, {"verdicts": answer.data}), directory)
-    finish_job(options, directory, answer, write, partial(_draw, options.screen))
+    finish_job(options, directory, answer, write, _draw)
 
 
 def _answer(options: _Options) -> Answer:
@@ -43,7 +42,7 @@ def _answer(options: _Options) -> Answer:
     return Answer([verdicts_table(rows)], rows)
 
 
-def _draw(screen: Screen, directory: Path) -> list[Path]:
-    from ninedof.paper.figures import draw
+def _draw() -> Figures:
+    from ninedof.paper.figures import all_figures
 
-    return draw(directory, screen.say)
+    return all_figures()

@@ -31,7 +31,7 @@ from ninedof.cli.options import (
     triple,
 )
 from ninedof.cli.posed import Chosen, named_design, with_length
-from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
+from ninedof.cli.screen import DONE, NO_RESULT, bold
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.design.limit_numbers import FORCES
 from ninedof.motion.follow import wrenches_along
@@ -130,7 +130,8 @@ def path(options: _Options) -> None:
     parts += [f"from the study: {', '.join(stated)}"] if stated else []
     write = partial(write_run, result, directory, question=question, results={"motion": motion}, limits=of_study)
     answer = Answer(parts, {"motion": motion}, DONE if result.tracked and not motion["breaks"] else NO_RESULT)
-    finish_job(options, directory, answer, write, partial(_draw, result, options.screen, of_study))
+    margins = _margins(result, of_study)
+    finish_job(options, directory, answer, write, lambda: [("motion", nd.plot.motion(result, margins))])
 
 
 def _trajectory(chosen: Chosen, options: _Options) -> nd.Trajectory:
@@ -203,13 +204,9 @@ def _payload(chosen: Chosen, motion: nd.Followed) -> Iterator[str]:
         yield f"{nd.payload_along(chosen.machine, motion).words}; {at}"
 
 
-def _draw(result: nd.Followed, screen: Screen, of_study: nd.PathLimits | None, directory: Path) -> list[Path]:
-    """Draw lengths, condition number and the margins of a study's limits; return the files."""
-    screen.say("drawing the motion")
-    from ninedof import plot
-
-    margins = None
-    if of_study:
-        margin = result.leg_margins.min(axis=1)  # infinite without limits
-        margins = ({"leg lengths": margin} if np.isfinite(margin).all() else {}) | of_study.margins
-    return plot.save(plot.motion(result, margins), directory, "motion")
+def _margins(result: nd.Followed, of_study: nd.PathLimits | None) -> dict[str, Any] | None:
+    """Return the margins of a study's limits along the path, those of the legs first; None without a study."""
+    if not of_study:
+        return None
+    margin = result.leg_margins.min(axis=1)  # infinite without limits
+    return ({"leg lengths": margin} if np.isfinite(margin).all() else {}) | of_study.margins

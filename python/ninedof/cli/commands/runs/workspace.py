@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import Any, TypeVar
 
-from ninedof.cli.answer import Answer, finish_job, write_and_print
+from ninedof.cli.answer import Answer, Figures, finish_job, write_and_print
 from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
@@ -80,10 +79,10 @@ def workspace(options: WorkspaceOptions) -> None:
     stopped = result.interrupted or (result.certified is not None and result.certified.interrupted)
     with_figures = result.volume > 0.0 and result.method != "sample"
 
-    def draw(folder: Path) -> list[Path]:
+    def draw() -> Figures:
         from ninedof.cli import workspace_figures
 
-        return workspace_figures.draw(result, screen, home, None if result.of_angles else region, folder)
+        return workspace_figures.draw(result, home, None if result.of_angles else region)
 
     answer = Answer([], data, INTERRUPTED if stopped else DONE if result.volume > 0.0 else NO_RESULT)
     write = partial(write_run, result, directory, record)
