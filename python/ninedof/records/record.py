@@ -64,14 +64,9 @@ def _of_now() -> Path:
     stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
     for attempt in itertools.count():
         path = RUNS / (f"{stamp}-{attempt}" if attempt else stamp)
-        try:
+        with suppress(FileExistsError):  # another run began in this second
             path.mkdir(parents=True)
-        except FileExistsError:
-            continue
-        except OSError as error:
-            expected = "expected a writeable place"
-            raise ValueError(f"out: got {path}, which cannot be created ({error.strerror}), {expected}") from None
-        return path
+            return path
     raise AssertionError("unreachable")
 
 

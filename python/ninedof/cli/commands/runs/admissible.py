@@ -21,7 +21,6 @@ from ninedof.support.running import ended_by_time, goes_on
 from ninedof.support.units import amount, plain_name
 from ninedof.tables import Table, columns
 
-PLACE = 4
 TIME, RESOLUTION = 300.0, 0.01
 SIDES = ("down", "up")
 DESIGNS = Path("designs")  # --out that is named where none was given

@@ -15,7 +15,6 @@ from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.sweep.result import atlas_table
 from ninedof.sweep.survey import RADIUS_RATIO, squared_radius_ratio
 
-PLACE = 5
 EXAMPLES = """
   ninedof atlas                                        a million designs
   ninedof atlas --designs 100000000 --out atlas        a hundred million; again after an interruption"""

@@ -26,7 +26,6 @@ from ninedof.support.running import ended_by_time, goes_on
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
 
-PLACE = 4
 LARGEST = "max"
 EXAMPLES = """
   ninedof certify runs/20260101-120000                certify.json in the run folder

@@ -25,7 +25,6 @@ from ninedof.support.arguments import finite
 from ninedof.support.running import ended_by_time, notes_told
 from ninedof.support.units import amount, unit_entry
 
-PLACE = 1
 EXAMPLES = """
   ninedof optimize                         the paper's problem, beside the published optimum
   ninedof optimize study.toml --out run1   a study of your own, run folder run1

@@ -11,7 +11,6 @@ from ninedof.paper.verdicts import verdicts, verdicts_table
 from ninedof.records.record import Record, run_folder, write_record
 from ninedof.support.kept.store import Store
 
-PLACE = 7
 EXAMPLES = """
   ninedof paper --json | jq '.[].verdict'
   ninedof paper --figures --out figures    Figs. 1 to 7, drawn anew"""

@@ -21,7 +21,6 @@ from ninedof.records.load import split
 from ninedof.records.record import run_folder, write_run
 from ninedof.support.running import notes_told
 
-PLACE = 2
 EXAMPLES = """
   ninedof pareto --against radius_ratio    the paper's optimum for several sizes of the base
   ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4

@@ -46,7 +46,6 @@ from ninedof.sheet.tables import load_words, weight_words
 from ninedof.support.kept.store import Store
 from ninedof.support.units import amount, per, unit_entry
 
-PLACE = 7
 SLACK = 1e-6  # by which a speed may be passed, relative
 SHAPES, TIMES = ("circle", "line", "spiral"), ("duration", "points")
 EXAMPLES = """
@@ -123,8 +122,10 @@ def path(options: _Options) -> None:
         *(bold(*words) for words in motion_words(result, motion)),
         *_turned(trajectory, home),
         *_faster(result, chosen.duty.speeds),
-        *_payload(chosen, result),
     ]
+    if any(one.kind in (FORCES, "power") and one.at == "poses" for one in chosen.duty.limits):
+        at = "of a point mass at the plate's origin, beside loads and masses"
+        parts.append(f"{nd.payload_along(chosen.machine, result).words}; {at}")
     parts += _acting(result, masses, np.hstack([_rows(moment), _rows(force)]), chosen.tool)
     stated = [*stated, *masses_words(chosen.duty, options.mass)]
     parts += [f"from the study: {', '.join(stated)}"] if stated else []
@@ -195,13 +196,6 @@ def _acting(motion: nd.Followed, masses: nd.Masses | None, loads: Any, tool: nd.
         words += ["inertia too"]
     if words:
         yield f"acting: {'; '.join(words)}"
-
-
-def _payload(chosen: Chosen, motion: nd.Followed) -> Iterator[str]:
-    """Yield what the machine can carry along the path, where its study limits forces or powers."""
-    if any(one.kind in (FORCES, "power") and one.at == "poses" for one in chosen.duty.limits):
-        at = "of a point mass at the plate's origin, beside loads and masses"
-        yield f"{nd.payload_along(chosen.machine, motion).words}; {at}"
 
 
 def _margins(result: nd.Followed, of_study: nd.PathLimits | None) -> dict[str, Any] | None:

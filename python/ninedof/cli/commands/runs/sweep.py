@@ -30,7 +30,6 @@ VARIABLES = frozenset(name for names in FAMILIES.values() for name in names)
 FIGURES = ("figure-6", "figure-7")
 OF_POSES = ("absolute", "internal_point", "threads")
 NONE_WITH_FIGURES = ("over", "index", *OF_POSES, "lc", "chunk", *HEXAGON)
-PLACE = 4
 EXAMPLES = """
   ninedof sweep figure-6                   the condition number against displacement, as in the paper's Fig. 6
   ninedof sweep --over x_p=-1:1:201 --over theta_z_deg=-60:60:121

@@ -20,7 +20,6 @@ from ninedof.workspace import workspace as find_workspace
 from ninedof.workspace.study_question import region_share
 from ninedof.workspace.tables import asked_lines, cut_words, share_words, workspace_table, workspace_words
 
-PLACE = 6
 S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)
 OF_THE_MAP = ("method", "tolerance", "resolution", "points", "seed", "index")
 EXAMPLES = """
