@@ -65,10 +65,13 @@ def view(
     ...     viewer.wait()
 
     """
-    from ninedof.support.arguments import flag, text
+    from ninedof.motion.trajectory import Trajectory
+    from ninedof.support.arguments import flag, path_argument, text
     from ninedof.support.extras import optional
 
     host, dark = text("host", host), flag("dark", dark)
+    if path is not None and not isinstance(path, Trajectory):
+        path_argument("path", path)
     optional("viser", "viewer", "the viewer")
     from ninedof.viewer.app import Viewer
     from ninedof.viewer.designs import designs_of
