@@ -6,19 +6,24 @@ from collections.abc import Callable, Iterable
 from dataclasses import fields
 from inspect import Parameter, Signature, get_annotations
 from pathlib import Path
-from typing import Any, NamedTuple, NoReturn, get_type_hints
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, get_type_hints
 
 import typer
 
-from ninedof.cli.options import JobOptions
+import ninedof as nd
 from ninedof.cli.screen import DONE, INTERRUPTED, Screen
 from ninedof.records.record import FILE as RECORD
-from ninedof.records.record import Draw
+from ninedof.records.record import add_files
 from ninedof.report.report import FILE, report
 from ninedof.support.kept.store import QUESTION
 from ninedof.support.text import one_line
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 FIGURES = (".png", ".svg", ".pdf")
+Figures = Iterable[tuple[str, "Figure"]]
+"""Figures as they are drawn, each behind the name of its files."""
 
 
 class Answer(NamedTuple):
@@ -30,12 +35,6 @@ class Answer(NamedTuple):
     """For --json."""
     status: int = DONE
 
-    def show(self, screen: Screen) -> None:
-        """Print it and end with its status."""
-        screen.print(*self.parts)
-        screen.data(self.data)
-        raise typer.Exit(self.status)
-
 
 def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
     """Return a command of a call that takes a struct of options; options that it shares with others come last."""
@@ -45,9 +44,10 @@ def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
 
     def parsed(**values: Any) -> None:
         options: Any = kind(**values)
-        answer = call(options)
-        if answer is not None:
-            answer.show(options.screen)
+        if (answer := call(options)) is not None:
+            options.screen.print(*answer.parts)
+            options.screen.data(answer.data)
+            raise typer.Exit(answer.status)
 
     parsed.__name__, parsed.__doc__ = call.__name__, call.__doc__
     parameters = [Parameter(n, Parameter.KEYWORD_ONLY, default=marks[n], annotation=hints[n]) for n in names]
@@ -56,44 +56,44 @@ def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
     return parsed
 
 
-def write_job(
-    screen: Screen, answer: Answer, write: Callable[[Draw], Path], draw: Draw | None = None, report: bool = False
-) -> Path:
-    """Write a run, print its answer, draw its figures and write its report; return its record.
+def write_and_print(screen: Screen, answer: Answer, write: Callable[[], Path]) -> Path:
+    """Write what was computed, and print its answer; return the file.
 
-    `write` writes the record and then calls what it is given, in the run folder. Where files cannot be written the
-    answer is printed all the same, its JSON too: a full disk does not lose what was computed.
+    Where it cannot be written the answer is printed all the same, its JSON too: a full disk does not lose it.
     """
-    parts = iter(answer.parts)  # empty once they are printed
-
-    def draw_all(folder: Path) -> list[Path]:
-        (folder / FILE).unlink(missing_ok=True)  # that of an interrupted run would not agree with the record
-        screen.print(*parts)
-        try:
-            files = [] if draw is None else list(draw(folder))
-            return files + (_report(folder, screen) if report else [])
-        except KeyboardInterrupt:
-            screen.print(f"interrupted while drawing; run folder {folder} has the record")
-            raise
-
     try:
-        record = write(draw_all)
+        return write()
     except OSError:
-        screen.print(*parts)
         screen.data(answer.data)
         raise
-    screen.print(*parts)
-    return record
+    finally:
+        screen.print(*answer.parts)
 
 
 def finish_job(
-    options: JobOptions, folder: Path, answer: Answer, write: Callable[[Draw], Path], draw: Draw | None
+    options: Any, folder: Path, answer: Answer, write: Callable[[], Path], draw: Callable[[], Figures] | None
 ) -> NoReturn:
-    """Write a job, of an interrupted one without figures, print what its folder has, and end with its status."""
+    """Write a run, print its answer, draw its figures, write its report, and end with the status of the answer.
+
+    An interrupted run has no figures. `options` say whether to draw and to report, as `JobOptions`.
+    """
     screen, with_figures = options.screen, options.figures and answer.status != INTERRUPTED
-    record = write_job(screen, answer, write, draw if with_figures else None, with_figures and options.report)
+    record = write_and_print(screen, answer, write)
+    try:
+        (folder / FILE).unlink(missing_ok=True)  # that of an interrupted run would not agree with the record
+        files = []
+        for stem, figure in draw() if with_figures and draw is not None else ():
+            files += nd.plot.save(figure, folder, stem)
+            screen.say(f"figure {stem}")
+        add_files(folder, files + (_report(folder, screen) if with_figures and options.report else []))
+    except KeyboardInterrupt:
+        screen.print(f"interrupted while drawing; run folder {folder} has the record")
+        raise
+    except OSError:
+        screen.data(answer.data)
+        raise
     screen.print(folder_words(folder))
-    screen.data({**answer.data, "record": str(record)})
+    screen.data({**answer.data, "record": str(record)} if isinstance(answer.data, dict) else answer.data)
     raise typer.Exit(answer.status)
 
 

@@ -20,6 +20,9 @@ from ninedof.support.running import running
 PROGRAM = "ninedof"
 OWN = ("-h", "--help", "--version", "--install-completion", "--show-completion")  # options of no command
 DEFAULT = "optimize"  # the command of a line that begins with a study file or an option
+# In --help; the other commands are between them by their names.
+FIRST = ("optimize", "pareto", "compare", "evaluate", "failure", "report", "sheet", "view")
+LAST = ("atlas", "workspace", "paper", "path")
 
 
 def _with_command(words: Sequence[str]) -> list[str]:
@@ -74,9 +77,9 @@ def _root(
 
 _FILES = (one.name for one in walk_packages(commands.__path__, f"{commands.__name__}.") if not one.ispkg)
 MODULES = {file.rpartition(".")[2]: import_module(file) for file in _FILES}
-for _name, _module in sorted(MODULES.items(), key=lambda item: (int(item[1].PLACE), item[0])):
-    _examples = _module.EXAMPLES.replace("\n", "\n\n")  # a paragraph each
-    app.command(epilog=f"[bold]Examples[/bold]{_examples}")(command(getattr(_module, _name)))
+for _name in (*FIRST, *sorted(MODULES.keys() - {*FIRST, *LAST}), *LAST):
+    _examples = MODULES[_name].EXAMPLES.replace("\n", "\n\n")  # a paragraph each
+    app.command(epilog=f"[bold]Examples[/bold]{_examples}")(command(getattr(MODULES[_name], _name)))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

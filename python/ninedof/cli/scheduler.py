@@ -6,7 +6,7 @@ import asyncio
 import logging
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 
 from ninedof.support.arguments import LONGEST, cleaned, shown
 from ninedof.support.extras import optional
@@ -31,7 +31,9 @@ def executor_at(scheduler: str | None) -> Iterator[Executor | None]:
     async def handshake() -> None:
         (await asyncio.wait_for(distributed.comm.connect(scheduler, timeout=TIMEOUT), TIMEOUT)).abort()
 
-    with _silent():
+    with ExitStack() as after:
+        after.callback(logging.disable, logging.root.manager.disable)
+        logging.disable(logging.CRITICAL)  # of a lost connection dask writes ninety lines, each of an error we raise
         try:
             asyncio.run(handshake())  # a client that finds no scheduler goes on looking for it
             client = distributed.Client(scheduler, timeout=TIMEOUT, set_as_default=False)
@@ -53,14 +55,3 @@ def executor_at(scheduler: str | None) -> Iterator[Executor | None]:
         finally:
             with suppress(Exception):  # a scheduler that is lost cannot take leave
                 client.close(timeout=CLOSING)
-
-
-@contextmanager
-def _silent() -> Iterator[None]:
-    """Log nothing: of a lost connection dask writes ninety lines, and each is one of an error that we raise."""
-    before = logging.root.manager.disable
-    logging.disable(logging.CRITICAL)
-    try:
-        yield
-    finally:
-        logging.disable(before)

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from datetime import timedelta
 from functools import partial
-from threading import Event, Lock, Thread
 from typing import Any
 
 from rich.console import Console
@@ -100,34 +99,21 @@ class Screen:
 
     @contextmanager
     def bar(self, kind: str, title: str) -> Iterator[Bar]:
-        """Show a progress bar, one of BARS, at once or from the first report on; in a pipe or log a line now and then.
+        """Show a progress bar, one of BARS, at once or from the first report on.
 
         Bad input raises before the first report: a bar that waits for it is then not shown.
         """
-        columns, words, at_once = BARS[kind]
-        # What the work is at may take several lines; the rest is short.
-        first = TextColumn("{task.description}", markup=False, table_column=Column(overflow="fold"))
-        parts = (first, *(TextColumn(one, markup=False) if isinstance(one, str) else one() for one in columns))
-        progress = Progress(*parts, console=self.progress_console)
-        if at_once:
-            progress.start()
-        bar, ended, looking = Bar(progress, title, words), Event(), None
-        if not self.progress_console.is_interactive:  # reports may be minutes apart
-            looking = Thread(target=bar.wait, args=(ended,), daemon=True)
-            looking.start()
+        bar = Bar(self.progress_console, kind, title)
         try:
             yield bar
         except ValueError:
             if not bar.reported:  # bad input: nothing was done that the bar could show
-                progress.live.transient = True
-                progress.live.stop()
+                bar.live.transient = True
+                bar.live.stop()
             raise
         finally:
-            ended.set()
-            if looking is not None:
-                looking.join()
-            if progress.live.is_started:
-                progress.stop()
+            if bar.live.is_started:
+                bar.stop()
 
 
 def best_words(best: float | None) -> str:
@@ -142,7 +128,6 @@ class _Boxes(ProgressColumn):
         return Text(f"{task.completed:,.0f} boxes" if task.completed else "")
 
 
-BETWEEN_LOOKS = 1.0  # seconds, at the clock while nothing is reported
 FIRST_LINE, LONGEST_SILENCE = 10.0, 300.0  # seconds: in a log lines at 10, 20, 40 ... s, then every five minutes
 NARROW = partial(BarColumn, bar_width=12)
 VALUE = "{task.fields[value]}"
@@ -181,49 +166,51 @@ BARS: dict[str, tuple[Sequence[Callable[[], ProgressColumn] | str], Callable[[fl
 }
 
 
-class Bar:
-    """A progress bar, updated by `show` or a call."""
+class Bar(Progress):
+    """A progress bar, updated by `show` or a call; in a pipe or log a plain line now and then."""
 
-    def __init__(self, progress: Progress, title: str, words: Callable[[float | None], str]) -> None:
-        """Add a bar without a length; `words` formats the value of a report."""
-        title = one_line(title)
-        self._progress, self._title, self._words = progress, title, words
-        self._task = progress.add_task(title, total=None, value="")
-        self.reported = False
-        self._begun = progress.get_time()
-        self._next_line = FIRST_LINE
-        self._lock = Lock()
+    def __init__(self, console: Console, kind: str, title: str) -> None:
+        """Add a task without a length."""
+        columns, self._words, at_once = BARS[kind]
+        self._title, self.reported, self._next_line = one_line(title), False, FIRST_LINE
+        # What the work is at may take several lines; the rest is short.
+        first = TextColumn("{task.description}", markup=False, table_column=Column(overflow="fold"))
+        parts = (TextColumn(one, markup=False) if isinstance(one, str) else one() for one in columns)
+        super().__init__(first, *parts, console=console)
+        self._task = self.add_task(self._title, total=None, value="")
+        if at_once:
+            self.start()
 
     def show(self, done: int, total: int, value: float | None) -> None:
         """Update the bar: the progress callback of a long call."""
         self.reported = True
-        self._progress.start()
-        self._progress.update(self._task, completed=done, total=total, value=self._words(value))
+        self.update(self._task, completed=done, total=total, value=self._words(value))
+        self.start()
         self._line()
 
     __call__ = show
 
     def phase(self, words: str) -> None:
         """Say behind the title which part of the work is done; the value was that of the part before it."""
-        self._progress.start()
-        self._progress.update(self._task, description=one_line(f"{self._title}: {words}"), value="")
+        self.update(self._task, description=one_line(f"{self._title}: {words}"), value="")
+        self.start()
         self._line()
 
-    def wait(self, ended: Event) -> None:
-        """Print lines until the work has ended, while nothing is reported too; none before the bar is shown."""
-        with suppress(OSError):  # a pipe that has been closed
-            while not ended.wait(BETWEEN_LOOKS):
-                if self._progress.live.is_started:
-                    self._line()
+    def get_renderable(self) -> Any:
+        """Return what is drawn; rich calls this ten times a second, also where nothing is reported or drawn."""
+        self._line()
+        return super().get_renderable()
 
     def _line(self) -> None:
         """Print what the bar says as a plain line where no bar can be drawn, if the time of the next line has come."""
-        progress = self._progress
         with self._lock:
-            seconds = progress.get_time() - self._begun
-            if progress.console.is_interactive or seconds < self._next_line:
+            if not self.tasks or not self.live.is_started or self.console.is_interactive:
+                return
+            seconds = self.tasks[0].elapsed or 0.0
+            if seconds < self._next_line:
                 return
             self._next_line = seconds + min(seconds, LONGEST_SILENCE)
-            shown = [column(progress.tasks[0]) for column in progress.columns if isinstance(column, ProgressColumn)]
+            shown = [column(self.tasks[0]) for column in self.columns if isinstance(column, ProgressColumn)]
             words = [part.plain.strip() for part in shown if isinstance(part, Text)]
-            progress.console.print("  ".join(filter(None, words)), soft_wrap=True)
+            with suppress(OSError):  # a pipe that has been closed
+                self.console.print("  ".join(filter(None, words)), soft_wrap=True)

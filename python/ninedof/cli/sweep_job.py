@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ninedof.cli.answer import Answer, finish_job
+from ninedof.cli.answer import Answer, Figures, finish_job
 from ninedof.cli.options import SCHEDULER, JobOptions, option, struct
 from ninedof.cli.scheduler import executor_at
 from ninedof.design.indices import size_of
@@ -17,9 +17,6 @@ from ninedof.records.record import run_folder, write_run
 from ninedof.support.arrays import blocks
 from ninedof.sweep import SweepResult
 from ninedof.tables import Table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MOST_PRINTED = 10_000  # numbers in JSON; larger results are in the file only
 
@@ -46,22 +43,15 @@ class Job(JobOptions):
         folder: Path,
         data: Any,
         table: Table,
-        draw: Callable[[], Iterable[tuple[str, Figure]]],
+        draw: Callable[[], Figures],
         stated: Mapping[str, Any] | None = None,
     ) -> None:
-        """Write the result and its record, print the table, then write figures, each with its name, and the report.
+        """Write the result and its record, print the table, then write figures and the report.
 
         `stated` is what the record says of the study of the design.
         """
-
-        def drawn(place: Path) -> list[Path]:
-            self.screen.say(f"drawing the {next(iter(data))}")
-            from ninedof import plot
-
-            return [file for name, figure in draw() for file in plot.save(figure, place, name)]
-
         write = partial(write_run, result, folder, question=stated, results=data)
-        finish_job(self, folder, Answer([table], data), write, drawn)
+        finish_job(self, folder, Answer([table], data), write, draw)
 
 
 def describe(result: SweepResult, name: str) -> dict[str, Any]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from ninedof import plot
-from ninedof.cli.screen import Screen
+from ninedof.cli.answer import Figures
 from ninedof.design.domains.region import Region, region_lines, section_outline
 from ninedof.plot import Section
 from ninedof.plot.style import round_to
@@ -19,37 +19,31 @@ from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 NEAR = 10.0  # home is marked in a section within this part of the size of the workspace
 
 
-def draw(
-    workspace: WorkspaceMap, screen: Screen, home: Configuration, region: Region | None, directory: Path
-) -> list[Path]:
-    """Draw sections and, of positions, the body; return the files.
+def draw(workspace: WorkspaceMap, home: Configuration, region: Region | None) -> Figures:
+    """Yield sections and, of positions, the body, behind their names.
 
     Vertical sections are at round values near the centre of the largest ball, or else the worst pose, or in the middle
     of the region of a study, which is outlined. The horizontal one goes through home, which is marked near its plane.
     """
-    screen.say("drawing the workspace")
     middle = workspace.ball_centre if workspace.ball_radius > 0.0 else workspace.worst_at
     if region is not None:
         middle = home.position
     sections = [_section(workspace, home, region, middle, *plane) for plane in _planes(workspace, home, middle)]
-    figure = plot.workspace(workspace, sections)
-    files = plot.save(figure, directory, "workspace")
+    yield "workspace", plot.workspace(workspace, sections)
     if workspace.of_angles:
-        return files
+        return
     if workspace.certified is not None and workspace.certified.volume[1] > 0.0:
-        files += _draw_certified(workspace, workspace.certified, home, region, directory)
-    screen.say("drawing the body of the workspace")
+        yield "certified_workspace", _certified(workspace, workspace.certified, home, region)
     surface = workspace.surface()
     if len(surface.faces):
         lines = () if region is None else region_lines(region, home)
-        body = plot.workspace_body(surface, workspace.coordinates, home=home.position, lines=lines, unit=workspace.unit)
-        files += plot.save(body, directory, "workspace_body")
-    return files
+        axes, unit = workspace.coordinates, workspace.unit
+        yield "workspace_body", plot.workspace_body(surface, axes, home=home.position, lines=lines, unit=unit)
 
 
-def _draw_certified(
-    workspace: WorkspaceMap, proved: CertifiedWorkspace, home: Configuration, region: Region | None, directory: Path
-) -> list[Path]:
+def _certified(
+    workspace: WorkspaceMap, proved: CertifiedWorkspace, home: Configuration, region: Region | None
+) -> Figure:
     middle = workspace.ball_centre if workspace.ball_radius > 0.0 and region is None else home.position
     panels = []
     for fixed, at in _planes(workspace, home, middle)[::2]:
@@ -57,7 +51,7 @@ def _draw_certified(
         section = _section(workspace, home, region, middle, fixed, place)
         plane = proved.section(workspace.coordinates[fixed], place)
         panels.append(Section(plane, region=section.region, home=section.home, estimate=section.plane))
-    return plot.save(plot.certified_workspace(panels, workspace.unit), directory, "certified_workspace")
+    return plot.certified_workspace(panels, workspace.unit)
 
 
 def _planes(workspace: WorkspaceMap, home: Configuration, middle: Floats) -> list[tuple[int, float]]:

@@ -90,10 +90,6 @@ class WorkspaceOptions(JobOptions):
     threads: int | None = option(THREADS)
 
 
-def _is_of_criteria(name: str) -> bool:
-    return plain_name(name) in (*OF_LENGTHS, *CRITERIA) or name.endswith("_axis")
-
-
 @dataclass(frozen=True)
 class Question:
     """A question for `nd.workspace`."""
@@ -112,7 +108,9 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     """Return the question that options ask of a design."""
     study, home = chosen.study, chosen.configuration
     region = None if study is None else study.objective.region
-    numbers = options.given(*(one.name for one in fields(options) if _is_of_criteria(one.name))).items()
+    names = (one.name for one in fields(options))
+    limits_of = [n for n in names if plain_name(n) in (*OF_LENGTHS, *CRITERIA) or n.endswith("_axis")]
+    numbers = options.given(*limits_of).items()
     values = {plain_name(name): _radians(name, x) if name.endswith(DEG) else x for name, x in numbers}
     if (axis := options.platform_cone_axis) is not None:
         values["platform_cone_axis"] = chosen.tool.turned(axis)

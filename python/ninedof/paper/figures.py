@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ from matplotlib.figure import Figure
 
 from ninedof import plot
 from ninedof.paper.plates import figure_1, figure_5
-from ninedof.paper.published import FIGURES, ZP, published_geometry, published_zs
+from ninedof.paper.published import ZP, published_geometry, published_zs
 from ninedof.paper.sweeps import sweep_figure
 from ninedof.plot import style
 from ninedof.plot.space.ellipsoid import Axes
@@ -21,31 +20,24 @@ from ninedof.statics.statics import velocity_ellipsoid
 from ninedof.support.arrays import Floats
 from ninedof.sweep import SweepResult
 
-__all__ = ["draw", "figure_1", "figure_2", "figure_3", "figure_4", "figure_5", "figure_6", "figure_7"]
+__all__ = ["all_figures", "figure_1", "figure_2", "figure_3", "figure_4", "figure_5", "figure_6", "figure_7"]
 
 APART = {"a1": 1.5, "a2": 4.5, "b1": 2.2, "b2": 0.8}  # l_c: plates of the second prototype, not printed in the paper
 AWAY = (0.1, 0.12, 0.0, 0.9, 0.3, 0.0, -0.4, 0.0, -0.2)  # rad and l_c: Fig. 1 is away from home, so that p and s part
 TURNS = (-50.0, -25.0, 0.0, 25.0, 50.0)  # degrees: ticks of Fig. 6, which goes to one radian
 
 
-def draw(directory: Path, say: Callable[[str], object]) -> list[Path]:
-    """Draw Figs. 1 to 7 of the published design into a folder as figure_1 to figure_7; return the files."""
+def all_figures() -> Iterator[tuple[str, Figure]]:
+    """Yield Figs. 1 to 7 of the published design as they are drawn, behind their names figure_1 to figure_7."""
     unit, g, home = "l_c", published_geometry(), Configuration.neutral(ZP, published_zs()[2])
     apart = Geometry.hexagonal(**APART)
-    figures: Sequence[Callable[[], Figure]] = (
-        lambda: figure_1(g, home.moved(np.array(AWAY))),
-        lambda: figure_2(g, home, unit),
-        lambda: figure_3(apart, home, unit),
-        lambda: figure_4(velocity_ellipsoid(g, home), velocity_ellipsoid(g, home, "rotation")),
-        lambda: figure_5(apart, unit),
-        lambda: figure_6(sweep_figure("6")),
-        lambda: figure_7(sweep_figure("7")),
-    )
-    files: list[Path] = []
-    for (stem, title), make in zip(FIGURES.items(), figures, strict=True):
-        say(f"drawing {title}")
-        files += plot.save(make(), directory, stem)
-    return files
+    yield "figure_1", figure_1(g, home.moved(np.array(AWAY)))
+    yield "figure_2", figure_2(g, home, unit)
+    yield "figure_3", figure_3(apart, home, unit)
+    yield "figure_4", figure_4(velocity_ellipsoid(g, home), velocity_ellipsoid(g, home, "rotation"))
+    yield "figure_5", figure_5(apart, unit)
+    yield "figure_6", figure_6(sweep_figure("6"))
+    yield "figure_7", figure_7(sweep_figure("7"))
 
 
 def figure_2(geometry: Geometry, configuration: Configuration, unit: str = "", figure: Figure | None = None) -> Figure:

@@ -5,13 +5,13 @@ They are drawn with matplotlib, so this module is loaded where they are.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from operator import itemgetter
-from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from ninedof import plot
 from ninedof.conditioning.conditioning import condition_number
@@ -31,10 +31,10 @@ from ninedof.support.arrays import Floats
 from ninedof.support.margins import is_violated
 from ninedof.support.units import amount
 
-Say = Callable[[str], object]
-"""Called with a few words about what is being drawn."""
+Named = tuple[str, Figure]
+"""A figure behind the name of its files."""
 
-Named = tuple[str, Geometry, Configuration, float, float]
+Drawn = tuple[str, Geometry, Configuration, float, float]
 """A design to draw: name, geometry, neutral configuration, condition number there, characteristic length."""
 
 TRACED_STARTS = 200  # runs shown in the convergence figure, at one pose
@@ -43,14 +43,13 @@ HALVINGS = 24  # of a step of it, to the edge of a limit
 FEWEST_TRACED = 10  # however many poses each run evaluates
 
 
-def figures_of(
-    run: Result | PaperComparison, say: Say, convergence: bool = False
-) -> Callable[[Path], list[Path]] | None:
-    """Return a function that draws the figures into a folder; None for an interrupted run or one without an optimum.
+def figures_of(run: Result | PaperComparison, convergence: bool = False) -> Callable[[], Iterator[Named]] | None:
+    """Return a function that yields the figures as they are drawn, behind the names of their files.
 
-    The convergence follows hundreds of starts to their ends, which takes longer than the optimization: drawn if asked.
+    None for an interrupted run or one without an optimum. The convergence follows hundreds of starts to their ends,
+    which takes longer than the optimization: drawn if asked.
     """
-    designs: list[Named]
+    designs: list[Drawn]
     if isinstance(run, Result):
         # Without a least value there is no design to draw.
         candidates = run.candidates[:1] if run.status != "unbounded" else ()
@@ -69,14 +68,11 @@ def figures_of(
         result, compared = run.result, {"level": published.KAPPA, "crossings": run.crossings}
     if result.interrupted or not designs:
         return None
-    return lambda directory: _figures(designs, result, directory, say, convergence, **compared)
+    return lambda: _figures(designs, result, convergence, **compared)
 
 
-def _figures(
-    designs: list[Named], result: Result, directory: Path, say: Say, convergence: bool, **compared: Any
-) -> list[Path]:
-    """Draw the designs in space, their condition number along zs and theta_z and over poses, and the convergence."""
-    say("drawing the mechanisms")
+def _figures(designs: list[Drawn], result: Result, convergence: bool, **compared: Any) -> Iterator[Named]:
+    """Yield the designs in space, their condition number along zs and theta_z and over poses, and the convergence."""
     unit = "l_c" if compared else result.study.unit  # the paper's unit; a study keeps its own
     note = "" if compared else unit
     region, tool = None if compared else result.study.objective.region, result.study.tool
@@ -88,30 +84,21 @@ def _figures(
         plate = tool.plate(c)
         zp, zs = (amount(f"{point[2]:.4f}", note) for point in (plate.position, plate.internal_point))
         panels.append(plot.Robot(name, g, c, kappa, f"{worst}zp = {zp}, zs = {zs}", lines, tool))
-    files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
-    files += plot.save(plot.drawing(*designs[-1][1:3], note, tool), directory, "drawing")
-    say("drawing the condition number along zs and theta_z")
+    yield "mechanism", plot.mechanisms(panels, unit)
+    yield "drawing", plot.drawing(*designs[-1][1:3], note, tool)
     posed = not compared and len(result.solved.objective.poses) > 0
     curves = [_curves(tool, designs[0], **compared), *(_curves(tool, design) for design in designs[1:])]
-    files += plot.save(plot.condition_curves(_over_poses(result) if posed else curves, unit), directory, "condition")
+    yield "condition", plot.condition_curves(_over_poses(result) if posed else curves, unit)
     if not compared and (of_region := region_map(result)) is not None:
-        say("drawing the map of the region")
-        files += plot.save(plot.region_map(of_region), directory, "region")
+        yield "region", plot.region_map(of_region)
     elif result.best is not None and len(result.best.conditions) > 1:
-        say("drawing the condition number at each pose")
         poses = result.solved.objective.poses  # numbered from 1: pose 0 of the sheet is the neutral one
         of_unit = f", in {unit}" if unit and any(pose.unit != "zp" for pose in poses) else ""
         words = f"Poses, numbered as in the sheet: shifts from the neutral pose{of_unit}, and the rotation vector"
-        names = [_pose_name(pose) for pose in poses]
-        files += plot.save(plot.poses({"optimum": result.best.conditions}, names, note=words), directory, "poses")
-    if not convergence:
-        return files
-    say("tracing the starts for the convergence, minimax and plain")
-    runs = {formulation: _traces(result, formulation) for formulation in ("minimax", "plain")}
-    say("drawing the convergence")
-    if runs["minimax"] and result.objective is not None:
-        files += plot.save(plot.convergence(runs["minimax"], runs["plain"], result.objective), directory, "convergence")
-    return files
+        yield "poses", plot.poses({"optimum": result.best.conditions}, list(map(_pose_name, poses)), note=words)
+    if convergence and result.objective is not None and result.solved.free_variables:
+        minimax, plain = (_traces(result, formulation) for formulation in ("minimax", "plain"))
+        yield "convergence", plot.convergence(minimax, plain, result.objective)
 
 
 def _pose_name(pose: Pose) -> str:
@@ -122,7 +109,7 @@ def _pose_name(pose: Pose) -> str:
     return ", ".join(shifts + turns).replace("-", "\N{MINUS SIGN}") or "neutral"
 
 
-def _curves(tool: Tool, design: Named, level: float | None = None, crossings: tuple[float, ...] = ()) -> DesignCurves:
+def _curves(tool: Tool, design: Drawn, level: float | None = None, crossings: tuple[float, ...] = ()) -> DesignCurves:
     name, g, c, kappa, lc = design
     plate = tool.plate(c)
     zp, zs = float(plate.position[2]), float(plate.internal_point[2])
@@ -208,10 +195,8 @@ def _is_violated(point: DesignPoint) -> bool:
 
 
 def _traces(result: Result, formulation: str) -> list[tuple[float, ...]]:
-    """Return the course of single starts, low-discrepancy ones; none where no variable is free."""
+    """Return the course of single starts, low-discrepancy ones."""
     study = result.solved
-    if not study.free_variables:
-        return []
     problem = study.problem()
     count = max(FEWEST_TRACED, TRACED_STARTS // (1 + len(study.objective.poses)))
     rows = problem.starts(count, study.seed)

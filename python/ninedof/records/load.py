@@ -108,11 +108,7 @@ def save(run: Loaded, path: str | os.PathLike[str]) -> Path:
     folder = Path(path)
     if os.path.lexists(folder) and not (folder.is_dir() and not any(folder.iterdir())):
         raise ValueError(f"path: got {folder}, which exists and is not an empty folder, expected a new one")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        expected = "expected a writeable place"
-        raise ValueError(f"path: got {folder}, which cannot be created ({error.strerror}), {expected}") from None
+    folder.mkdir(parents=True, exist_ok=True)
     return write_run(run, folder)
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
@@ -64,22 +64,15 @@ def _of_now() -> Path:
     stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
     for attempt in itertools.count():
         path = RUNS / (f"{stamp}-{attempt}" if attempt else stamp)
-        try:
+        with suppress(FileExistsError):  # another run began in this second
             path.mkdir(parents=True)
-        except FileExistsError:
-            continue
-        except OSError as error:
-            expected = "expected a writeable place"
-            raise ValueError(f"out: got {path}, which cannot be created ({error.strerror}), {expected}") from None
-        return path
+            return path
     raise AssertionError("unreachable")
 
 
 FILE = "record.json"
 
 Run = Result | PaperComparison | Front | WorkspaceMap | SweepResult | Followed
-Draw = Callable[[Path], Sequence[Path]]
-"""Called with the directory after the record was written; draws figures there and returns their paths."""
 
 CERTIFIED = "certified.npz"  # beside the map of a workspace
 ARRAYS: dict[str, tuple[type[WorkspaceMap | SweepResult | Followed], str]] = {
@@ -120,7 +113,6 @@ class Record:
 def write_run(
     run: Run,
     directory: str | os.PathLike[str],
-    draw: Draw | None = None,
     question: Mapping[str, Any] | None = None,
     results: Mapping[str, Any] | None = None,
     limits: PathLimits | None = None,
@@ -134,8 +126,6 @@ def write_run(
     folder = Path(directory)
     result = run.result if isinstance(run, PaperComparison) else run
     if getattr(result, "interrupted", False) and (folder / FILE).is_file():
-        if draw is not None:
-            draw(folder)
         return folder / FILE
     record, files = _record_of(run, question or {}, results or {}), []
     if isinstance(run, Followed):
@@ -148,15 +138,14 @@ def write_run(
             files.append(run.certified.save_certificate(folder / WORKSPACE_CERTIFICATE))
     if isinstance(result, Result) and result.proof is not None and result.proof.certificate:
         files.append(result.proof.save(folder / CERTIFICATE))
-    return write_drawn(replace(record, files=tuple(file.name for file in files)), folder, draw)
+    return write_record(replace(record, files=tuple(file.name for file in files)), folder)
 
 
-def write_drawn(record: Record, folder: Path, draw: Draw | None) -> Path:
-    """Write a record, then draw, then write it with the names of the figures; return its path."""
-    path = write_record(record, folder)
-    if draw is not None:
-        write_record(replace(record, files=(*record.files, *(file.name for file in draw(folder)))), folder)
-    return path
+def add_files(folder: Path, files: Iterable[Path]) -> None:
+    """Add the names of figures and pages, made after the record was written, to it."""
+    if names := [file.name for file in files]:
+        record = load_record(folder)
+        write_record(replace(record, files=(*record.files, *names)), folder)
 
 
 def _record_of(run: Run, question: Mapping[str, Any], results: Mapping[str, Any]) -> Record:

@@ -43,7 +43,8 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
     import tomli_w
 
     text = _flat(tomli_w.dumps(study.to_dict()))
-    paper = _with_few_poses(text)
+    rest = "".join(poses := POSE.findall(text)[FEW:])  # on paper, from which nobody copies, the first poses and a count
+    paper = text.replace(rest, f"# and {len(poses)} more, on the screen\n\n") if rest else ""
     data = b64encode(text.encode()).decode()
     file = tag("a", "study.toml", href=f"data:text/plain;base64,{data}", download="study.toml")
     save = "From this page alone: save" if record.command else "Save"
@@ -69,12 +70,6 @@ def of_question(question: Mapping[str, Any], record: Any) -> Html:
         words = paragraphs(["Everything that was asked, as the record of the run has it:"])
         text = joined(words, listing(_flat(encode(question))))
     return joined(_made_by(record), text, _versions(record, []))
-
-
-def _with_few_poses(text: str) -> str:
-    """Return a study file for paper, from which nobody copies: the first poses and a count; "" where it is short."""
-    rest = POSE.findall(text)[FEW:]
-    return text.replace("".join(rest), f"# and {len(rest)} more, on the screen\n\n") if rest else ""
 
 
 def _flat(text: str) -> str:

@@ -24,6 +24,7 @@ SCRIPTS = ("camera.js", "paint.js", "scene.js")
 POLICY = (
     "default-src 'none'; img-src data:; style-src {style}; script-src {script}; base-uri 'none'; form-action 'none'"
 )
+IN_SCRIPT = str.maketrans({"<": "\\u003c", "&": "\\u0026"})
 TITLES = {
     "question": "Question",
     "answer": "Answer",
@@ -96,7 +97,8 @@ def page(contents: Page, name: str, created: str, drawn: Mapping[str, Html], stu
         key_figures=facts(contents.figures),
         links=joined(*(tag("a", TITLES[key], href=f"#{key}") for key in sections)),
         sections=joined(*parts),
-        scene=_script_data(contents.shown),
+        # JSON that cannot end its script element.
+        scene=json.dumps(contents.shown, separators=(",", ":"), allow_nan=False).translate(IN_SCRIPT),
         script=f"<script>{script}</script>" if script else "",
     )
 
@@ -104,11 +106,6 @@ def page(contents: Page, name: str, created: str, drawn: Mapping[str, Html], stu
 def _hash(text: str) -> str:
     """Return the name by which a policy knows a style or a script."""
     return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
-
-
-def _script_data(view: object) -> str:
-    """Return JSON that cannot end its script element."""
-    return json.dumps(view, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c").replace("&", "\\u0026")
 
 
 def _file(name: str) -> str:

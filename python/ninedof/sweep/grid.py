@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import os
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -13,11 +11,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from ninedof.design.indices import Index, identity
-from ninedof.support.arrays import Floats, blocks
+from ninedof.support.arrays import Floats
 from ninedof.support.extras import versions
-from ninedof.support.kept.chunks import computed
-from ninedof.support.kept.files import Arrays, naming, part_name
-from ninedof.support.kept.store import Store
+from ninedof.support.kept.chunks import Computed, computed
+from ninedof.support.kept.files import Arrays, part_name
 from ninedof.support.running import Progress
 from ninedof.support.text import json_values
 from ninedof.support.units import DEG, unit_entry
@@ -68,33 +65,6 @@ class GridWork:
     def _arguments(self) -> dict[str, Any]:
         return {**self.subject.question(), "over": [axis.question() for axis in self.grid.axes]}
 
-    @contextmanager
-    def _arrays(self, store: Store | None) -> Iterator[dict[str, Floats]]:
-        """Yield an array for each index, to be filled: in memory, or in files that then take their names."""
-        shapes = {i.name: (*self.grid.shape, *i.tail) for i in self.indices}
-        points = " x ".join(map(str, self.grid.shape))
-        if store is None:
-            try:
-                arrays = {name: np.empty(shape) for name, shape in shapes.items()}
-            except MemoryError:
-                expected = "what fits into memory, or out for a folder"
-                raise ValueError(f"over: got {points} points, expected {expected}") from None
-            yield arrays
-            return
-        size = 2 * 8 * sum(map(math.prod, shapes.values()))  # the finished chunks, and the arrays
-        if not store.kept() and size > (free := _free(store.folder)):
-            room = f"their values take {size / 1e9:.4g} GB, and {free / 1e9:.3g} GB are free on the disk of out"
-            raise ValueError(f"over: got {points} points, expected fewer: {room}")
-        files = {name: store.folder / f"{name}.npy" for name in shapes}
-        parts = {name: file.with_name(part_name(file.name)) for name, file in files.items()}
-        try:
-            yield {name: _file_array(parts[name], files[name], shape) for name, shape in shapes.items()}
-            for name, part in parts.items():
-                os.replace(part, files[name])
-        finally:
-            for part in parts.values():
-                part.unlink(missing_ok=True)
-
     def result(
         self,
         units: Mapping[str, str],
@@ -105,12 +75,10 @@ class GridWork:
     ) -> SweepResult:
         """Compute everything and return it with its labels; `unit` is the name of the length unit."""
         with computed(self, out, executor, progress) as (store, chunks):
-            with self._arrays(store) as arrays:
-                for (first, last), values in chunks:
-                    for name, array in arrays.items():
-                        array.reshape(-1, *values[name].shape[1:])[first:last] = values[name]
-            if store is not None:
-                arrays = {name: np.load(store.folder / f"{name}.npy", mmap_mode="r") for name in arrays}
+            shapes = {i.name: (*self.grid.shape, *i.tail) for i in self.indices}
+            arrays = (
+                _in_memory(chunks, shapes, self.points) if store is None else _in_files(chunks, shapes, store.folder)
+            )
         swept = tuple(axis.name for axis in self.grid.axes)
         labelled = {name: "deg" if name.endswith(DEG) else units[name] for name in swept}
         labelled |= {i.name: i.unit for i in self.indices}
@@ -126,23 +94,31 @@ class GridWork:
         )
 
 
-def _file_array(part: Path, file: Path, shape: tuple[int, ...]) -> Floats:
-    """Return an array in a new file. Zeros take its room on the disk, which must not be full behind a memory map."""
+def _in_memory(chunks: Computed, shapes: Mapping[str, tuple[int, ...]], points: int) -> dict[str, Floats]:
+    """Return an array for each index, filled by chunks."""
     try:
-        array = np.lib.format.open_memmap(part, "w+", np.float64, shape)
-        with part.open("r+b") as opened:
-            opened.seek(array.offset)
-            for _, piece in blocks(array):
-                opened.write(piece.tobytes())
-    except OSError as error:
-        raise naming(error, file) from None
-    return array
+        arrays = {name: np.empty(shape) for name, shape in shapes.items()}
+    except MemoryError:
+        raise ValueError(f"over: got {points} points, expected what fits into memory, or out for a folder") from None
+    for (first, last), values in chunks:
+        for name, array in arrays.items():
+            array.reshape(-1, *values[name].shape[1:])[first:last] = values[name]
+    return arrays
 
 
-def _free(folder: Path) -> float:
-    """Return the bytes that are free on a disk; infinity where it does not say."""
-    import shutil  # when it is needed, as it takes time to load
-
-    with suppress(OSError):
-        return disk.free if (disk := shutil.disk_usage(folder)).total else math.inf
-    return math.inf
+def _in_files(chunks: Computed, shapes: Mapping[str, tuple[int, ...]], folder: Path) -> dict[str, Floats]:
+    """Return the same arrays from files, which take their names once they are whole: memory holds one chunk."""
+    parts = {name: folder / part_name(f"{name}.npy") for name in shapes}
+    try:
+        heads = {n: np.lib.format.open_memmap(parts[n], "w+", np.float64, shape).offset for n, shape in shapes.items()}
+        for (first, _), values in chunks:
+            for name, head in heads.items():  # written, not mapped: a full disk is an error and not a crash
+                with parts[name].open("r+b") as file:
+                    file.seek(head + first * values[name][0].nbytes)
+                    file.write(values[name].tobytes())
+        for name, part in parts.items():
+            os.replace(part, folder / f"{name}.npy")
+    finally:
+        for part in parts.values():
+            part.unlink(missing_ok=True)
+    return {name: np.load(folder / f"{name}.npy", mmap_mode="r") for name in shapes}

@@ -121,13 +121,9 @@ class SweepResult(Saved):
         return xarray.Dataset(
             {name: (self.dims[name], array, unit[name]) for name, array in self.arrays.items()},
             {name: (name, values, unit[name]) for name, values in self.coords.items()},
-            {name: _attribute(value) for name, value in self.attributes.items()},
+            # What netCDF takes as an attribute.
+            {n: x if type(x) in (str, int, float) else encode(x, indent=None) for n, x in self.attributes.items()},
         )
-
-
-def _attribute(value: Any) -> Any:
-    """Return a value that netCDF takes as an attribute."""
-    return value if isinstance(value, str | int | float) and not isinstance(value, bool) else encode(value, indent=None)
 
 
 SIZES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # radius ratios

@@ -257,4 +257,3 @@ class Viewer:
     def _release(self, client: int) -> None:
         for node in [node for node, hand in self.held.items() if hand == client]:
             del self.held[node]
-            self.scene.forget(node)

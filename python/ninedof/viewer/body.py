@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import traceback
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import CancelledError, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -35,10 +35,6 @@ class Body:
 
     words: str = ""
     mesh: Mesh | None = None
-
-
-class GivenUp(Exception):
-    """A search is no longer wanted."""
 
 
 def question_of(variant: Variant, c: Configuration, rule: str, size: float, condition_limit: float) -> dict[str, Any]:
@@ -127,12 +123,12 @@ class BodySearch:
     def _work(self, number: int, search: Callable[[Any], Body]) -> None:
         def progress(*_: Any) -> None:
             if not self.counts(number):
-                raise GivenUp
+                raise CancelledError
 
         try:
             progress()
             body = search(progress)
-        except GivenUp:
+        except CancelledError:
             return
         except Exception as error:  # whatever it is, the user is waiting for an answer
             if not isinstance(error, ValueError):  # a mistake of the program is shown where it was started

@@ -257,8 +257,8 @@ def _save(panel: Panel) -> None:
 def send(viewer: Any, kind: str, client: Any) -> str:
     """Send the files of a kind to a browser; return what was sent, or why nothing was."""
     try:
-        files = _picture(client) if kind == PICTURE else files_of(viewer, kind)
-    except (ValueError, MissingExtra) as error:
+        files = files_of(viewer, kind) if kind != PICTURE else {"ninedof.png": picture(_pixels(client))}
+    except (ValueError, MissingExtra, RuntimeError) as error:  # viser, of a page that was closed
         return f"Not saved: {error}"
     for name, content in files.items():
         client.send_file_download(name, content, save_immediately=True)
@@ -288,9 +288,6 @@ def files_of(viewer: Any, kind: str) -> dict[str, bytes]:
         return {file.name: file.read_bytes() for file in sorted(Path(folder).iterdir(), reverse=True)}
 
 
-def _picture(client: Any) -> dict[str, bytes]:
-    height, width = client.camera.image_height, client.camera.image_width
-    try:
-        return {"ninedof.png": picture(client.get_render(height=height, width=width, transport_format="png"))}
-    except RuntimeError:
-        raise ValueError("the page was closed before the picture was drawn") from None
+def _pixels(client: Any) -> Any:
+    camera = client.camera
+    return client.get_render(height=camera.image_height, width=camera.image_width, transport_format="png")

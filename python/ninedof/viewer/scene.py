@@ -1,4 +1,4 @@
-"""The machine as a scene of viser. Each part remembers what it drew, and is sent again only where that has changed."""
+"""The machine as a scene of viser, which sends a value again only where it has changed."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Scene:
     def __init__(self, server: Any, size: float, designs: DesignPicture | None = None) -> None:
         self.scale = EXTENT / size
         self._api = server.scene
-        self._sent: dict[tuple[str, str], Any] = {}
+        self._keys: dict[str, Any] = {}
         self.nodes: dict[str, Any] = {}
         """Of viser, by name."""
         self._designs = designs
@@ -102,11 +102,6 @@ class Scene:
         for part, names in PARTS.items():
             for name in names & self.nodes.keys():
                 self._set(name, visible=part not in state.display.hidden)
-
-    def forget(self, name: str) -> None:
-        """Let a node take its place again with the next picture, such as a handle that was let go."""
-        for key in ("position", "wxyz"):
-            self._sent.pop((name, key), None)
 
     # --- nodes --------------------------------------------------------------------------------------------------------
 
@@ -159,22 +154,17 @@ class Scene:
         )
 
     def _set(self, name: str, **values: Any) -> None:
-        """Send the values of a node that differ from those sent last."""
         for key, value in values.items():
-            now = value.tobytes() if isinstance(value, np.ndarray) else value
-            if self._sent.get((name, key)) != now:
-                self._sent[name, key] = now
-                setattr(self.nodes[name], key, value)
+            setattr(self.nodes[name], key, value)
 
     def _outdated(self, key: Any, *names: str) -> bool:
         """Return whether nodes are to be made for a key that has changed; those of the key before are removed."""
-        if self._sent.get((names[0], "key")) == key:
+        if self._keys.get(names[0]) == key:
             return False
         for name in names:
             if name in self.nodes:
                 self.nodes.pop(name).remove()
-        self._sent = {sent: value for sent, value in self._sent.items() if sent[0] not in names}
-        self._sent[names[0], "key"] = key
+        self._keys[names[0]] = key
         return True
 
     # --- parts --------------------------------------------------------------------------------------------------------

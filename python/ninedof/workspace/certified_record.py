@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ninedof import _core
 from ninedof.proof.machine_record import outward
-from ninedof.support.arguments import choice, finite, path_argument, text, whole
+from ninedof.support.arguments import choice, finite, path_argument, whole
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.kept.files import Saved, write_whole
 from ninedof.support.text import short_repr
@@ -123,13 +123,9 @@ class CertifiedWorkspace(Worded, Saved):
         """Whether Ctrl-C ended the search."""
         return self.end == "stopped"
 
-    def with_estimate(self, volume: float, error: float, unit: str = "") -> CertifiedWorkspace:
+    def with_estimate(self, volume: float, error: float) -> CertifiedWorkspace:
         """Return the same beside the estimate of a map."""
-        return replace(
-            self,
-            estimate=(finite("volume", volume, 0.0), finite("error", error, 0.0)),
-            unit=text("unit", unit) or self.unit,
-        )
+        return replace(self, estimate=(finite("volume", volume, 0.0), finite("error", error, 0.0)))
 
     def __repr__(self) -> str:
         """Show the bounds."""

@@ -144,7 +144,9 @@ def asked_criteria(design: Any = None, values: Mapping[str, Any] = Fixed(), actu
     ranges = OF_LENGTHS.keys() & criteria
     own = {name for name in unchanged - ranges if name in criteria}
     own |= {LEG_LIMITS} if ranges and ranges <= unchanged else set()
-    criteria = with_leg_limits(criteria)
+    legs = leg_ranges({name: criteria[name] for name in OF_LENGTHS if name in criteria})
+    others = {name: value for name, value in criteria.items() if name not in OF_LENGTHS}
+    criteria = others if legs is None else {LEG_LIMITS: legs} | others
     compares = any(name in SPREADS for name in left) and OF_LENGTHS.keys().isdisjoint(values)
     if not compares or (built := built_ranges(design, actuators)) is None:
         return Asked(criteria, own, left, "", replaced)
@@ -168,7 +170,7 @@ def _option(criterion: Any, name: str, otherwise: Any = None) -> Any:
 def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[str, Any], list[str]]:
     """Return the limits of a study that a pose alone can meet as criteria, and the names of the others.
 
-    Ranges of leg lengths keep the names of their constraints; `with_leg_limits` makes leg limits of them. Limits in zp
+    Ranges of leg lengths keep the names of their constraints; `leg_ranges` makes leg limits of them. Limits in zp
     are taken at the height of the home pose. All are eased by `EASE` of themselves. Of a limit on the distance of legs
     only the pairs are exempt whose joints coincide in every design of the study.
     """
@@ -199,13 +201,6 @@ def study_limits(study: Study, g: Geometry, home: Configuration) -> tuple[dict[s
     if study.objective.condition_limit is not None:
         criteria["condition_number"] = study.objective.condition_limit * (1.0 + EASE)
     return criteria, left
-
-
-def with_leg_limits(limits: Mapping[str, Any]) -> dict[str, Any]:
-    """Return criteria whose ranges of leg lengths are one entry, the first."""
-    others = {name: value for name, value in limits.items() if name not in OF_LENGTHS}
-    legs = leg_ranges({name: limits[name] for name in OF_LENGTHS if name in limits})
-    return others if legs is None else {LEG_LIMITS: legs} | others
 
 
 def leg_ranges(ranges: Mapping[str, tuple[float, float]]) -> tuple[Any, Any] | None:

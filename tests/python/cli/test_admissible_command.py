@@ -3,7 +3,6 @@
 import json
 import zlib
 from dataclasses import replace
-from importlib import import_module
 
 import numpy as np
 import pytest
@@ -86,7 +85,8 @@ def test_the_same_command_goes_on_and_another_question_begins_anew(run, study, t
 
 def test_a_value_of_a_variable_that_varies_is_that_of_the_marked_design(run, study, tmp_path, monkeypatch):
     """It began the search anew without a word, and left the old one as that of another question."""
-    monkeypatch.setattr(import_module("ninedof.cli.commands.runs.admissible"), "_draw", lambda *_: [])
+    monkeypatch.setattr("ninedof.plot.admissible", lambda _: None)
+    monkeypatch.setattr("ninedof.plot.save", lambda *_: [])
     folder = tmp_path / "set"
     line = f"admissible {study} {ASKED} 0.3 --out {folder}"
     status, before, _ = run(line)

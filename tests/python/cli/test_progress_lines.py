@@ -5,7 +5,6 @@ from threading import Event
 
 import pytest
 
-from ninedof.cli import screen as screens
 from ninedof.cli.screen import Screen
 
 
@@ -74,7 +73,6 @@ def test_a_phase_is_named(capsys):
 
 def test_lines_come_where_nothing_is_reported(capsys, monkeypatch):
     """A certificate of a machine is one box, which takes minutes."""
-    monkeypatch.setattr(screens, "BETWEEN_LOOKS", 0.01)
     now, printed = 0.0, Event()
     screen = Screen(json=False)
     console = screen.progress_console

@@ -128,7 +128,7 @@ EXCEPT = {  # rows and arguments where one of these values has a meaning, or ano
     *("inverse_velocity: O chosen sdot", "sheet centre", "stiffness internal", "workspace home"),
     *("certified_workspace home", "certified_workspace internal_point", "certified_workspace characteristic_length"),
     *("sweep_designs design", "sheet leg_errors", "sheet joint_errors"),
-    *("sheet leg_stiffness", "Region.worded unit", "Objective.worded unit", "CertifiedWorkspace.with_estimate unit"),
+    *("sheet leg_stiffness", "Region.worded unit", "Objective.worded unit"),
     "payload_along force",  # none beside a power
     *("inverse_velocity weights", "inverse_velocity: O chosen weights", "internal_velocity weights", "view design"),
 }

@@ -188,7 +188,9 @@ CERTIFIED = replace(
 )
 def test_a_report_has_at_most_four_pages_and_no_table_is_torn_or_cut(browser, tmp_path, study):
     result = nd.optimize(study)
-    write_run(result, tmp_path, figures_of(result, lambda _: None))
+    write_run(result, tmp_path)
+    for name, figure in figures_of(result)():
+        nd.plot.save(figure, tmp_path, name)
     if study is CERTIFIED:
         save_certificate(result.certify(time_limit=20.0), certificate_file(tmp_path))
     made = nd.report(tmp_path)

@@ -80,11 +80,6 @@ def test_an_atlas(made):
     assert f"4 {min(best):.4f}" in shown(page)
 
 
-def test_no_report_where_none_is_asked_for(run, here):
-    assert run("path design.toml --circle 30 --points 41 --no-report --out run")[0] == 0
-    assert not (here / "run" / "report.html").exists()
-
-
 @pytest.mark.slow(sanitized=True)
 def test_paths_workspaces_and_sweeps_of_a_run_have_its_title_block_and_its_tool(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

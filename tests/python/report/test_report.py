@@ -14,12 +14,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from body_volume import body_volume
+from typer import Exit
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.cli.answer import Answer, write_job
+from ninedof.cli.answer import Answer, finish_job
 from ninedof.cli.app import main
-from ninedof.cli.screen import Screen
+from ninedof.cli.options import JobOptions
 from ninedof.optimize.actuator_choice import ActuatorChoice, Combination
 from ninedof.optimize.pareto import Front
 from ninedof.optimize.pareto.limits import without_degrees
@@ -376,12 +377,12 @@ def test_a_report_that_fails_does_not_fail_the_job(run, tmp_path, monkeypatch, e
     def fails(folder):
         raise error
 
-    def drawn(folder):
+    def drawn(figure, folder, stem):
         (folder / "front.svg").write_text("<svg xmlns='http://www.w3.org/2000/svg'/>")
         return [folder / "front.svg"]
 
     monkeypatch.setattr("ninedof.cli.answer.report", fails)
-    monkeypatch.setattr("ninedof.cli.commands.runs.pareto._draw", lambda front, screen, folder: drawn(folder))
+    monkeypatch.setattr("ninedof.plot.save", drawn)
     place = tmp_path / "run"
     status, out, _ = run(f"pareto --against radius_ratio --value 2 --starts 2 --out {place}")
     assert status == 0
@@ -400,7 +401,9 @@ def test_the_page_of_an_interrupted_run_does_not_outlive_it(tmp_path, monkeypatc
 
     monkeypatch.setattr("ninedof.cli.answer.report", broken)
     (tmp_path / "report.html").write_text("interrupted")
-    write_job(Screen(False), Answer([], {}), lambda draw: draw(tmp_path), None, fails)
+    options = JobOptions(report=fails)
+    with pytest.raises(Exit):
+        finish_job(options, tmp_path, Answer([], {}), lambda: tmp_path / "record.json", None)
     assert not (tmp_path / "report.html").exists()
 
 

@@ -510,7 +510,7 @@ row("CertifiedWorkspace.section", lambda **a: it.certified().section(**a), words
 )
 row("CertifiedWorkspace.state", lambda **a: it.certified().state(**a))(lambda: {"points": [[0.0, 0.0, 4.0]]})
 row("CertifiedWorkspace.with_estimate", lambda **a: it.certified().with_estimate(**a))(
-    lambda: {"volume": 0.5, "error": 0.1, "unit": "mm"}
+    lambda: {"volume": 0.5, "error": 0.1}
 )
 row("WorkspaceMap.limits", lambda **a: it.workspace().limits(**a))(lambda: {"grouped": False})
 row("WorkspaceMap.slice", lambda **a: it.workspace().slice(**a), words={"axis": ("at",)})(

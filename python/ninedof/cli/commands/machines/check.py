@@ -13,7 +13,6 @@ from ninedof.proof.optimum_proof import FILE
 from ninedof.records.proofs import certificate_file
 from ninedof.workspace.certified_record import CERTIFICATE
 
-PLACE = 4
 EXAMPLES = f"""
   ninedof optimize --certify --out proved       writes {FILE} into the run folder
   ninedof check proved

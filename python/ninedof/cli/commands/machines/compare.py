@@ -12,7 +12,6 @@ from ninedof.cli.answer import FIGURES, Answer
 from ninedof.cli.options import DESIGN, PLOT, Options, argument, option, struct
 from ninedof.cli.posed import named_design, searching
 
-PLACE = 3
 EXAMPLES = """
   ninedof compare runs/20260101-120000 runs/20260102-120000
   ninedof compare front#1 front#7 design.toml --plot plates.png"""
@@ -40,10 +39,8 @@ def compared(comparison: nd.Comparison, plot: Path | None, legend: Sequence[str]
     """Return the answer of a comparison, with its figure, by its own names or a legend's, where one is asked for."""
     parts, data = comparison.parts(), comparison.to_dict()
     if plot is not None:
-        from ninedof.plot.designs.compare import compare
-        from ninedof.plot.files import save_as
-
-        save_as(compare(replace(comparison, names=tuple(legend)) if legend else comparison), plot)
+        named = replace(comparison, names=tuple(legend)) if legend else comparison
+        nd.plot.files.save_as(nd.plot.compare(named), plot)
         parts.append(f"figure: {plot}")
         data["figure"] = os.fspath(plot)
     return Answer(parts, data)

@@ -17,7 +17,6 @@ from ninedof.support.arguments import choice
 from ninedof.support.kept.files import own_or_new
 from ninedof.support.units import UNITS
 
-PLACE = 4
 BODIES = {"platform": "platform", "cylinder": "each cylinder", "rod": "each rod", "internal_point": "O"}
 DRAWN = {
     "inertia": "inertia of the platform",
@@ -57,8 +56,10 @@ def export(options: _Options) -> Answer:
     if out is not None and out.suffix.lower() in {one.suffix for one in formats().values()} - {row.suffix}:
         raise ValueError(f"--out: got {out} with --to {row.name}, expected a file that ends in {row.suffix}")
     chosen = named_design(options.design)
-    file = out or Path(_stem(options.design) + row.suffix)
-    if file.resolve() == Path(options.design).resolve():
+    path = Path(options.design)
+    stem = path.resolve().name if path.is_dir() else path.stem
+    file = out or Path(stem.replace("#", "-") + row.suffix)  # "front-7" for "runs/front#7"
+    if file.resolve() == path.resolve():
         raise ValueError(f"--out: got {file}, the design itself, expected another file")
     more = options.given("leg_mass", "platform_mass", "gravity")
     for key in more.keys() - row.options:
@@ -68,15 +69,15 @@ def export(options: _Options) -> Answer:
     if row.beside is not None:
         own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
     with searching(options.screen, "export", chosen):
-        path = nd.export(chosen.machine, row.name, file, unit=options.unit, **more)
-    lines = [f"{row.words}: {path}"]
+        written = nd.export(chosen.machine, row.name, file, unit=options.unit, **more)
+    lines = [f"{row.words}: {written}"]
     if "leg_mass" in row.options:
         masses, assumed = body_masses(chosen.study, options.leg_mass, options.platform_mass)
         each = (f"{name} {getattr(masses, key):g} kg{' (assumed)' * (key in assumed)}" for key, name in BODIES.items())
         drawn = [name for key, name in DRAWN.items() if not np.any(getattr(masses, key))]
         rest = f"; as drawn: {', '.join(drawn)}" * bool(drawn)
         lines.append(f"masses: {', '.join(each)}{rest}")
-    return Answer(lines, {"format": row.name, "file": str(path)})
+    return Answer(lines, {"format": row.name, "file": str(written)})
 
 
 def _by_suffix(out: Path | None) -> Format:
@@ -86,9 +87,3 @@ def _by_suffix(out: Path | None) -> Format:
     if out.suffix.lower() not in suffixes:
         raise ValueError(f"--out: got {out}, expected --to with a format, or a file that ends in {', '.join(suffixes)}")
     return suffixes[out.suffix.lower()]
-
-
-def _stem(design: str) -> str:
-    """Return the name of a design: "front-7" for "runs/front#7"."""
-    path = Path(design)
-    return (path.resolve().name if path.is_dir() else path.stem).replace("#", "-")

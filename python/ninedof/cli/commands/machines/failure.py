@@ -8,7 +8,6 @@ from ninedof.cli.options import LOAD, ONE_DESIGN, Options, argument, loads_optio
 from ninedof.cli.posed import named_design, searching
 from ninedof.sheet.failure.tables import failure_parts
 
-PLACE = 3
 EXAMPLES = """
   ninedof failure runs/20260101-120000
   ninedof failure runs/20260101-120000 --condition 10 --load "0 0 0 0 0 -100"

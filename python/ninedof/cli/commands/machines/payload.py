@@ -21,7 +21,6 @@ from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns, grouped
 from ninedof.tables.numbers import load_text
 
-PLACE = 4
 EXAMPLES = """
   ninedof payload runs/20260101-120000    by the limit of force of its study
   ninedof payload runs/20260101-120000 --force 500

@@ -9,7 +9,6 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.options import Options, argument, option, struct
 from ninedof.support.kept.files import own_or_new
 
-PLACE = 3
 MARK = "Made by ninedof"  # in every report
 EXAMPLES = """
   ninedof report runs/20260101-120000                 report.html in the run folder

@@ -32,7 +32,6 @@ from ninedof.sheet.tables import sheet_parts
 from ninedof.support.arguments import finite
 from ninedof.support.kept.files import own_or_new, write_whole
 
-PLACE = 3
 MARK = "leg,shortest"  # begins a table of legs
 EXAMPLES = """
   ninedof sheet runs/20260101-120000 --csv legs.csv

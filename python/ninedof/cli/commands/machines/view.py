@@ -10,7 +10,6 @@ from pathlib import Path
 import ninedof as nd
 from ninedof.cli.options import DESIGN_OR_PUBLISHED, argument, option, struct
 
-PLACE = 3
 EXAMPLES = """
   ninedof view runs/20260101-120000                   the best design of a run, with the limits of its study
   ninedof view design.toml --path path.csv --port 0   with a path to play, at any free port

@@ -17,7 +17,6 @@ from ninedof.support.arguments import finite, whole
 from ninedof.support.units import amount, unit_entry
 from ninedof.tables import Line, Table, columns
 
-PLACE = 4
 EXAMPLES = """
   ninedof accuracy design.toml --leg-error 0.01 --joint-error 0.02
   ninedof accuracy runs/20260101-120000 --leg-error 0.01 --all-poses

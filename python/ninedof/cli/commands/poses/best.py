@@ -21,7 +21,6 @@ from ninedof.support.arrays import Floats
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
 
-PLACE = 4
 EXAMPLES = """
   ninedof best design.toml --position 0.8 0 3.98
   ninedof best runs/20260101-120000 --all-poses             the leg limits of the run's study

@@ -31,7 +31,6 @@ from ninedof.singularity.architecture import architecture_sentences
 from ninedof.support.units import DEG, amount, unit_entry
 from ninedof.tables import Line, Table, columns
 
-PLACE = 3
 DETERMINANTS = "singularity margins: det N, B, C"
 EXAMPLES = """
   ninedof evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4435

@@ -19,7 +19,6 @@ from ninedof.support.units import unit_of_forces, with_unit
 from ninedof.tables import Table, columns, grouped
 from ninedof.tables.numbers import spread
 
-PLACE = 4
 EXAMPLES = """
   ninedof forces design.toml --load "0 0 0 0 0 -100"
   ninedof forces runs/20260101-120000 --mass 12 --centre 0 0 30

@@ -18,7 +18,6 @@ from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry, with_unit
 from ninedof.tables import Table, columns
 
-PLACE = 4
 EXAMPLES = """
   ninedof modes design.toml                          all modes with the leg lengths of the neutral pose
   ninedof modes runs/20260101-120000 --position 10 0 350 --rotation-deg 0 5 0

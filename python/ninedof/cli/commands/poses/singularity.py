@@ -18,7 +18,6 @@ from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 from ninedof.tables import Table, columns
 
-PLACE = 4
 EXAMPLES = """
   ninedof singularity design.toml
   ninedof singularity runs/20260101-120000 --all-poses

@@ -15,7 +15,6 @@ from ninedof.support.arrays import Floats
 from ninedof.support.units import per, times, with_unit
 from ninedof.tables import Table, columns, grouped
 
-PLACE = 4
 EXAMPLES = """
   ninedof stiffness design.toml --leg-stiffness 2e4
   ninedof stiffness runs/20260101-120000 --leg-stiffness 2e4 --all-poses

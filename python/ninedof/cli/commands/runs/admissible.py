@@ -21,7 +21,6 @@ from ninedof.support.running import ended_by_time, goes_on
 from ninedof.support.units import amount, plain_name
 from ninedof.tables import Table, columns
 
-PLACE = 4
 TIME, RESOLUTION = 300.0, 0.01
 SIDES = ("down", "up")
 DESIGNS = Path("designs")  # --out that is named where none was given
@@ -110,8 +109,9 @@ def admissible(options: _Options) -> Answer:
             other = file.replace(earlier_file(file))
             screen.print(f"the designs of another question are kept as {other}")
         designs.save(file)
-        figures = _draw(designs, file) if len(designs.vary) > 1 else []
-        screen.print(f"designs {file}" + (f", figure {figures[0].stem} (PNG, SVG, PDF)" if figures else ""))
+        if drawn := len(designs.vary) > 1:
+            nd.plot.save(nd.plot.admissible(designs), file.parent, file.stem)
+        screen.print(f"designs {file}" + f", figure {file.stem} (PNG, SVG, PDF)" * drawn)
         data["file"] = str(file)
     if options.certificate is not None:
         designs.save_certificate(options.certificate)
@@ -160,12 +160,6 @@ def _how(options: _Options) -> dict[str, Any]:
 def _example(one: nd.AdmissibleRow, study: nd.Study) -> str:
     values = ((name, f"{name} = {study.shown(name, value):.5g}") for name, value in (one.design or {}).items())
     return ", ".join(amount(words, study.unit_of(name)) for name, words in values)
-
-
-def _draw(designs: nd.AdmissibleSet, file: Path) -> list[Path]:
-    from ninedof import plot
-
-    return plot.save(plot.admissible(designs), file.parent, file.stem)
 
 
 def _of(options: _Options) -> tuple[nd.Study | nd.Result, Path | None]:

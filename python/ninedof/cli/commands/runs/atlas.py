@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 import ninedof as nd
+from ninedof.cli.answer import Figures
 from ninedof.cli.options import option, struct
 from ninedof.cli.sweep_job import Job
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.sweep.result import atlas_table
 from ninedof.sweep.survey import RADIUS_RATIO, squared_radius_ratio
 
-PLACE = 5
 EXAMPLES = """
   ninedof atlas                                        a million designs
   ninedof atlas --designs 100000000 --out atlas        a hundred million; again after an interruption"""
@@ -44,10 +42,8 @@ def atlas(job: _Options) -> None:
     job.write(result, folder, data, atlas_table(rows), lambda: _figures(result))
 
 
-def _figures(result: nd.SweepResult) -> Iterator[tuple[str, Any]]:
-    from ninedof import plot
-
+def _figures(result: nd.SweepResult) -> Figures:
     best = nd.optimize(nd.Study.paper()).best
     assert best is not None, "the paper's study has an optimum"
     sides = np.array([[best.variables[name] for name in HEXAGONAL]])
-    yield "atlas", plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number))
+    yield "atlas", nd.plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number))

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import ninedof as nd
-from ninedof.cli.answer import Answer, write_job
+from ninedof.cli.answer import Answer, write_and_print
 from ninedof.cli.options import THREADS, Options, argument, option, struct, word_or_number
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.reserve import largest as largest_tolerance
@@ -25,7 +26,6 @@ from ninedof.support.running import ended_by_time, goes_on
 from ninedof.support.units import amount, with_unit
 from ninedof.tables import Table, columns
 
-PLACE = 4
 LARGEST = "max"
 EXAMPLES = """
   ninedof certify runs/20260101-120000                certify.json in the run folder
@@ -130,7 +130,7 @@ def certify(options: _Options) -> Answer:
     if (certificate.left_count or longer) and not certificate.interrupted:
         ended_by_time(without="--time" if longer else "", instead=longer)
     answer = Answer([certificate_table(certificate), *sentences], data)
-    write_job(screen, answer, lambda _: save_certificate(certificate, file))
+    write_and_print(screen, answer, partial(save_certificate, certificate, file))
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
     data |= {"file": str(file)}
     if options.certificate is not None:

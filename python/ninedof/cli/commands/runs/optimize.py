@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 import ninedof as nd
-from ninedof.cli.answer import Answer, folder_words, write_job
+from ninedof.cli.answer import Answer, finish_job
 from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, struct
 from ninedof.cli.screen import Screen, bold, exit_status
 from ninedof.optimize.result import with_fixed_design
@@ -24,7 +25,6 @@ from ninedof.support.arguments import finite
 from ninedof.support.running import ended_by_time, notes_told
 from ninedof.support.units import amount, unit_entry
 
-PLACE = 1
 EXAMPLES = """
   ninedof optimize                         the paper's problem, beside the published optimum
   ninedof optimize study.toml --out run1   a study of your own, run folder run1
@@ -47,7 +47,7 @@ class _Options(JobOptions):
     certify: bool = option("Also prove how much better a design of the study can be at most.", False, "--certify")
 
 
-def optimize(options: _Options) -> Answer:
+def optimize(options: _Options) -> None:
     """Find the best design of a study: by default, the design with the least condition number."""
     screen = options.screen
     file = options.study
@@ -65,28 +65,29 @@ def optimize(options: _Options) -> Answer:
         run = _solve(study, file, how | {"out": directory}, screen)
         seconds = perf_counter() - begin
     if isinstance(run, PaperComparison):
-        result, answer = run.result, Answer(_comparison_parts(run), run.to_dict())
+        result, parts, data = run.result, _comparison_parts(run), run.to_dict()
     else:
-        result, answer = run, Answer(_result_parts(run), {"optimization": run.to_dict()})
-    data = {**unit_entry(study.unit), **answer.data}
-    with_figures = options.figures and not result.interrupted
+        result, parts, data = run, _result_parts(run), {"optimization": run.to_dict()}
+    data = {**unit_entry(study.unit), **data}
     draw = None
-    if with_figures:
+    if options.figures:
         from ninedof.records.figures import figures_of
 
-        draw = figures_of(run, screen.say, options.convergence)
-    write = partial(write_run, run, directory)
-    record = write_job(screen, Answer(answer.parts, data), write, draw, with_figures and options.report)
-    if options.check and result.best is not None and not result.interrupted:
-        verdict = nd.check(result)
-        screen.print(verdict.report())
-        data["check"] = {"passed": verdict.passed, "report": verdict.report()}
-    screen.print(folder_words(directory))
+        draw = figures_of(run, options.convergence)
     proof = result.proof
     ended = result.status == nd.Status.STOPPED or (proof is not None and not proof.complete and proof.better is None)
     if options.time is not None and ended and seconds >= options.time and not result.interrupted:
         ended_by_time(without="--time")
-    return Answer([], {**data, "record": str(record)}, exit_status(result, timed=options.time is not None))
+    if options.check and result.best is not None and not result.interrupted:
+        parts = chain(parts, _checked(result, data))
+    answer = Answer(parts, data, exit_status(result, timed=options.time is not None))
+    finish_job(options, directory, answer, partial(write_run, run, directory), draw)
+
+
+def _checked(result: nd.Result, data: dict[str, Any]) -> Iterator[str]:
+    verdict = nd.check(result)
+    data["check"] = {"passed": verdict.passed, "report": verdict.report()}
+    yield verdict.report()
 
 
 def _solve(study: nd.Study, file: Path | None, how: dict[str, Any], screen: Screen) -> PaperComparison | nd.Result:

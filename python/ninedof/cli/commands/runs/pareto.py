@@ -11,7 +11,7 @@ import ninedof as nd
 from ninedof.cli.answer import Answer, finish_job
 from ninedof.cli.options import STARTS, THREADS, JobOptions, argument, option, struct
 from ninedof.cli.posed import named_design
-from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
+from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.optimize.pareto.front import front_table
@@ -21,7 +21,6 @@ from ninedof.records.load import split
 from ninedof.records.record import run_folder, write_run
 from ninedof.support.running import notes_told
 
-PLACE = 2
 EXAMPLES = """
   ninedof pareto --against radius_ratio    the paper's optimum for several sizes of the base
   ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4
@@ -80,7 +79,7 @@ def pareto(options: _Options) -> None:
     if front.interrupted:
         count = "1 limit is" if len(front) == 1 else f"{len(front)} limits are"
         parts.append(bold("interrupted", f": {count} solved so far and kept in {directory}"))
-    draw = partial(_draw, front, screen) if any(map(math.isfinite, front.limits)) else None
+    draw = (lambda: [("front", nd.plot.front(front))]) if any(map(math.isfinite, front.limits)) else None
     status = NO_RESULT if all(map(math.isnan, front.objectives)) else DONE
     answer = Answer(parts, {"front": front.to_dict()}, INTERRUPTED if front.interrupted else status)
     finish_job(options, directory, answer, partial(write_run, front, directory), draw)
@@ -109,10 +108,3 @@ def _dearest(run: nd.Result) -> str:
             f"; with a max its study has {', '.join(own) or 'none'}"
         )
     return max(names, key=lambda name: prices[name])
-
-
-def _draw(front: nd.Front, screen: Screen, directory: Path) -> list[Path]:
-    screen.say("drawing the front")
-    from ninedof import plot
-
-    return plot.save(plot.front(front), directory, "front")

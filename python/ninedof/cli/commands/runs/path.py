@@ -31,7 +31,7 @@ from ninedof.cli.options import (
     triple,
 )
 from ninedof.cli.posed import Chosen, named_design, with_length
-from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
+from ninedof.cli.screen import DONE, NO_RESULT, bold
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.design.limit_numbers import FORCES
 from ninedof.motion.follow import wrenches_along
@@ -46,7 +46,6 @@ from ninedof.sheet.tables import load_words, weight_words
 from ninedof.support.kept.store import Store
 from ninedof.support.units import amount, per, unit_entry
 
-PLACE = 7
 SLACK = 1e-6  # by which a speed may be passed, relative
 SHAPES, TIMES = ("circle", "line", "spiral"), ("duration", "points")
 EXAMPLES = """
@@ -123,14 +122,17 @@ def path(options: _Options) -> None:
         *(bold(*words) for words in motion_words(result, motion)),
         *_turned(trajectory, home),
         *_faster(result, chosen.duty.speeds),
-        *_payload(chosen, result),
     ]
+    if any(one.kind in (FORCES, "power") and one.at == "poses" for one in chosen.duty.limits):
+        at = "of a point mass at the plate's origin, beside loads and masses"
+        parts.append(f"{nd.payload_along(chosen.machine, result).words}; {at}")
     parts += _acting(result, masses, np.hstack([_rows(moment), _rows(force)]), chosen.tool)
     stated = [*stated, *masses_words(chosen.duty, options.mass)]
     parts += [f"from the study: {', '.join(stated)}"] if stated else []
     write = partial(write_run, result, directory, question=question, results={"motion": motion}, limits=of_study)
     answer = Answer(parts, {"motion": motion}, DONE if result.tracked and not motion["breaks"] else NO_RESULT)
-    finish_job(options, directory, answer, write, partial(_draw, result, options.screen, of_study))
+    margins = _margins(result, of_study)
+    finish_job(options, directory, answer, write, lambda: [("motion", nd.plot.motion(result, margins))])
 
 
 def _trajectory(chosen: Chosen, options: _Options) -> nd.Trajectory:
@@ -196,20 +198,9 @@ def _acting(motion: nd.Followed, masses: nd.Masses | None, loads: Any, tool: nd.
         yield f"acting: {'; '.join(words)}"
 
 
-def _payload(chosen: Chosen, motion: nd.Followed) -> Iterator[str]:
-    """Yield what the machine can carry along the path, where its study limits forces or powers."""
-    if any(one.kind in (FORCES, "power") and one.at == "poses" for one in chosen.duty.limits):
-        at = "of a point mass at the plate's origin, beside loads and masses"
-        yield f"{nd.payload_along(chosen.machine, motion).words}; {at}"
-
-
-def _draw(result: nd.Followed, screen: Screen, of_study: nd.PathLimits | None, directory: Path) -> list[Path]:
-    """Draw lengths, condition number and the margins of a study's limits; return the files."""
-    screen.say("drawing the motion")
-    from ninedof import plot
-
-    margins = None
-    if of_study:
-        margin = result.leg_margins.min(axis=1)  # infinite without limits
-        margins = ({"leg lengths": margin} if np.isfinite(margin).all() else {}) | of_study.margins
-    return plot.save(plot.motion(result, margins), directory, "motion")
+def _margins(result: nd.Followed, of_study: nd.PathLimits | None) -> dict[str, Any] | None:
+    """Return the margins of a study's limits along the path, those of the legs first; None without a study."""
+    if not of_study:
+        return None
+    margin = result.leg_margins.min(axis=1)  # infinite without limits
+    return ({"leg lengths": margin} if np.isfinite(margin).all() else {}) | of_study.margins

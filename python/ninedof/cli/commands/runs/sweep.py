@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 import ninedof as nd
+from ninedof.cli.answer import Figures
 from ninedof.cli.options import DESIGN, HEXAGON, THREADS, HexagonalOptions, argument, length_option, option, struct
 from ninedof.cli.posed import Chosen, chosen_design, named_design, with_length
 from ninedof.cli.sweep_job import Job, describe, json_data
@@ -30,7 +30,6 @@ VARIABLES = frozenset(name for names in FAMILIES.values() for name in names)
 FIGURES = ("figure-6", "figure-7")
 OF_POSES = ("absolute", "internal_point", "threads")
 NONE_WITH_FIGURES = ("over", "index", *OF_POSES, "lc", "chunk", *HEXAGON)
-PLACE = 4
 EXAMPLES = """
   ninedof sweep figure-6                   the condition number against displacement, as in the paper's Fig. 6
   ninedof sweep --over x_p=-1:1:201 --over theta_z_deg=-60:60:121
@@ -222,8 +221,7 @@ def parse_over(text: str) -> tuple[str, Values]:
         raise ValueError(f"--over: got {text!r}, expected {expected}") from None
 
 
-def _figures(result: nd.SweepResult, what: str | None, note: str) -> Iterator[tuple[str, Any]]:
-    from ninedof import plot
+def _figures(result: nd.SweepResult, what: str | None, note: str) -> Figures:
     from ninedof.paper import figures
 
     if what in FIGURES:
@@ -231,4 +229,4 @@ def _figures(result: nd.SweepResult, what: str | None, note: str) -> Iterator[tu
         return
     names = list(result)
     for name in names:
-        yield ("sweep" if len(names) == 1 else f"sweep_{name}"), plot.sweep(result, name, note)
+        yield ("sweep" if len(names) == 1 else f"sweep_{name}"), nd.plot.sweep(result, name, note)

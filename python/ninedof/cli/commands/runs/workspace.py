@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import Any, TypeVar
 
-from ninedof.cli.answer import Answer, finish_job, write_job
+from ninedof.cli.answer import Answer, Figures, finish_job, write_and_print
 from ninedof.cli.posed import Chosen, named_design, with_length
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, bold
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
@@ -21,7 +20,6 @@ from ninedof.workspace import workspace as find_workspace
 from ninedof.workspace.study_question import region_share
 from ninedof.workspace.tables import asked_lines, cut_words, share_words, workspace_table, workspace_words
 
-PLACE = 6
 S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)
 OF_THE_MAP = ("method", "tolerance", "resolution", "points", "seed", "index")
 EXAMPLES = """
@@ -57,7 +55,7 @@ def workspace(options: WorkspaceOptions) -> None:
 
     # At once: an interruption of what follows does not lose the map.
     keep = Answer(_parts(result, question, chosen), {"workspace": result.to_dict()})
-    write_job(screen, keep, lambda _: write_run(result, directory, None, record))
+    write_and_print(screen, keep, partial(write_run, result, directory, record))
     if (proof := question.proof) is not None and not result.interrupted:
 
         def prove() -> CertifiedWorkspace:
@@ -70,7 +68,7 @@ def workspace(options: WorkspaceOptions) -> None:
             proved = proved.with_estimate(result.volume, result.error)
         result = replace(result, certified=proved)
         keep = Answer(proved.sentences(), {"workspace": result.to_dict()})
-        write_job(screen, keep, lambda _: write_run(result, directory, None, record))
+        write_and_print(screen, keep, partial(write_run, result, directory, record))
     data: dict[str, Any] = {"workspace": result.to_dict()}
     if region is not None and region.internal_point != "best" and not result.interrupted:
         keywords = question.keywords
@@ -80,13 +78,13 @@ def workspace(options: WorkspaceOptions) -> None:
     stopped = result.interrupted or (result.certified is not None and result.certified.interrupted)
     with_figures = result.volume > 0.0 and result.method != "sample"
 
-    def draw(folder: Path) -> list[Path]:
+    def draw() -> Figures:
         from ninedof.cli import workspace_figures
 
-        return workspace_figures.draw(result, screen, home, None if result.of_angles else region, folder)
+        return workspace_figures.draw(result, home, None if result.of_angles else region)
 
     answer = Answer([], data, INTERRUPTED if stopped else DONE if result.volume > 0.0 else NO_RESULT)
-    write = partial(write_run, result, directory, question=record)
+    write = partial(write_run, result, directory, record)
     finish_job(options, directory, answer, write, draw if with_figures else None)
 
 
