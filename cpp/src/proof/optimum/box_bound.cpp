@@ -18,12 +18,13 @@ bool legs_too_different(const AxisPieces<Interval>& p, double log_leg_ratio) {
 /// Of the sizes those limits that designs of the box break and others keep, with their rows.
 RowLimits limits_in(const Box& box, const Box& point, const Chart& chart, const RowLimits& all, Values& at_middle,
                     std::array<Slopes, rows>& slopes) {
+  constexpr double wide = 4.0;  // of wider boxes the slopes say too little for any weight
   RowLimits out;
   out.log_leg_ratio = all.log_leg_ratio;
   const Sizes whole = axis_sizes(box, chart);
   for (std::size_t i = 0; i < sizes_of(chart); ++i) {
     const Interval size = box[at_size] * whole[i], &bounds = all.size[i];
-    if (bounds.lo <= size.lo && size.hi <= bounds.hi) continue;
+    if ((bounds.lo <= size.lo && size.hi <= bounds.hi) || size.hi > wide * size.lo) continue;
     const std::size_t row = first_size + i;
     const Slopes slope = axis_size_slopes(box, chart, row);
     if (!std::isfinite(magnitude(slope[at_share]))) continue;

@@ -82,13 +82,18 @@ Interval Combination::held(const RowLimits& by) const {
 Interval combined(const Combination& by, const Values& at_middle, const std::array<Slopes, rows>& slopes,
                   const Radii& radius, std::size_t dimension, const RowLimits& limits) {
   const std::array<Interval, rows> weight = by.weights();
-  const std::size_t used = by.limited() ? rows : external_leg;
+  std::array<std::size_t, rows> used;
+  std::size_t count = 0;
   Interval value = -by.held(limits);
-  for (std::size_t i = 0; i < used; ++i) value += weight[i] * at_middle[i];
+  for (std::size_t i = 0; i < rows; ++i) {
+    if (weight[i].lo == 0.0 && weight[i].hi == 0.0) continue;
+    used[count++] = i;
+    value += weight[i] * at_middle[i];
+  }
   double loss = 0.0;
   for (std::size_t k = 0; k < dimension; ++k) {
     Interval slope(0.0);
-    for (std::size_t i = 0; i < used; ++i) slope += weight[i] * slopes[i][k];
+    for (std::size_t i = 0; i < count; ++i) slope += weight[used[i]] * slopes[used[i]][k];
     loss = (loss + Interval(magnitude(slope)) * radius[k]).hi;
   }
   return value - loss;
