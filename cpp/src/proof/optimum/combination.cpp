@@ -45,8 +45,8 @@ std::size_t shares_of(const RowLimits& limits, std::array<RowShare, most_columns
         if (i != j) parts[count++] = {i, j, limits.log_leg_ratio};
   for (std::size_t i = 0; i < sizes; ++i) {
     const Interval& size = limits.size[i];
-    if (size.hi < infinity) parts[count++] = {first_size + i, rows, std::log(size.hi)};
-    if (size.lo > 0.0) parts[count++] = {rows, first_size + i, -std::log(size.lo)};
+    if (size.hi < infinity) parts[count++] = {first_size + i, rows, middle(log(Interval(size.hi)))};
+    if (size.lo > 0.0) parts[count++] = {rows, first_size + i, -middle(log(Interval(size.lo)))};
   }
   return count;
 }
