@@ -47,7 +47,7 @@ STUDIES = {  # study, gap
     "01_paper": (example("01_paper"), 1e-12),
     "the paper's with b1 ≤ 2, radius ratio ≤ 2.5": (CAP, 1e-8),
     "the paper's with theta_z from -1 to 1 rad": (paper(theta_z=(-1.0, 1.0)), 1e-12),
-    "the paper's with zp ≤ 2.5": (paper(zp=(0.05, 2.5)), 3e-3),
+    "the paper's with zp ≤ 2.5": (paper(zp=(0.05, 2.5)), 1e-8),
     "the paper's with zp and zs from 0": (paper(zp=(0.0, 80.0), zs=(0.0, 80.0)), 1e-12),
     **{
         f"the paper's with the length {word}": (replace(nd.Study.paper(), characteristic_length=word), 1e-10)

@@ -42,8 +42,12 @@ AxisSpectrum<T> closed_form(const X& x) {
 std::array<double, rows> logarithms(const Point& p) {
   const AxisSpectrum<double> s = closed_form<double>([&](std::size_t k) { return p[k]; });
   const double U = p[at_size];
-  return {std::log(s.axial_max), std::log(s.axial_min), std::log(s.transverse_max), std::log(s.transverse_min),
-          std::log(s.l / U),     std::log(s.q / U),     std::log(s.r / U)};
+  return {std::log(s.axial_max),      std::log(s.axial_min),
+          std::log(s.transverse_max), std::log(s.transverse_min),
+          std::log(s.l / U),          std::log(s.q / U),
+          std::log(s.r / U),          std::log(U * p[at_ratio]),
+          std::log(U * p[at_height]), std::log(U * p[at_height] / (1.0 + 1.0 / p[at_share])),
+          std::log(U * p[at_lower]),  std::log(U * p[at_upper])};
 }
 
 /// The number that U / l_c is, by the library's characteristic length of the design.
@@ -131,6 +135,12 @@ Point inside(const Box& box, PointDraws& random) {
   return p;
 }
 
+RowLimits legs_within(double ratio) {
+  RowLimits out;
+  out.log_leg_ratio = std::log(ratio);
+  return out;
+}
+
 double condition_number(const std::array<double, rows>& v) {
   return std::exp(std::max(v[axial_max], v[transverse_max]) - std::min(v[axial_min], v[transverse_min]));
 }
@@ -146,7 +156,7 @@ TEST_SUITE("axis_rows") {
       std::ranges::copy(p, box.begin());
       const Values found = axis_values(axis_pieces(box));
       const auto expected = logarithms(p);
-      for (std::size_t r = 0; r < rows; ++r) {
+      for (std::size_t r = 0; r < first_size; ++r) {
         INFO("row " << r << ", design " << i);
         // Where singular values meet, neither formula is good to more than the square root of the rounding.
         CHECK(middle(found[r]) == doctest::Approx(expected[r]).epsilon(1e-9).scale(1.0));
@@ -171,7 +181,7 @@ TEST_SUITE("axis_rows") {
               closed_form<D>([&](std::size_t k) { return D::variable(p[k], static_cast<int>(k)); });
           const std::array<const D*, 4> four{&s.axial_max, &s.axial_min, &s.transverse_max, &s.transverse_min};
           constexpr double slack = 1e-9;  // of the closed form in doubles
-          for (std::size_t r = 0; r < rows; ++r)
+          for (std::size_t r = 0; r < first_size; ++r)
             CHECK((values[r].lo - slack <= at[r] && at[r] <= values[r].hi + slack));
           for (std::size_t r = 0; r < 4; ++r)
             for (std::size_t k = 0; k < coordinates; ++k) {
@@ -182,6 +192,30 @@ TEST_SUITE("axis_rows") {
             }
         }
       }
+  }
+
+  TEST_CASE("sizes and their slopes over a box enclose those of its designs") {
+    PointDraws random;
+    for (const Chart& chart : charts) {
+      if (chart.length) continue;
+      for (int i = 0; i < 300; ++i) {
+        const Box box = box_in(chart, random.point(), i % 2 == 0 ? 0.05 : 1.0, random);
+        const Sizes whole = axis_sizes(box, chart);
+        const Point p = inside(box, random), q = inside(box, random);
+        const auto a = logarithms(plain(p, chart)), b = logarithms(plain(q, chart));
+        for (std::size_t row = first_size; row < first_size + sizes_of(chart); ++row) {
+          const Interval size = box[at_size] * whole[row - first_size];
+          CHECK(
+              (size.lo * (1.0 - 1e-9) - 1e-7 <= std::exp(a[row]) && std::exp(a[row]) <= size.hi * (1.0 + 1e-9) + 1e-7));
+          if (box[at_share].lo < 1.001 || (chart.slopes && box[at_share].hi > 1.999)) continue;
+          const Slopes slopes = axis_size_slopes(box, chart, row);
+          Interval change(-1e-9, 1e-9);
+          for (std::size_t k = 0; k < chart.dimension; ++k) change += std::log(q[k] / p[k]) * slopes[k];
+          INFO("slopes " << chart.slopes << ", dimension " << chart.dimension << ", row " << row);
+          CHECK(contains(change, b[row] - a[row]));
+        }
+      }
+    }
   }
 
   TEST_CASE("where the characteristic length is of a kind, U / l_c is that of the library") {
@@ -206,7 +240,7 @@ TEST_SUITE("axis_rows") {
         for (const double factor : {1e-5, 0.001, 0.05, 0.5, 3.0})
           for (int i = 0; i < 40; ++i) {
             const Box box = box_in(chart, random.point(), factor, random);
-            const BoxBound bound = bound_box(box, chart, 1e300, std::log(leg_ratio));
+            const BoxBound bound = bound_box(box, chart, 1e300, legs_within(leg_ratio));
             double least = infinity;
             for (int j = 0; j < 30; ++j) {
               const auto at = logarithms(plain(inside(box, random), chart));
@@ -243,7 +277,7 @@ TEST_SUITE("axis_rows") {
           const Point p = plain(inside(box, random), chart);
           box[at_size] = p[at_size] * Interval(1.0 - 1e-7, 1.0 + 1e-7);
           const double kappa = condition_number(logarithms(p));
-          const BoxBound bound = bound_box(box, chart, 1e300, infinity);
+          const BoxBound bound = bound_box(box, chart, 1e300, {});
           INFO("slopes " << chart.slopes << ", dimension " << chart.dimension << ", factor " << factor);
           CHECK(kappa >= bound.condition_number * (1.0 - 1e-7));
           checker::Box same;
@@ -252,6 +286,53 @@ TEST_SUITE("axis_rows") {
           CHECK_FALSE(checker::by_combination(same, domain, {bound.combination.max, bound.combination.min}));
         }
     }
+  }
+
+  TEST_CASE("no design that keeps the limits of sizes is below the bound of its box, here and in the checker") {
+    PointDraws random;
+    long weighed = 0;
+    for (const Chart& chart : charts) {
+      if (chart.length) continue;
+      for (const double factor : {1e-4, 0.01, 0.2, 1.0})
+        for (int i = 0; i < 100; ++i) {
+          const Box box = box_in(chart, random.point(), factor, random);
+          const auto at = logarithms(plain(inside(box, random), chart));  // a design where limits are active
+          RowLimits limits;
+          for (std::size_t k = 0; k < sizes_of(chart); ++k) {
+            if (random.part() < 0.5) continue;
+            const double size = std::exp(at[first_size + k]);
+            random.part() < 0.5 ? limits.size[k].hi = size : limits.size[k].lo = size;
+          }
+          const BoxBound bound = bound_box(box, chart, 1e300, limits);
+          weighed += bound.combination.limited() ? 1 : 0;
+          double least = condition_number(at);
+          for (int j = 0; j < 30; ++j) {
+            const auto other = logarithms(plain(inside(box, random), chart));
+            bool keeps = true;
+            for (std::size_t k = 0; k < sizes_of(chart); ++k)
+              keeps = keeps && std::log(limits.size[k].lo) <= other[first_size + k] &&
+                      other[first_size + k] <= std::log(limits.size[k].hi);
+            if (keeps) least = std::min(least, condition_number(other));
+          }
+          INFO("slopes " << chart.slopes << ", dimension " << chart.dimension << ", factor " << factor);
+          CHECK(least >= bound.condition_number * (1.0 - 1e-7));
+          checker::Domain domain;
+          domain.dimension = static_cast<int>(chart.dimension);
+          domain.slopes = chart.slopes;
+          domain.target = least * (1.0 + 1e-6);
+          const std::array all{&domain.R, &domain.zp, &domain.zs, &domain.R_internal, &domain.U_internal};
+          for (std::size_t k = 0; k < sizes; ++k) *all[k] = {limits.size[k].lo, limits.size[k].hi};
+          checker::Box same;
+          for (std::size_t k = 0; k < coordinates; ++k) same[k] = {box[k].lo, box[k].hi};
+          const Combination& by = bound.combination;
+          CHECK_FALSE(checker::by_combination(same, domain, {by.max, by.min, by.limits}));
+          domain.target = bound.condition_number * (1.0 - 1e-3);
+          const bool edge = chart.slopes && (box[at_share].lo < 1.001 || box[at_share].hi > 1.999);
+          if (factor < 0.001 && bound.reason == Reason::combination && by.limited() && !edge)
+            CHECK(checker::by_combination(same, domain, {by.max, by.min, by.limits}));
+        }
+    }
+    CHECK(weighed > 200);
   }
 
   TEST_CASE("no design of a box is below its bound, of any kind") {
@@ -264,7 +345,7 @@ TEST_SUITE("axis_rows") {
             if (hexagons) box = hexagonal(box);
             const std::size_t dimension = hexagons ? hexagonal_coordinates : coordinates;
             const BoxBound bound =
-                bound_box(box, {.dimension = dimension, .slopes = false, .length = {}}, 1e300, std::log(leg_ratio));
+                bound_box(box, {.dimension = dimension, .slopes = false, .length = {}}, 1e300, legs_within(leg_ratio));
             for (int j = 0; j < 30; ++j) {
               Point p = inside(box, random);
               if (hexagons) p[at_lower] = p[at_ratio], p[at_upper] = 1.0;
@@ -281,7 +362,7 @@ TEST_SUITE("axis_rows") {
     const auto loss = [](const Point& p, double size) {
       Box box;
       for (std::size_t k = 0; k < coordinates; ++k) box[k] = {p[k] * (1.0 - size), p[k] * (1.0 + size)};
-      return std::log(condition_number(logarithms(p)) / bound_box(box, {}, 1e300, infinity).condition_number);
+      return std::log(condition_number(logarithms(p)) / bound_box(box, {}, 1e300, {}).condition_number);
     };
     for (int i = 0; i < 50; ++i) {
       const Point p = random.point();

@@ -31,13 +31,14 @@ OptimumProof prove(const Problem& study, double target, bool keep = false, int t
   return prove_optimum(study, settings);
 }
 
-/// The file with one line of its head replaced, and a checksum that fits.
-std::string changed(const std::string& file, const std::string& from, const std::string& to) {
-  const std::string head = "ninedof certificate 1\nchecksum ";
-  std::string body = file.substr(file.find('\n', head.size()) + 1);
-  const std::size_t at = body.find(from);
-  REQUIRE(at != std::string::npos);
-  body.replace(at, from.size(), to);
+const std::string first_lines = "ninedof certificate 1\nchecksum ";
+
+std::string body_of_certificate(const std::string& file) {
+  return file.substr(file.find('\n', first_lines.size()) + 1);
+}
+
+/// A file with a checksum that fits.
+std::string with_checksum(const std::string& body) {
   std::uint32_t crc = 0xFFFFFFFFU;
   for (const char c : body) {
     crc ^= static_cast<unsigned char>(c);
@@ -45,7 +46,21 @@ std::string changed(const std::string& file, const std::string& from, const std:
   }
   char text[16];
   std::snprintf(text, sizeof text, "%x", ~crc);
-  return head + text + "\n" + body;
+  return first_lines + text + "\n" + body;
+}
+
+/// The file with one line of its head replaced.
+std::string changed(const std::string& file, const std::string& from, const std::string& to) {
+  std::string body = body_of_certificate(file);
+  const std::size_t at = body.find(from);
+  REQUIRE(at != std::string::npos);
+  return with_checksum(body.replace(at, from.size(), to));
+}
+
+/// Of another tree.
+std::string with_tree(const std::string& file, const std::string& tree) {
+  const std::string body = body_of_certificate(file);
+  return with_checksum(body.substr(0, body.find("\ntree ")) + "\ntree " + std::to_string(tree.size()) + "\n" + tree);
 }
 
 }  // namespace
@@ -66,6 +81,35 @@ TEST_SUITE("optimum") {
     CHECK(open.lower_bound <= best);
     CHECK(open.open > 0);
     CHECK(open.certificate.empty());
+  }
+
+  TEST_CASE("under a limit of zp: proved to the optimum, not beyond it, and weights of limits are those of the study") {
+    constexpr double best_low = 4.048039517543512;  // found by many starts
+    Problem low = paper();
+    low.variables[4].high = 2.5;
+    const OptimumProof found = prove(low, best_low * (1.0 - 1e-8), true);
+    CHECK(found.complete);
+    CHECK(found.boxes < 300'000);
+    const checker::Verdict good = checker::check(found.certificate);
+    CHECK_MESSAGE(good.proved, good.words);
+    CHECK_FALSE(checker::check(changed(found.certificate, " 0x1.4p+1\n", " 0x1.41p+1\n")).proved);
+
+    OptimumSettings above;
+    above.target = best_low * (1.0 + 1e-6);
+    above.box_limit = 400'000;
+    CHECK_FALSE(prove_optimum(low, above).complete);
+
+    const std::string zeros(8, '\0'), one("\0\0\x80\x3f", 4), less("\0\0\x80\xbf", 4), nothing("\0\0\xc0\x7f", 4);
+    for (const auto& [limits, words] : {std::pair<std::string, std::string>{'\x80' + one, "does not exist"},
+                                        {'\x01' + one, "that the study does not have"},
+                                        {'\x04' + less, "that the study does not have"},
+                                        {'\x08' + nothing, "is not finite"},
+                                        {'\x08' + one, "is not proved"}}) {
+      const checker::Verdict bad = checker::check(with_tree(found.certificate, '\x13' + zeros + limits));
+      INFO(words);
+      CHECK_FALSE(bad.proved);
+      CHECK(bad.words.find(words) != std::string::npos);
+    }
   }
 
   TEST_CASE("a stop leaves what is proved so far") {

@@ -7,6 +7,7 @@ proof.
 
 import math
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -29,6 +30,10 @@ STUDIES = {
         variables={"a1": (0.1, 0.2), "a2": 5.0, "b1": 2.5, "b2": 0.1, "theta_z": (-0.2, 0.3)} | HEIGHTS,
         constraints={"zs_fraction": (0.2, 0.8), "leg_ratio": (None, 3.0)},
         characteristic_length=0.7,
+    ),
+    "hexagonal, sizes that bind": nd.Study(
+        variables={"a1": 0.0, "a2": (2.0, 5.0), "b1": (1.0, 3.0), "b2": 0.0, "zp": (1.0, 2.5), "zs": (0.3, 1.4)},
+        constraints={"radius_ratio": (None, 2.0)},
     ),
     "symmetric, up to a half turn": nd.Study(
         "symmetric",
@@ -294,6 +299,32 @@ def test_proofs_of_angles_anywhere_are_checked(ends, tmp_path):
     proof = nd.prove_optimum(study, nd.optimize(study, starts=8).condition_number, gap=0.05)
     assert proof.complete
     assert verdict(Head(proof.certificate), tmp_path).proved
+
+
+WIDE = {"a1": 0.0, "a2": (0.0, 50.0), "b1": (0.5, 50.0), "b2": 0.0, "zp": (0.5, 50.0), "zs": (0.1, 50.0)}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "ends", "wider"),
+    [("zp", (0.5, 2.5), 2.505), ("zp", (9.0, 50.0), 8.98), ("zs", (0.1, 1.0), 1.003), ("a2", (0.0, 3.0), 3.01)],
+)
+def test_a_better_design_behind_a_limit_of_a_size_is_found(name, ends, wider, tmp_path):
+    """A bound that holds to 1e-8 is false once the limit that the optimum meets gives way by a few thousandths."""
+    study = nd.Study(variables=WIDE | {name: ends}, constraints={"radius_ratio": (None, 2.0)})
+    known = nd.optimize(study, starts=16).condition_number
+    proof = nd.prove_optimum(study, known, gap=1e-8)
+    assert proof.complete
+    assert proof.boxes < 500_000
+    head = Head(proof.certificate)
+    assert verdict(head, tmp_path).proved
+    assert best(head, np.random.default_rng(2), 20_000, 24) >= proof.lower_bound
+    at = next(i for i, line in enumerate(head.lines) if line[:2] == ["variable", name])
+    lower = wider < ends[0]
+    wide = replace(study, variables=WIDE | {name: (wider, ends[1]) if lower else (ends[0], wider)})
+    assert nd.optimize(wide, starts=16).condition_number < proof.lower_bound
+    assert not verdict(head.changed((at, 2 if lower else 3), wider), tmp_path).proved
+    assert not nd.prove_optimum(wide, known, gap=1e-8).complete
 
 
 @pytest.mark.parametrize(

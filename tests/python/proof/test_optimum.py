@@ -230,21 +230,27 @@ def test_the_report_no_longer_says_that_nothing_better_was_only_searched(proved)
     assert "That no other design is better" in page
 
 
+def read_paper(path, most):
+    """Target, first box and tree of a certificate of the paper's problem, zp as far as `most`."""
+    words, tree = balls.parts(path)
+    target = float.fromhex(next(value for key, value in (w[:2] for w in words if len(w) == 2) if key == "target"))
+    u = (0.05 / (target * 60.0), 60.0)  # lemma 9, in doubles
+    x = (u[0] / 60.0, 2.0)
+    root = [u, x, (0.05 / 60.0, most / u[0]), None, (0.5 * x[0], math.tan(math.pi / 6.0)), x, (1.0, 1.0)]
+    longest = math.hypot(1.0 + x[1], root[balls.ETA][1])
+    t = (max(0.05 / most, x[0] / (target * longest)), 1.0 - 1.0 / (target * longest))
+    root[balls.O] = (t[0] / (1.0 - t[0]), t[1] / (1.0 - t[1]))
+    return target, root, tree
+
+
 @pytest.mark.slow
 def test_leaves_of_the_certificate_hold_in_balls_too(proved, tmp_path):
     """A third reader, in another language and arithmetic: of boxes nearest to the optimum and of others."""
     path = proved.proof.save(tmp_path / "whole")
-    words, tree = balls.parts(path)
-    target = float.fromhex(next(value for key, value in (w[:2] for w in words if len(w) == 2) if key == "target"))
+    target, root, tree = read_paper(path, 80.0)
     assert target == proved.lower_bound
-    u = (0.05 / (target * 60.0), 60.0)  # lemma 9, in doubles
-    x = (u[0] / 60.0, 2.0)
-    root = [u, x, (0.05 / 60.0, 80.0 / u[0]), None, (0.5 * x[0], math.tan(math.pi / 6.0)), x, (1.0, 1.0)]
-    longest = math.hypot(1.0 + x[1], root[balls.ETA][1])
-    t = (max(0.05 / 80.0, x[0] / (target * longest)), 1.0 - 1.0 / (target * longest))
-    root[balls.O] = (t[0] / (1.0 - t[0]), t[1] / (1.0 - t[1]))
     leaves = [leaf for leaf in balls.leaves(root, tree) if leaf[1] == 18]
-    sizes = [sum(math.log(high / low) for low, high in box[:5]) for box, _, _ in leaves]
+    sizes = [sum(math.log(high / low) for low, high in box[:5]) for box, *_ in leaves]
     rng = np.random.default_rng(1)
     count = 400 if LONG else 10
     by_size = np.argsort(sizes)  # the largest fifth takes the plain formulas of the balls many cuts
@@ -254,6 +260,35 @@ def test_leaves_of_the_certificate_hold_in_balls_too(proved, tmp_path):
     assert all(balls.closed(leaves[k][0][:5], target * (1.0 - 1e-12), leaves[k][2]) for k in sorted(chosen))
     small = leaves[int(np.argmin(sizes))]
     assert not balls.closed(small[0][:5], target * 1.01, small[2], depth=3)
+
+
+LOW_BEST = 4.048039517543512  # of the paper's problem with zp up to 2.5
+
+
+@pytest.fixture(scope="module")
+def low():
+    study = dataclasses.replace(PAPER, variables=dict(PAPER.variables) | {"zp": (0.05, 2.5)})
+    return nd.prove_optimum(study, LOW_BEST, gap=1e-8)
+
+
+@pytest.mark.slow
+def test_leaves_with_a_weight_of_a_size_hold_in_balls_too(low, tmp_path):
+    assert low.complete
+    path = low.save(tmp_path / "low")
+    assert nd.check_certificate(path).proved
+    target, root, tree = read_paper(path, 2.5)
+    leaves = [leaf for leaf in balls.leaves(root, tree) if leaf[1] == 19]
+    assert any(limits[3] > 0.0 for *_, limits in leaves)
+    small = sorted(leaves, key=lambda leaf: sum(math.log(high / low) for low, high in leaf[0][:5]))
+    radius = (0.0, 60.0)
+    bounds = [radius, (0.05, 2.5), (0.05, 80.0)]
+    count = 200 if LONG else 10
+    for box, _, weights, limits in small[:count] + small[count : len(small) // 2 : len(small) // count]:
+        assert balls.closed(box[:5], target * (1.0 - 1e-12), weights, limits=limits, bounds=bounds)
+    box, _, weights, limits = next(leaf for leaf in small if leaf[3][3] > 0.0)
+    higher = [radius, (0.05, 2.6), (0.05, 80.0)]
+    assert not balls.closed(box[:5], target, weights, depth=3, limits=limits, bounds=higher)
+    assert not balls.closed(box[:5], target * 1.01, weights, depth=3, limits=limits, bounds=bounds)
 
 
 # Plates so flat that a condition number below the target is excluded before any box is looked at.

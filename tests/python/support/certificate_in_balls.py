@@ -18,7 +18,10 @@ def parts(path):
 
 
 def leaves(root, tree, hexagonal=True):
-    """(box as ends, code, weights) of every leaf; a box holds pairs of floats."""
+    """(box as ends, code, weights, weights of limits) of every leaf; a box holds pairs of floats.
+
+    The limits are those of the external and the upper leg, of R, zp, zs and the radii of internal joints.
+    """
     at, ahead = 0, [root]
     while ahead:
         box = ahead.pop()
@@ -34,9 +37,15 @@ def leaves(root, tree, hexagonal=True):
                     cut[Y] = cut[X]
                 ahead.append(cut)
             continue
-        count = {16: 0, 17: 0, 18: 2, 19: 4}[code]
-        yield box, code, struct.unpack(f"<{count}f", tree[at : at + 4 * count])
-        at += 4 * count
+        assert code in (16, 17, 18, 19)
+        limits = np.zeros(7)
+        count = 2 if code > 17 else 0
+        weights, at = struct.unpack_from(f"<{count}f", tree, at), at + 4 * count
+        if code == 19:
+            which = [k for k in range(8) if tree[at] >> k & 1]
+            limits[which] = struct.unpack_from(f"<{len(which)}f", tree, at + 1)
+            at += 1 + 4 * len(which)
+        yield box, code, weights, limits
     assert at == len(tree)
 
 
@@ -67,6 +76,12 @@ def logarithms(v):
     return out
 
 
+def log_sizes(v):
+    """Of R, zp and zs of hexagons."""
+    u, x, eta, o = (log(v[k]) for k in range(4))
+    return u + x, u + eta, u + eta + o - log(v[O] + 1)
+
+
 def root(v):
     return v.of(np.sqrt, lambda x: 0.5 / np.sqrt(x))
 
@@ -75,8 +90,11 @@ def log(v):
     return v.of(np.log, lambda x: 1 / x)
 
 
-def excluded(ends, target, weights):
-    """Whether no design of the box has a condition number below the target, by the weights of a combination."""
+def excluded(ends, target, weights, limits=(), bounds=()):
+    """Whether no design of the box has a condition number below the target, by the weights of a combination.
+
+    Of hexagons also by weights of limits, and the ends of R, zp and zs.
+    """
     middles = [math.sqrt(a) * math.sqrt(b) for a, b in ends]
     v = Form.coordinates(middles, ends, range(len(ends)))
     v.x[:, 2:] *= v.x[:, 1:2]  # slopes along the logarithms
@@ -86,13 +104,16 @@ def excluded(ends, target, weights):
     ]
     a, b = (arb(w) for w in weights[:2])
     mix = sum(w * row for w, row in zip((1 - a, -(1 - b), a, -b), logarithms(v), strict=True))
+    for weight, size, ends_of in zip(limits[2:5], log_sizes(v), bounds, strict=True) if any(limits) else ():
+        if weight:
+            mix = mix + arb(weight) * (size + -arb(ends_of[int(weight > 0)]).log())
     return (mix - arb(target).log()).over(np.array(half)) >= 0
 
 
-def closed(ends, target, weights, depth=15):
+def closed(ends, target, weights, depth=15, **limited):
     """The same, cutting the box where one look is not enough."""
     ctx.prec = 120
-    if excluded(ends, target, weights):
+    if excluded(ends, target, weights, **limited):
         return True
     if depth == 0:
         return False
@@ -100,4 +121,4 @@ def closed(ends, target, weights, depth=15):
     low, high = ends[k]
     middle = math.sqrt(low) * math.sqrt(high)
     halves = ([*ends[:k], half, *ends[k + 1 :]] for half in ((low, middle), (middle, high)))
-    return all(closed(half, target, weights, depth - 1) for half in halves)
+    return all(closed(half, target, weights, depth - 1, **limited) for half in halves)

@@ -181,6 +181,18 @@ Pieces<n> pieces(const Box& b, const Domain& d) {
   return p;
 }
 
+/// The sizes that limits are about, in l_c, where U / l_c is a coordinate.
+template <std::size_t n>
+std::array<Positive<n>, 5> sizes(const Box& b, const Domain& d) {
+  const Positive<n> U = coordinate<n>(b, 0), R = U * coordinate<n>(b, 1), zp = U * coordinate<n>(b, 2);
+  const Positive<n> o = coordinate<n>(b, 3);
+  if (d.dimension == 5) return {R, zp, zp * inverse(plus(1.0, inverse(o))), R, U};
+  const Positive<n> lower = U * coordinate<n>(b, 5), upper = U * coordinate<n>(b, 6);
+  if (!d.slopes) return {R, zp, zp * inverse(plus(1.0, inverse(o))), lower, upper};
+  const Positive<n> t = positive(plus(-1.0, plain(o))), q = positive(plus(2.0, -plain(o)));
+  return {R, zp, zp * t, lower * t, upper * q};
+}
+
 /// By the mean value theorem, along all n coordinates.
 template <std::size_t n>
 bool combined(const Box& box, const Domain& d, const Weights& by) {
@@ -196,24 +208,36 @@ bool combined(const Box& box, const Domain& d, const Weights& by) {
     middle[0] = {0.0, inf};
     reach[0] = 0.0;
   }
-  const Range a = double(by.max), b = double(by.min), e = double(by.external), u = double(by.upper), l = -(e + u);
+  const Range a = double(by.max), b = double(by.min), e = double(by.limits[0]), u = double(by.limits[1]), l = -(e + u);
   const Pieces<0> at = pieces<0>(middle, d);
   const Pieces<n> p = pieces<n>(box, d);
   const Values axial = values(at.axial), transverse = values(at.transverse);
   Range sum = (1.0 - a) * logarithm(axial.max) + a * logarithm(transverse.max) - (1.0 - b) * logarithm(axial.min) -
               b * logarithm(transverse.min);
-  const bool legs = by.external != 0.0F || by.upper != 0.0F;
+  const bool legs = by.limits[0] != 0.0F || by.limits[1] != 0.0F;
   if (legs) {
     const auto plus = [](Range x) { return Range(std::max(x.a, 0.0), std::max(x.b, 0.0)); };
     sum = sum +
           (e * logarithm(at.external2.value) + u * logarithm(at.upper2.value) + l * logarithm(at.lower2.value)) / 2.0 -
           (plus(e) + plus(u) + plus(l)) * logarithm(d.leg_ratio);
   }
+  std::array<Range, n> by_sizes{};
+  if (std::any_of(by.limits.begin() + 2, by.limits.end(), [](float w) { return w != 0.0F; })) {
+    const auto there = sizes<0>(middle, d);
+    const auto over = sizes<n>(box, d);
+    for (std::size_t i = 2; i < by.limits.size(); ++i) {
+      if (by.limits[i] == 0.0F) continue;
+      const Range w = double(by.limits[i]);
+      sum = sum + w * logarithm(there[i - 2].value / bound_of(d, i, by.limits[i]));
+      for (std::size_t k = 0; k < n; ++k) by_sizes[k] = by_sizes[k] + w * over[i - 2].log_slope[k];
+    }
+  }
   Range axial_max[n], axial_min[n], transverse_max[n], transverse_min[n];
   slopes(p.axial, axial_max, axial_min);
   slopes(p.transverse, transverse_max, transverse_min);
   for (std::size_t k = 0; k < n; ++k) {
-    Range slope = (1.0 - a) * axial_max[k] + a * transverse_max[k] - (1.0 - b) * axial_min[k] - b * transverse_min[k];
+    Range slope = by_sizes[k] + (1.0 - a) * axial_max[k] + a * transverse_max[k] - (1.0 - b) * axial_min[k] -
+                  b * transverse_min[k];
     if (legs)
       slope = slope + (e * p.external2.log_slope[k] + u * p.upper2.log_slope[k] + l * p.lower2.log_slope[k]) / 2.0;
     sum = sum - Range(0.0, (Range(size(slope)) * reach[k]).b);
@@ -247,6 +271,12 @@ bool by_ranges(const Box& box, const Domain& d) {
   }
   const Values a = values(p.axial), t = values(p.transverse);
   return (Range(a.max.a) / t.min.b).a >= d.target || (Range(t.max.a) / a.min.b).a >= d.target;
+}
+
+double bound_of(const Domain& d, std::size_t limit, float weight) {
+  if (d.length != Length::free) return 0.0;
+  const Range bounds = std::array{d.R, d.zp, d.zs, d.R_internal, d.U_internal}[limit - 2] / d.scale;
+  return weight < 0.0F ? bounds.a : bounds.b < inf ? bounds.b : 0.0;
 }
 
 bool by_combination(const Box& box, const Domain& d, const Weights& by) {

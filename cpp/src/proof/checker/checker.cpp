@@ -48,17 +48,27 @@ class Walk {
   void leaf(const Box& box, int code) {
     std::optional<Weights> by;
     if (code == 18 || code == 19) {
-      by = Weights{tree_.real(), tree_.real(), 0.0F, 0.0F};
-      if (code == 19) by->external = tree_.real(), by->upper = tree_.real();
+      by = Weights{tree_.real(), tree_.real()};
+      if (code == 19) read_limits(*by);
       if (!(by->max >= 0.0F && by->max <= 1.0F && by->min >= 0.0F && by->min <= 1.0F))
         refuse("a weight is not from 0 to 1");
-      if (!std::isfinite(by->external) || !std::isfinite(by->upper)) refuse("a weight is not finite");
-      if (code == 19 && !(d_.leg_ratio < inf)) refuse("a weight of a limit that the study does not have");
     } else if (code != 16 && code != 17) {
       refuse("byte " + std::to_string(code) + " of the tree means nothing");
     }
     count_leaf(tree_, reading_, verdict_);
     if (!closed(box, by, 0)) refuse("a box is not proved to hold no design below the target");
+  }
+
+  void read_limits(Weights& by) {
+    const unsigned which = tree_.byte();
+    if (which >> by.limits.size() != 0) refuse("a weight of a limit that does not exist");
+    for (std::size_t i = 0; i < by.limits.size(); ++i) {
+      if ((which >> i & 1U) == 0) continue;
+      by.limits[i] = tree_.real();
+      if (!std::isfinite(by.limits[i])) refuse("a weight is not finite");
+      if (!(i < 2 ? d_.leg_ratio < inf : bound_of(d_, i, by.limits[i]) > 0.0))
+        refuse("a weight of a limit that the study does not have");
+    }
   }
 
   /// Whatever the tree says, all that excludes a box counts; where rounding or a wider formula leaves a doubt, its

@@ -1,6 +1,6 @@
 #include "proof/optimum/axis_domain.hpp"
 
-#include <span>
+#include <algorithm>
 #include <tuple>
 
 #include "limits/rows.hpp"
@@ -122,7 +122,6 @@ void read_variables(const Problem& study, AxisDomain& d) {
 void read_limits(const Problem& study, AxisDomain& d, std::vector<std::string>& left_out) {
   d.share = {0.0, 1.0};
   d.radius_ratio = anything;
-  d.log_leg_ratio = infinity;
   for (const Limit& limit : study.limits) {
     const Interval range{std::max(limit.low, 0.0), limit.high};
     const LimitRow& row = limit_row(limit.name);
@@ -131,7 +130,8 @@ void read_limits(const Problem& study, AxisDomain& d, std::vector<std::string>& 
     } else if (row.design == &radius_ratio_row) {
       d.radius_ratio = both(d.radius_ratio, range);
     } else if (row.spread == &leg_ratio_row) {
-      if (limit.high < infinity) d.log_leg_ratio = std::min(d.log_leg_ratio, log(Interval(limit.high)).hi);
+      if (limit.high < infinity)
+        d.limits.log_leg_ratio = std::min(d.limits.log_leg_ratio, log(Interval(limit.high)).hi);
       if (limit.low > 1.0) left_out.push_back(limit.label() + ".min");
     } else {
       left_out.push_back(limit.label());
@@ -176,8 +176,8 @@ void take_slopes(AxisDomain& d, double target, const Interval& U, const Interval
   const Interval eta(b[at_height].lo), moved2 = square(eta * b[at_size].hi);
   const Interval longest2 = square(1.0 + Interval(b[at_ratio].hi)) + square(eta);
   const Interval flat((sqrt(Interval(2.0)) * square(eta) / (target * sqrt(longest2 * (1.0 + moved2)))).lo, room.hi);
-  if (d.log_leg_ratio < infinity) {  // an internal leg is not shorter than zp / L
-    const double least = (exp(Interval(-d.log_leg_ratio)) / sqrt(1.0 + square(Interval(flat.hi) / eta))).lo;
+  if (d.limits.log_leg_ratio < infinity) {  // an internal leg is not shorter than zp / L
+    const double least = (exp(Interval(-d.limits.log_leg_ratio)) / sqrt(1.0 + square(Interval(flat.hi) / eta))).lo;
     t = left_of(t, {least, (1.0 - Interval(least)).hi}, d.empty);
   }
   const auto over = [&](const Interval& radius, const Interval& part) {
@@ -239,6 +239,9 @@ AxisDomain axis_domain(const Problem& study, double target, std::vector<std::str
   t = left_of(t, {least_share.lo, (1.0 - Interval(least_rest.lo)).hi}, d.empty);
   d.box[at_share] = {(Interval(t.lo) / (1.0 - Interval(t.lo))).lo, (Interval(t.hi) / (1.0 - Interval(t.hi))).hi};
   if (d.chart.slopes) take_slopes(d, target, U, room, t);
+  if (!d.chart.length)
+    std::ranges::transform(d.size_bounds(), d.limits.size.begin(),
+                           [&](const Interval& bounds) { return not_negative(bounds / d.scale); });
   if (!d.empty) settle(d.box, d.chart);
   d.empty = d.empty || d.box[at_size].lo > d.box[at_size].hi;
   return d;
@@ -246,78 +249,54 @@ AxisDomain axis_domain(const Problem& study, double target, std::vector<std::str
 
 namespace {
 
-/// Numbers of the designs of a box that limits are about, and the lengths of a design in units of U.
-struct Shape {
-  Interval t, y, z;
-  std::array<std::pair<Interval, const Interval*>, 5> all;  ///< with their bounds
-  std::size_t count;
-
-  auto lengths() const { return std::span(all).first(count); }
-
-  Shape(const Box& b, const AxisDomain& d)
-      : t(1.0 / (1.0 + 1.0 / b[at_share])), y(b[at_lower]), z(b[at_upper]), count(d.chart.hexagonal() ? 3 : 5) {
-    if (d.chart.slopes) {
-      t = not_negative(b[at_share] - 1.0);
-      y = y * t;
-      z = z * not_negative(2.0 - b[at_share]);
-    }
-    all = {{{b[at_ratio], &d.base_external},
-            {b[at_height], &d.zp},
-            {b[at_height] * t, &d.zs},
-            {y, &d.base_internal},
-            {z, &d.platform_internal}}};
-  }
-};
+Interval ratio_of(const Interval& x, const Sizes& part) {
+  return max(x, part[lower_size - first_size]) / max(Interval(1.0), part[upper_size - first_size]);
+}
 
 }  // namespace
 
 bool AxisDomain::excludes(const Box& b) const {
   const Interval &U = b[at_size], &x = b[at_ratio];
   if (U.lo > U.hi) return true;
-  const Shape at(b, *this);
-  if (scaled()) {  // by all of U that the bounds of the others leave
-    Interval size = platform_external;
-    for (const auto& [part, bounds] : at.lengths()) {
-      if (apart(size * part, *bounds)) return true;
-      const Interval fits = *bounds / part;
-      if (apart(size, fits)) return true;
-      size = {std::max(size.lo, fits.lo), std::min(size.hi, fits.hi)};
-    }
-    if (apart(size / U, scale)) return true;
-  } else {
-    const Interval height = U * b[at_height];
-    if (apart(U * x, base_external) || apart(height, zp) || apart(height * at.t, zs)) return true;
+  const Sizes part = axis_sizes(b, chart), bounds = size_bounds();
+  Interval size = scaled() ? platform_external : U;  // of a free l_c, what the bounds leave of it
+  for (std::size_t i = 0; i < sizes_of(chart); ++i) {
+    if (apart(size * part[i], bounds[i])) return true;
+    if (!scaled()) continue;
+    const Interval fits = bounds[i] / part[i];
+    if (apart(size, fits)) return true;
+    size = {std::max(size.lo, fits.lo), std::min(size.hi, fits.hi)};
   }
-  if (apart(at.t, share)) return true;
-  if (chart.hexagonal()) return false;
-  if (!scaled() && (apart(U * at.y, base_internal) || apart(U * at.z, platform_internal))) return true;
-  return apart(max(x, at.y) / max(Interval(1.0), at.z), radius_ratio);
+  if (scaled() && apart(size / U, scale)) return true;
+  if (apart(axis_share(b, chart), share)) return true;
+  return !chart.hexagonal() && apart(ratio_of(x, part), radius_ratio);
 }
 
 bool AxisDomain::contains(const Box& b) const {
   const auto inside = [](const Interval& x, const Interval& of) { return of.lo <= x.lo && x.hi <= of.hi; };
   const Interval& U = b[at_size];
   const AxisPieces<Interval> pieces = axis_pieces(b, chart);
-  const Shape at(b, *this);
+  const Sizes part = axis_sizes(b, chart), bounds = size_bounds();
+  const std::size_t count = sizes_of(chart);
   if (scaled()) {  // whether one U keeps all bounds
     double least = std::max(platform_external.lo, (U * scale.lo).hi);
     double most = std::min(platform_external.hi, (U * scale.hi).lo);
-    for (const auto& [part, bounds] : at.lengths()) {
-      least = std::max(least, (Interval(bounds->lo) / part).hi);
-      most = std::min(most, (Interval(bounds->hi) / part).lo);
+    for (std::size_t i = 0; i < count; ++i) {
+      least = std::max(least, (Interval(bounds[i].lo) / part[i]).hi);
+      most = std::min(most, (Interval(bounds[i].hi) / part[i]).lo);
     }
     if (!(least <= most)) return false;
   } else {
     if (!inside(U, platform_external)) return false;
-    for (const auto& [part, bounds] : at.lengths())
-      if (!inside(U * part, *bounds)) return false;
+    for (std::size_t i = 0; i < count; ++i)
+      if (!inside(U * part[i], bounds[i])) return false;
   }
-  if (!inside(at.t, share) || !inside(pieces.cosine, cosine)) return false;
-  if (!inside(max(b[at_ratio], at.y) / max(Interval(1.0), at.z), radius_ratio)) return false;
+  if (!inside(axis_share(b, chart), share) || !inside(pieces.cosine, cosine)) return false;
+  if (!inside(ratio_of(b[at_ratio], part), radius_ratio)) return false;
   const Values v = axis_values(pieces);
   const double longest = std::max({v[external_leg].hi, v[upper_leg].hi, v[lower_leg].hi});
   const double shortest = std::min({v[external_leg].lo, v[upper_leg].lo, v[lower_leg].lo});
-  return longest - shortest <= log_leg_ratio;
+  return longest - shortest <= limits.log_leg_ratio;
 }
 
 }  // namespace ninedof::proof

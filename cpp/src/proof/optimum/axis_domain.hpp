@@ -5,7 +5,7 @@
 
 #include "ninedof/problem/problem.hpp"
 #include "ninedof/proof/optimum.hpp"
-#include "proof/optimum/axis_rows.hpp"
+#include "proof/optimum/combination.hpp"
 
 namespace ninedof::proof {
 
@@ -20,13 +20,15 @@ struct AxisDomain {
   Interval share;  ///< zs / zp
   Interval cosine;  ///< of the angle between the first external joints
   Interval radius_ratio;  ///< greatest distance of a base joint over that of a platform joint
-  double log_leg_ratio;   ///< at least the logarithm of the limit; infinite without one
+  RowLimits limits;  ///< of the legs and, where U / l_c is a coordinate, of the sizes
 
   /// Whether the box holds no design of the domain.
   bool excludes(const Box& designs) const;
   /// Whether it holds the design of a box that is a point.
   bool contains(const Box& design) const;
 
+  /// In the order of the rows.
+  Sizes size_bounds() const { return {base_external, zp, zs, base_internal, platform_internal}; }
   /// Whether l_c is no number.
   bool scaled() const { return scale.hi > 1.0; }
 };

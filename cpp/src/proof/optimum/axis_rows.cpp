@@ -73,6 +73,29 @@ std::array<Interval, rows> axis_values(const AxisPieces<Interval>& p) {
           0.5 * log(p.upper2), 0.5 * log(p.lower2)};
 }
 
+Interval axis_share(const Box& b, const Chart& chart) {
+  return chart.slopes ? not_negative(b[at_share] - 1.0) : 1.0 / (1.0 + 1.0 / b[at_share]);
+}
+
+Sizes axis_sizes(const Box& b, const Chart& chart) {
+  const Interval t = axis_share(b, chart);
+  const Interval lower = chart.slopes ? b[at_lower] * t : b[at_lower];
+  const Interval upper = chart.slopes ? b[at_upper] * not_negative(2.0 - b[at_share]) : b[at_upper];
+  return {b[at_ratio], b[at_height], b[at_height] * t, lower, upper};
+}
+
+Slopes axis_size_slopes(const Box& b, const Chart& chart, std::size_t row) {
+  constexpr std::array<Coordinate, sizes> own{at_ratio, at_height, at_height, at_lower, at_upper};
+  Slopes out{};
+  out[at_size] = out[own[row - first_size]] = 1.0;
+  const Interval& o = b[at_share];
+  if (row == internal_size && !chart.slopes) out[at_share] = 1.0 / (1.0 + o);
+  if (!chart.slopes) return out;
+  if (row == internal_size || row == lower_size) out[at_share] = o / not_negative(o - 1.0);
+  if (row == upper_size) out[at_share] = -(o / not_negative(2.0 - o));
+  return out;
+}
+
 namespace {
 
 /// Of log (U / l_c) along the others, where l_c is of a kind.

@@ -1,7 +1,6 @@
 #pragma once
 /// What can be proved of all designs in one box, and where to cut it.
 
-#include "math/numbers.hpp"
 #include "proof/optimum/combination.hpp"
 
 namespace ninedof::proof {
@@ -16,8 +15,8 @@ struct BoxBound {
   std::size_t cut = 0;  ///< the coordinate along which the rows change most
 };
 
-/// Stops at the first reason that reaches `target`.
-BoxBound bound_box(const Box& box, const Chart& chart, double target, double log_leg_ratio);
+/// Of designs that keep the limits. Stops at the first reason that reaches `target`.
+BoxBound bound_box(const Box& box, const Chart& chart, double target, const RowLimits& limits);
 
 /// The design in the middle of a box.
 Box middle_of(const Box& box, const Chart& chart);

@@ -56,6 +56,7 @@ class MixtureSimplex {
           value -= radius_[k] * std::abs(columns_[i].slope[k] + columns_[j].slope[k]);
         if (value > best) best = value, a = i, b = j;
       }
+    for (std::size_t k = 0; k < lines(); ++k) std::fill_n(table_[k].begin(), last() + 1, 0.0);
     for (std::size_t k = 0; k < dimension_; ++k) {
       Line& line = table_[k];
       const double sum = columns_[a].slope[k] + columns_[b].slope[k], sign = sum >= 0.0 ? -1.0 : 1.0;
@@ -119,8 +120,8 @@ class MixtureSimplex {
   const std::array<double, Dimensions>& radius_;
   std::size_t dimension_;
   using Line = std::array<double, Columns + Dimensions + 1>;
-  std::array<Line, Dimensions + 2> table_{};
-  Line price_{};
+  std::array<Line, Dimensions + 2> table_;  // of what a box uses
+  Line price_;
   std::array<std::size_t, Dimensions + 2> basic_{};
 };
 

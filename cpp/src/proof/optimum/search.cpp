@@ -83,19 +83,21 @@ BoxBound excluded_by_domain() {
 }
 
 // Below these, a byte is the coordinate of a cut.
-constexpr std::uint8_t outside = 16, by_ranges = 17, by_combination = 18, by_legs = 19;
+constexpr std::uint8_t outside = 16, by_ranges = 17, by_combination = 18, by_limits = 19;
 
 Bytes reason_of(const BoxBound& found) {
   if (found.reason == Reason::domain) return {outside};
   if (found.reason == Reason::ranges) return {by_ranges};
   const Combination& by = found.combination;
-  const bool legs = by.external != 0.0F || by.upper != 0.0F;
-  Bytes out{legs ? by_legs : by_combination};
+  Bytes out{by.limited() ? by_limits : by_combination};
   append(out, by.max);
   append(out, by.min);
-  if (!legs) return out;
-  append(out, by.external);
-  append(out, by.upper);
+  if (!by.limited()) return out;
+  unsigned which = 0;
+  for (std::size_t i = 0; i < by.limits.size(); ++i) which |= (by.limits[i] != 0.0F ? 1U : 0U) << i;
+  out.push_back(static_cast<std::uint8_t>(which));
+  for (const float weight : by.limits)
+    if (weight != 0.0F) append(out, weight);
   return out;
 }
 
@@ -114,7 +116,7 @@ class Search : public BoxSearch {
   bool enough() const { return better < infinity || looked >= settings_.box_limit; }
   std::optional<BoxBound> look(const Open& one, const std::stop_token&) const {
     if (domain_.excludes(one.box)) return excluded_by_domain();
-    return bound_box(one.box, domain_.chart, settings_.target, domain_.log_leg_ratio);
+    return bound_box(one.box, domain_.chart, settings_.target, domain_.limits);
   }
   /// Cuts a box that remains.
   void merge(const Open& one, const BoxBound& seen) {
