@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -9,6 +10,7 @@
 #include "ninedof/math/error.hpp"
 #include "ninedof/proof/admissible.hpp"
 #include "ninedof/proof/checker.hpp"
+#include "proof/admissible/demands.hpp"
 #include "support/support.hpp"
 
 using namespace ninedof;
@@ -63,6 +65,59 @@ TEST_SUITE("existence") {
     CHECK(verdict.proved);
     CHECK(verdict.words.starts_with("no design of this study has a condition number below "));
     CHECK(any_admissible(question, {}).refuted.pieces.empty());
+  }
+
+  TEST_CASE("At a pose a form of second degree bounds the condition number of all designs of a box, and closely") {
+    DesignQuestion question = plates(4.0);
+    question.problem.variables = {{0.0, 2.0}, {4.0, 8.0}, {2.0, 4.0}, {0.0, 1.0}, {4.0, 6.0}, {2.0, 4.0}, {0.0, 0.0}};
+    question.varied = {0, 1, 2, 3, 4, 5};
+    question.low = {0.0, 4.0, 2.0, 0.0, 4.0, 2.0};
+    question.high = {2.0, 8.0, 4.0, 1.0, 6.0, 4.0};
+    Region region;
+    region.size = {0.3, 0.3, 0.2};
+    region.tilt = 0.2;
+    question.region = {region};
+    const admissible::Poses poses(question);
+    const admissible::Demands demands(question);
+    const auto is_condition = [](const admissible::Item& item) {
+      return item.kind == admissible::Item::Kind::condition;
+    };
+    const admissible::Item& item = *std::ranges::find_if(demands.items, is_condition);
+    std::mt19937 random(8);
+    const auto within = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    int broken = 0, closer = 0, boxes = 0;
+    for (; boxes < 60; ++boxes) {
+      admissible::DesignBox box;
+      const double part = within(0.01, 0.3);
+      for (std::size_t k = 0; k < question.low.size(); ++k) {
+        box.low[k] = question.low[k] + within(0.0, 1.0 - part) * (question.high[k] - question.low[k]);
+        box.high[k] = box.low[k] + part * (question.high[k] - question.low[k]);
+      }
+      over_region::Box at;
+      const Vec6 pose{within(-0.3, 0.3), within(-0.3, 0.3), within(-0.2, 0.2),
+                      within(-0.1, 0.1), within(-0.1, 0.1), 0.0};
+      std::ranges::copy(pose, at.low.begin());
+      at.high = at.low;
+      const admissible::DesignsAt designs(question, poses, box);
+      const admissible::Met near = designs.meet_closely(item, at), far = designs.meet(item, at);
+      REQUIRE((near.known && far.known));
+      closer += most_of(near.most) < most_of(far.most);
+      for (int n = 0; n < 200; ++n) {
+        std::array<double, 6> x;
+        double plane = near.most.c;
+        for (std::size_t k = 0; k < x.size(); ++k) {
+          const double t = n % 2 == 0 ? within(-1.0, 1.0) : within(-1.0, 1.0) < 0.0 ? -1.0 : 1.0;
+          x[k] = box.low[k] + 0.5 * (t + 1.0) * (box.high[k] - box.low[k]);
+          plane += near.most.a[k] * t;
+        }
+        if (plane >= 0.0) continue;
+        ++broken;
+        const Geometry g = Geometry::hexagonal(x[0], x[1], x[2], x[3]);
+        CHECK(condition_number(g, region.configuration(pose, neutral(x[4], x[5])), 1.0) > question.condition);
+      }
+    }
+    CHECK(closer > 0.9 * boxes);
+    CHECK(broken > 1000);
   }
 
   TEST_CASE("One design is a file too, and one that breaks its limit is refused") {

@@ -277,6 +277,7 @@ ConditionSplitOf<T> split_by_condition(const SplitGramOf<T>& g, double condition
 }
 
 template DesignForm condition_excess(const SplitGramOf<DesignForm>&, double);
+template CurvedForm condition_excess(const SplitGramOf<CurvedForm>&, double);
 template ConditionSplitOf<PoseForm> split_by_condition(const SplitGram&, double);
 template ConditionSplitOf<DesignForm> split_by_condition(const SplitGramOf<DesignForm>&, double);
 

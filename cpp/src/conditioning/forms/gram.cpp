@@ -74,6 +74,7 @@ LegProducts<T> leg_products(const Robot& g, double characteristic_length, const 
 template LegProducts<PoseForm> leg_products(const AsBuilt&, double, const PoseOf<PoseForm>&, Moves&);
 template LegProducts<CurvedForm> leg_products(const AsBuilt&, double, const PoseOf<CurvedForm>&, Moves&);
 template LegProducts<DesignForm> leg_products(const JointsOf<DesignForm>&, double, const PoseOf<DesignForm>&, Moves&);
+template LegProducts<CurvedForm> leg_products(const JointsOf<CurvedForm>&, double, const PoseOf<CurvedForm>&, Moves&);
 
 Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
   const double inverse_lc = 1.0 / characteristic_length;

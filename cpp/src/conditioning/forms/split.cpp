@@ -229,5 +229,7 @@ template SplitGram split_gram(const AsBuilt&, double, const PoseOf<PoseForm>&, M
 template SplitGramOf<CurvedForm> split_gram(const AsBuilt&, double, const PoseOf<CurvedForm>&, Moves&, int);
 template SplitGramOf<DesignForm> split_gram(const JointsOf<DesignForm>&, double, const PoseOf<DesignForm>&, Moves&,
                                             int);
+template SplitGramOf<CurvedForm> split_gram(const JointsOf<CurvedForm>&, double, const PoseOf<CurvedForm>&, Moves&,
+                                            int);
 
 }  // namespace ninedof::forms

@@ -20,17 +20,22 @@ DesignBox range_of(const DesignQuestion& question);
 /// The design in the middle, as a box of no width.
 DesignBox middle_of(const DesignBox& box, std::size_t dimensions);
 
-struct DesignForms {
-  JointsOf<DesignForm> plates;  ///< in the frames of the plates
-  JointsOf<DesignForm> joints;  ///< platform joints in the tool's frame
-  PoseOf<DesignForm> home;      ///< of the tool
-  DesignForm zp, zs;
+/// T is DesignForm, or CurvedForm with the coordinates of the designs alone: for one pose at a time.
+template <class T>
+struct DesignsOf {
+  JointsOf<T> plates;  ///< in the frames of the plates
+  JointsOf<T> joints;  ///< platform joints in the tool's frame
+  PoseOf<T> home;      ///< of the tool
+  T zp, zs;
   bool orbits = false;  ///< whether the joints of a triple are turned copies of its first one
 };
+using DesignForms = DesignsOf<DesignForm>;
 
-DesignForms design_forms(const DesignQuestion& question, const DesignBox& box);
+template <class T = DesignForm>
+DesignsOf<T> design_forms(const DesignQuestion& question, const DesignBox& box);
 
 /// A listed pose of the objective.
-PoseOf<DesignForm> listed_pose(const Pose& pose, const DesignForms& designs);
+template <class T>
+PoseOf<T> listed_pose(const Pose& pose, const DesignsOf<T>& designs);
 
 }  // namespace ninedof::admissible

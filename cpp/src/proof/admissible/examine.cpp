@@ -24,9 +24,9 @@ std::vector<Loss> some_losses(const std::vector<Loss>& losses) {
 
 Examiner::Examiner(const DesignQuestion& question) : question_(question), poses_(question), demands_(question) {}
 
-Met Examiner::meet(const DesignsAt& designs, const Spreads& spreads, const Loss& loss) const {
+Met Examiner::meet(const DesignsAt& designs, const Spreads& spreads, const Loss& loss, bool closely) const {
   for (const Item& item : demands_.items)
-    if (item.demand == loss.demand) return designs.meet(item, loss.at);
+    if (item.demand == loss.demand) return closely ? designs.meet_closely(item, loss.at) : designs.meet(item, loss.at);
   for (const Spread& spread : demands_.spreads)
     if (loss.longest >= 0 && loss.demand == spread.demand + (spread.row->each_leg ? loss.longest : 0))
       return spreads.meet(spread, loss);
@@ -81,12 +81,13 @@ bool Examiner::breaks(const DesignBox& box, const std::vector<Loss>& witnesses, 
   const std::stop_token never;
   const Spreads spreads(designs, never);
   for (const int k : some)
-    if (is_lost(designs, spreads, witnesses[static_cast<std::size_t>(k)], known)) return true;
+    if (is_lost(designs, spreads, witnesses[static_cast<std::size_t>(k)], true, known)) return true;
   return false;
 }
 
-bool Examiner::is_lost(const DesignsAt& designs, const Spreads& spreads, const Loss& witness, Knowledge& known) const {
-  const Met met = meet(designs, spreads, witness);
+bool Examiner::is_lost(const DesignsAt& designs, const Spreads& spreads, const Loss& witness, bool closely,
+                       Knowledge& known) const {
+  const Met met = meet(designs, spreads, witness, closely);
   if (!met.known || least_of(met.most) >= 0.0) return false;
   known.losses.push_back(witness);
   known.losses.back().most = met.most;
@@ -145,7 +146,7 @@ Examined Examiner::examine(const ToExamine& asked, const std::stop_token& stop) 
     Spreads spreads(designs, stop);
     for (const Loss& loss : asked.near) {
       ++out.boxes;
-      if (is_lost(designs, spreads, loss, known)) return;
+      if (is_lost(designs, spreads, loss, false, known)) return;
     }
     for (const Spread& spread : demands_.spreads) {
       if (kept[n] == 0 && took(n, spreads.look_at(spread))) return;

@@ -42,9 +42,10 @@ class Examiner {
   MetAt met_at(const Box& point, const DesignBox& designs) const;
 
  private:
-  Met meet(const DesignsAt& designs, const Spreads& spreads, const Loss& loss) const;
+  Met meet(const DesignsAt& designs, const Spreads& spreads, const Loss& loss, bool closely = false) const;
   /// Whether no design is inside, by where another broke a demand; the plane of those that are not goes to `known`.
-  bool is_lost(const DesignsAt& designs, const Spreads& spreads, const Loss& witness, Knowledge& known) const;
+  bool is_lost(const DesignsAt& designs, const Spreads& spreads, const Loss& witness, bool closely,
+               Knowledge& known) const;
   std::vector<Box> roots_of(const Item& item) const;
 
   const DesignQuestion& question_;

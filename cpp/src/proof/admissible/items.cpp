@@ -27,13 +27,24 @@ Plane below(const DesignForm& f, const Domain& domain, const Box& box) {
   out.c = f.c - (away + f.r) * (1.0 + plane_grain) - plane_grain * (std::abs(f.c) + spread(f));
   return out;
 }
-Plane above(const DesignForm& f) {
+/// At least the form, at one pose: what is not linear in the design goes to the level.
+template <class T>
+Plane above(const T& f) {
   Plane out;
-  std::copy(f.a.begin() + PoseForm::size, f.a.end(), out.a.begin());
+  std::copy_n(f.a.end() - most_varied, most_varied, out.a.begin());
   double others = 0.0;
-  for (std::size_t k = 0; k < PoseForm::size; ++k) others += std::abs(f.a[k]);
+  for (std::size_t k = 0; k + most_varied < T::size; ++k) others += std::abs(f.a[k]);
+  for (std::size_t k = 0, n = 0; n < f.q.size(); ++k, ++n) {
+    for (std::size_t l = 0; l < k; ++l, ++n) others += std::abs(f.q[n]);
+    others += std::max(f.q[n], 0.0);  // of a square
+  }
   out.c = f.c + (others + f.r) * (1.0 + plane_grain) + plane_grain * (std::abs(f.c) + spread(f));
   return out;
+}
+template <class T>
+Met met(const T& f) {
+  if (!is_known(f)) return {};
+  return {true, above(f), f.r};
 }
 
 /// As FormHome, over designs; the sides are those of the middle.
@@ -79,14 +90,20 @@ Poses::Poses(const DesignQuestion& question)
   neutral_.push_back(neutral);
 }
 
-PoseOf<DesignForm> Poses::pose(const Box& box, const DesignForms& designs) const {
+template <class T>
+PoseOf<T> Poses::pose(const Box& box, const DesignsOf<T>& designs) const {
   if (box.piece == -1) return designs.home;
   if (box.piece < 0) return listed_pose(question_.problem.objective.poses[at_index(-2 - box.piece)], designs);
-  return domain_.moved<DesignForm>(box, designs.home, designs.zp);
+  return domain_.moved<T>(box, designs.home, designs.zp);
 }
 
+template PoseOf<DesignForm> Poses::pose(const Box&, const DesignForms&) const;
+
 DesignsAt::DesignsAt(const DesignQuestion& question, const Poses& poses, const DesignBox& box)
-    : question_(question), poses_(poses), forms_(design_forms(question, box)) {
+    : question_(question),
+      poses_(poses),
+      forms_(design_forms(question, box)),
+      curved_(design_forms<CurvedForm>(question, box)) {
   homes_.push_back(home_of(forms_, {}));
   for (const Limit& limit : question.problem.limits) homes_.push_back(home_of(forms_, limit.options()));
   for (const auto& body : homes_.front().axis)
@@ -113,11 +130,6 @@ Seen DesignsAt::seen(const DesignForm& f, const Box& box) const {
   out.known = is_known(f);
   if (out.known) out.kept = below(f, poses_.domain(), box);
   return out;
-}
-
-Met DesignsAt::met(const DesignForm& f) {
-  if (!is_known(f)) return {};
-  return {true, above(f), f.r};
 }
 
 DesignForm DesignsAt::form_over(const Item& item, const DesignLook& look, const Box& box) const {
@@ -207,16 +219,24 @@ Seen DesignsAt::look(const Item& item, const Box& box) const {
   return out;
 }
 
+template <class T>
+Met DesignsAt::condition(const DesignsOf<T>& designs, const Item& item, const Box& point) const {
+  Moves unused;
+  const double length = question_.problem.characteristic_length.value;
+  const auto gram = forms::split_gram(designs.joints, length, poses_.pose(point, designs), unused, item.locked);
+  return met(-forms::condition_excess(gram, item.bound));
+}
+
+Met DesignsAt::meet_closely(const Item& item, const Box& point) const {
+  const bool curved = item.kind == Item::Kind::condition && point.low == point.high;
+  return curved ? condition(curved_, item, point) : meet(item, point);
+}
+
 Met DesignsAt::meet(const Item& item, const Box& point) const {
   // A determinant breaks its limit on the side of each design's own home.
   if (item.kind == Item::Kind::number && item.row->on_the_way && !side_known_[at_index(item.item)]) return {};
+  if (item.kind == Item::Kind::condition) return condition(forms_, item, point);
   const PoseOf<DesignForm> pose = poses_.pose(point, forms_);
-  if (item.kind == Item::Kind::condition) {
-    Moves unused;
-    return met(-forms::condition_excess(
-        forms::split_gram(forms_.joints, question_.problem.characteristic_length.value, pose, unused, item.locked),
-        item.bound));
-  }
   const DesignLook look(forms_.joints, pose, homes_[at_index(item.limit)]);
   if (item.kind == Item::Kind::number) return met(number(item, form_of(item, look)));
   const DesignForm distance = item.of_zp ? item.bound * forms_.zp : DesignForm(item.bound);

@@ -42,7 +42,8 @@ class Poses {
   /// Where limits at poses hold; the neutral pose alone.
   const std::vector<Box>& all() const { return all_; }
   const std::vector<Box>& neutral() const { return neutral_; }
-  PoseOf<DesignForm> pose(const Box& box, const DesignForms& designs) const;
+  template <class T>
+  PoseOf<T> pose(const Box& box, const DesignsOf<T>& designs) const;
 
  private:
   const DesignQuestion& question_;
@@ -97,6 +98,9 @@ class DesignsAt {
   double moves() const { return moves_; }
   Seen look(const Item& item, const Box& box) const;
   Met meet(const Item& item, const Box& point) const;
+  /// As `meet`, of a condition number by forms of second degree: what they leave open falls with the third power of the
+  /// box.
+  Met meet_closely(const Item& item, const Box& point) const;
   Seen look(const Length& length, const Box& box) const;
   Met meet(const Length& length, const Box& point) const;
 
@@ -108,11 +112,13 @@ class DesignsAt {
   Seen apart_along(const Item& item, const LegPairOf<DesignForm>& legs, const DesignVector& direction,
                    const Box& box) const;
   Seen seen(const DesignForm& f, const Box& box) const;
-  static Met met(const DesignForm& f);
+  template <class T>
+  Met condition(const DesignsOf<T>& designs, const Item& item, const Box& point) const;
 
   const DesignQuestion& question_;
   const Poses& poses_;
   DesignForms forms_;
+  DesignsOf<CurvedForm> curved_;
   std::vector<HomeOf<DesignForm>> homes_;
   bool known_ = true;
   double moves_ = 0.0;

@@ -111,6 +111,7 @@ PoseOf<T> Domain::moved(const Box& box, const PoseOf<T>& neutral, const Unit& un
 template PoseOf<PoseForm> Domain::pose(const Box&) const;
 template PoseOf<CurvedForm> Domain::pose(const Box&) const;
 template PoseOf<DesignForm> Domain::moved(const Box&, const PoseOf<DesignForm>&, const DesignForm&) const;
+template PoseOf<CurvedForm> Domain::moved(const Box&, const PoseOf<CurvedForm>&, const CurvedForm&) const;
 
 MetAt Domain::met(const Box& point) const {
   MetAt out;
