@@ -77,7 +77,7 @@ def test_texts_that_intersect_are_found():
 # --- Where they are drawn ---------------------------------------------------------------------------------------------
 
 FUNCTIONS = [getattr(plot, name) for name in plot.__all__ if name[0].islower() and name != "save"]
-FUNCTIONS += [getattr(paper, name) for name in paper.__all__ if name != "draw"]
+FUNCTIONS += [getattr(paper, name) for name in paper.__all__ if name != "all_figures"]
 
 
 @pytest.mark.parametrize("function", FUNCTIONS, ids=lambda function: function.__name__)
