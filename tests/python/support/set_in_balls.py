@@ -96,6 +96,7 @@ class Checker:
     def run(self):
         d = 2 * len(self.file.varied)
         whole = [tuple(self.file["variable"][k][1:]) for k in self.file.varied]
+        need(all(isinstance(x, float) for row in self.file["box"] for x in row[:d]), "a box of other variables")
         boxes = [(list(zip(row[:d:2], row[1:d:2], strict=True)), *row[d:]) for row in self.file["box"]]
         exempt_share_joints(self.file, Machine(self.file, [], whole))
         divides(whole, [box for box, *_ in boxes])
