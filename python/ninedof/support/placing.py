@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -11,11 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof.support.arrays import Floats
 
-WORDS, LINES, MISTAKEN = 100.0, 1.0, 10.0  # cost of words covered, of a line, of the wrong line nearer
-ALONG = 0.5 + 0.05 * np.array([0, -1, 1, -2, 2, -3, 3, -4, 4, -5, 5, -6, 6])[:, None]
-"""Where words may stand beside a line, the best place first."""
-LEADERS = (1.0, 2.5, 3.5, 5.0, 7.0)
-"""Their distances from it, the first beside it."""
+WORDS, LINES = 100.0, 1.0  # cost of a text that is covered, and of a line
 
 
 def rectangle(centre: Floats, width: float, height: float, angle: float = 0.0) -> Floats:
@@ -47,12 +42,6 @@ def meet(boxes: Floats, shapes: Floats) -> NDArray[np.bool_]:
     return together
 
 
-def _distance(points: Floats, start: Floats, end: Floats) -> Floats:
-    """Return the distances of points (n, 2) from a line."""
-    share = np.clip((points - start) @ (end - start) / max(float(np.sum((end - start) ** 2)), 1e-300), 0.0, 1.0)
-    return np.asarray(np.linalg.norm(points - start - share[:, None] * (end - start), axis=1))
-
-
 class LabelPlaces:
     """The words and lines that a drawing has so far."""
 
@@ -76,27 +65,6 @@ class LabelPlaces:
         best: Floats = centres[int(np.argmin(self.costs(centres, width, height)))]
         self.words.append(rectangle(best, width, height))
         return best
-
-    def beside(
-        self, start: Floats, end: Floats, size: Floats, away: float, alike: Sequence[Floats] = ()
-    ) -> tuple[Floats, Floats | None]:
-        """Return the centre of words of a size beside a line, at a distance, and keep their place.
-
-        Where others stand there, it is farther off, and the ends of a thin line to the words follow. Rather not nearer
-        to lines that look alike.
-        """
-        x, z = (end - start) / max(float(np.linalg.norm(end - start)), 1e-300)
-        on_line, out = np.tile(start + ALONG * (end - start), (2, 1)), away * np.array([z, -x])
-        aside = np.repeat([out, -out], len(ALONG), axis=0)
-        for reach in LEADERS:
-            spots = on_line + reach * aside
-            costs = self.costs(spots, *size)
-            costs += sum(MISTAKEN * (_distance(spots, *line) < reach * away) for line in alike)
-            best = int(np.argmin(costs))
-            if costs[best] < WORDS or reach == LEADERS[-1]:
-                break
-        centre = self.put(size[0], size[1], spots[best : best + 1])
-        return centre, np.array([on_line[best], centre - 0.6 * aside[best]]) if reach > 1.0 else None
 
     def add_path(self, points: Floats) -> None:
         """Add the lines between points, shape (n, 2)."""

@@ -16,7 +16,7 @@ from ninedof.robot.configuration import Configuration, require_single
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.plates import Plate, free_angles, outlines, plates_of, turn_words
 from ninedof.support.arrays import Floats
-from ninedof.support.placing import LabelPlaces, around, rectangle, toward
+from ninedof.support.placing import WORDS, LabelPlaces, around, rectangle, toward
 from ninedof.support.units import amount
 
 if TYPE_CHECKING:
@@ -26,6 +26,8 @@ HEIGHT = 2.75  # inches
 REACH = 1.5  # half a panel of a plan, in sizes of its plate
 AXIS, ARCS = 0.15, (0.45, 0.75)  # of a plan, in sizes of its plate: of the axes, radii of the angles
 LETTER, LINE = 4.3, 8.5  # points, of a letter and a line of the smallest words
+LEADERS = (1.0, 2.5, 3.5, 5.0, 7.0)
+"""Distances of the name of a leg, the first beside it."""
 JOINTS = {
     "E": {"marker": "o", "ms": 5.5, "color": style.EXTERNAL, "mec": "white", "mew": 0.5, "ls": ""},
     "I": {"marker": "s", "ms": 3.4, "color": style.LOWER, "mec": "white", "mew": 0.5, "ls": ""},
@@ -113,9 +115,7 @@ class _Panel:
 
     def write(self, words: str, centres: Floats, colour: str = style.INK) -> None:
         """Write words at the one of some centres, shape (n, 2), where they cover least."""
-        self._text(words, self.places.put(LETTER * self.point * len(words), LINE * self.point, centres), colour)
-
-    def _text(self, words: str, at: Floats, colour: str) -> None:
+        at = self.places.put(LETTER * self.point * len(words), LINE * self.point, centres)
         self.axes.text(*at, words, size=style.SMALL_SIZE, color=colour, ha="center", va="center", zorder=8, bbox=CHIP)
 
     def note(self, words: list[str]) -> None:
@@ -226,8 +226,18 @@ class _Panel:
 
     def _name(self, name: str, start: Floats, end: Floats) -> None:
         """Write the name of a leg beside it, or, where others stand there, at the end of a thin line from it."""
+        share = 0.5 + 0.05 * np.array([0, -1, 1, -2, 2, -3, 3, -4, 4, -5, 5, -6, 6])[:, None]
+        x, z = (end - start) / max(float(np.linalg.norm(end - start)), 1e-300)
+        on_leg, out = np.tile(start + share * (end - start), (2, 1)), 6.5 * self.point * np.array([z, -x])
         colour, size = style.LEG_COLOURS[name[0]], np.array([LETTER * len(name) + 2.0, LINE + 1.0]) * self.point
-        at, leader = self.places.beside(start, end, size, 6.5 * self.point)
-        if leader is not None:
-            self.axes.plot(*leader.T, color=colour, lw=0.5, zorder=7)
-        self._text(name, at, colour)
+        aside = np.repeat([out, -out], len(share), axis=0)
+        for reach in LEADERS:
+            spots = on_leg + reach * aside
+            costs = self.places.costs(spots, *size)
+            best = int(np.argmin(costs))
+            if costs[best] < WORDS or reach == LEADERS[-1]:
+                break
+        if reach > 1.0:
+            ends = np.array([on_leg[best], spots[best] - 0.6 * aside[best]])
+            self.axes.plot(*ends.T, color=colour, lw=0.5, zorder=7)
+        self.write(name, spots[best : best + 1], colour)

@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike
 
 from ninedof.plot import style
 from ninedof.plot.space import scene
+from ninedof.plot.space.leg_names import Leg, write_names
 from ninedof.robot.configuration import Configuration, require_single
 from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.robot.plates import distinct, outlines, points_of
 from ninedof.support.arrays import Floats
-from ninedof.support.placing import LabelPlaces, toward
 
 if TYPE_CHECKING:
     from ninedof.design.tool import Tool
@@ -29,12 +29,6 @@ POINT_O = {"marker": "D", "color": style.INK, "ms": 4.2, "mec": "white", "mew": 
 """A diamond: a ring beside the letter O would be read as a second one."""
 TOOL = {"color": style.REGION, "lw": 1.6, "marker": "v", "ms": 5.0, "mec": "white", "mew": 0.5}
 _LEGEND = {"handlelength": 1.5, "columnspacing": 1.2}
-NAME = np.array([2.1, 1.6])  # size of a name, in its distance from its leg
-CHIP = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.9}
-"""The ground of a name: a plate behind it may be dark."""
-
-Leg = tuple[str, Floats, Floats]
-"""Its name and its ends."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,29 +190,7 @@ def draw(axes: Any, robot: Robot, clear_of: Sequence[Floats] = ()) -> None:
     away = 0.05 * np.ptp(axes.get_xlim())
     for line in robot.tool_line():
         axes.plot(*line.T, zorder=23, markevery=[1], **TOOL)
-    _write_names(axes, legs, o, away, [*clear_of, *robot.tool_line()])
-
-
-def _write_names(axes: Any, legs: Sequence[Leg], o: Floats, away: float, clear_of: Sequence[Floats]) -> None:
-    """Write the name of each leg, `away` to one side or at the end of a thin line, and O, clear of further lines."""
-    places, options = LabelPlaces(), {"zorder": 30, "ha": "center", "va": "center"}
-    flat = {name: scene.VIEW.seen(np.stack(ends)) for name, *ends in legs}
-    for line in (*flat.values(), *map(scene.VIEW.seen, clear_of)):
-        places.add_path(line)
-    picture = np.array([scene.VIEW.right, scene.VIEW.up])
-    width, height = away * NAME
-    at = (
-        places.put(width, height, scene.VIEW.seen(o) + 1.4 * away * toward(np.linspace(np.pi, -np.pi, 17)[:-1]))
-        @ picture
-    )
-    axes.text(*at, "O", size=style.TITLE_SIZE, weight="bold", style="italic", path_effects=scene.HALO, **options)
-    for name, (start, end) in sorted(flat.items(), key=lambda leg: np.linalg.norm(np.diff(leg[1], axis=0))):
-        alike = [line for other, line in flat.items() if other != name and other[0] == name[0]]
-        spot, leader = places.beside(start, end, away * NAME, away, alike)
-        colour = style.LEG_COLOURS[name[0]]
-        if leader is not None:
-            axes.plot(*(leader @ picture).T, color=colour, lw=0.5, zorder=29)
-        axes.text(*(spot @ picture), name, size=style.SMALL_SIZE, color=colour, bbox=CHIP, **options)
+    write_names(axes, legs, o, away, outlines(base), [*clear_of, *robot.tool_line()])
 
 
 def legs_of(points: Floats) -> list[Leg]:
