@@ -62,12 +62,19 @@ def write_and_print(screen: Screen, answer: Answer, write: Callable[[], Path]) -
     Where it cannot be written the answer is printed all the same, its JSON too: a full disk does not lose it.
     """
     try:
-        return write()
+        file = write()
     except OSError:
+        _print_parts(screen, answer)
         screen.data(answer.data)
         raise
-    finally:
-        screen.print(*answer.parts)
+    _print_parts(screen, answer)
+    return file
+
+
+def _print_parts(screen: Screen, answer: Answer) -> None:
+    """Print each part as soon as it is there: the last one may be a check of minutes."""
+    for part in answer.parts:
+        screen.print(part)
 
 
 def finish_job(
@@ -77,24 +84,31 @@ def finish_job(
 
     An interrupted run has no figures. `options` say whether to draw and to report, as `JobOptions`.
     """
+    screen = options.screen
+    try:
+        record = write_and_print(screen, answer, write)
+        _draw_and_report(options, folder, answer, draw)
+    except KeyboardInterrupt:
+        if (folder / RECORD).exists():
+            screen.print(f"interrupted; run folder {folder} has the record")
+        raise
+    screen.print(folder_words(folder))
+    screen.data({**answer.data, "record": str(record)} if isinstance(answer.data, dict) else answer.data)
+    raise typer.Exit(answer.status)
+
+
+def _draw_and_report(options: Any, folder: Path, answer: Answer, draw: Callable[[], Figures] | None) -> None:
     screen, with_figures = options.screen, options.figures and answer.status != INTERRUPTED
-    record = write_and_print(screen, answer, write)
     try:
         (folder / FILE).unlink(missing_ok=True)  # that of an interrupted run would not agree with the record
         files = []
         for stem, figure in draw() if with_figures and draw is not None else ():
             files += nd.plot.save(figure, folder, stem)
-            screen.say(f"figure {stem}")
+            screen.say(f"drawn: {stem}")
         add_files(folder, files + (_report(folder, screen) if with_figures and options.report else []))
-    except KeyboardInterrupt:
-        screen.print(f"interrupted while drawing; run folder {folder} has the record")
-        raise
     except OSError:
         screen.data(answer.data)
         raise
-    screen.print(folder_words(folder))
-    screen.data({**answer.data, "record": str(record)} if isinstance(answer.data, dict) else answer.data)
-    raise typer.Exit(answer.status)
 
 
 def _report(folder: Path, screen: Screen) -> list[Path]:

@@ -21,6 +21,9 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import instance
 from ninedof.support.text import short_repr
 
+CERTIFICATE = "certificate"
+"""Name of the bound that `Result.proof` has."""
+
 HEXAGONAL_LIMIT = 2.5358420229115416
 """Infimum over the plates of eqs. (37)-(38) with 0 < zs < zp and no twist: the base grows without end."""
 
@@ -36,7 +39,7 @@ singular values do better than its sub-family."""
 @short_repr
 @dataclass(frozen=True)
 class LowerBound:
-    """A lower bound of the condition number at the neutral pose."""
+    """A lower bound of the condition number at the neutral pose, or, of a certificate, over the poses of a study."""
 
     name: str
     value: float
@@ -141,8 +144,9 @@ def applicable_bounds(result: Result) -> list[LowerBound]:
     Returns
     -------
     list of LowerBound
-        Of the condition number at the neutral pose. The bounds of symmetric designs are left out where the design has
-        no three-fold symmetry, and those that are not proved and lie below `Result.lower_bound`.
+        Of the condition number at the neutral pose; the one that a certificate proves is of the worst over all poses of
+        the study. The bounds of symmetric designs are left out where the design has no three-fold symmetry, and those
+        that are not proved and lie below `Result.lower_bound`.
 
     Raises
     ------
@@ -158,7 +162,7 @@ def applicable_bounds(result: Result) -> list[LowerBound]:
     ]
     if result.proof is not None:
         sentence = result.proof.words.removeprefix("Proved: ").removesuffix(".")
-        bounds.append(LowerBound("certificate", result.proof.lower_bound, True, sentence))
+        bounds.append(LowerBound(CERTIFICATE, result.proof.lower_bound, True, sentence))
     if result.study.family == "hexagonal" and not result.study.tool:
         bounds.append(_hexagonal(result.study.variables["theta_z"]))
     if _is_symmetric(best.geometry, best.configuration):

@@ -18,7 +18,7 @@ from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.design_point import DesignPoint
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import LENGTH
-from ninedof.optimize.bounds import applicable_bounds
+from ninedof.optimize.bounds import CERTIFICATE, applicable_bounds
 from ninedof.optimize.candidate import best_of
 from ninedof.optimize.result import Result, Status
 from ninedof.proof.machine_record import PROVED
@@ -232,8 +232,8 @@ def _bounds(result: Result) -> Iterator[Finding]:
         yield Finding("certificate", verdict.proved, float(verdict.boxes), verdict.words)
     best = best_of(result)
     neutral = float(condition_number(best.geometry, best.configuration, best.characteristic_length))
-    for bound in applicable_bounds(result):
-        above = neutral / bound.value - 1.0
+    for bound in applicable_bounds(result):  # a proof is about the worst of all poses
+        above = (best.condition_number if bound.name == CERTIFICATE else neutral) / bound.value - 1.0
         proof = "proved" if bound.proved else "searched"
         yield Finding(f"bound: {bound.name}", above >= -BOUND, above, f"{above:.2%} above; {bound.sentence} ({proof})")
 

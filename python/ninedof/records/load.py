@@ -90,6 +90,8 @@ def save(run: Loaded, path: str | os.PathLike[str]) -> Path:
     ------
     ValueError
         If the folder exists and is not empty, or it is no run.
+    OSError
+        If the folder cannot be made or written.
 
     See Also
     --------

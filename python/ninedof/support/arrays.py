@@ -82,7 +82,11 @@ def checked_out(out: Any, shape: tuple[int, ...]) -> Floats | None:
     is_array = isinstance(out, np.ndarray)
     if out is None or (is_array and out.shape == shape and out.dtype == np.float64 and out.flags.carray):
         return out  # type: ignore[no-any-return]  # the condition says what it is
-    got = f"one of {out.dtype} and shape {out.shape}" if is_array else repr(type(out).__name__)
+    got = repr(type(out).__name__)
+    if is_array:
+        flags = {"C-contiguous": out.flags.c_contiguous, "aligned": out.flags.aligned, "writeable": out.flags.writeable}
+        faults = [f"not {name}" for name, fine in flags.items() if not fine]
+        got = ", ".join([f"one of {out.dtype} and shape {out.shape}", *faults])
     raise ValueError(f"out: got {got}, expected a writeable aligned C-contiguous float64 array of shape {shape}")
 
 

@@ -14,7 +14,7 @@ from ninedof.design.indices import Index, identity
 from ninedof.support.arrays import Floats
 from ninedof.support.extras import versions
 from ninedof.support.kept.chunks import Computed, computed
-from ninedof.support.kept.files import Arrays, part_name
+from ninedof.support.kept.files import Arrays, naming, part_name
 from ninedof.support.running import Progress
 from ninedof.support.text import json_values
 from ninedof.support.units import DEG, unit_entry
@@ -106,6 +106,15 @@ def _in_memory(chunks: Computed, shapes: Mapping[str, tuple[int, ...]], points: 
     return arrays
 
 
+def _write_at(path: Path, place: int, content: bytes) -> None:
+    try:
+        with path.open("r+b") as file:
+            file.seek(place)
+            file.write(content)
+    except OSError as error:
+        raise naming(error, path) from None
+
+
 def _in_files(chunks: Computed, shapes: Mapping[str, tuple[int, ...]], folder: Path) -> dict[str, Floats]:
     """Return the same arrays from files, which take their names once they are whole: memory holds one chunk."""
     parts = {name: folder / part_name(f"{name}.npy") for name in shapes}
@@ -113,9 +122,7 @@ def _in_files(chunks: Computed, shapes: Mapping[str, tuple[int, ...]], folder: P
         heads = {n: np.lib.format.open_memmap(parts[n], "w+", np.float64, shape).offset for n, shape in shapes.items()}
         for (first, _), values in chunks:
             for name, head in heads.items():  # written, not mapped: a full disk is an error and not a crash
-                with parts[name].open("r+b") as file:
-                    file.seek(head + first * values[name][0].nbytes)
-                    file.write(values[name].tobytes())
+                _write_at(parts[name], head + first * values[name][0].nbytes, values[name].tobytes())
         for name, part in parts.items():
             os.replace(part, folder / f"{name}.npy")
     finally:

@@ -258,7 +258,7 @@ def send(viewer: Any, kind: str, client: Any) -> str:
     """Send the files of a kind to a browser; return what was sent, or why nothing was."""
     try:
         files = files_of(viewer, kind) if kind != PICTURE else {"ninedof.png": picture(_pixels(client))}
-    except (ValueError, MissingExtra, RuntimeError) as error:  # viser, of a page that was closed
+    except (ValueError, MissingExtra) as error:
         return f"Not saved: {error}"
     for name, content in files.items():
         client.send_file_download(name, content, save_immediately=True)
@@ -290,4 +290,7 @@ def files_of(viewer: Any, kind: str) -> dict[str, bytes]:
 
 def _pixels(client: Any) -> Any:
     camera = client.camera
-    return client.get_render(height=camera.image_height, width=camera.image_width, transport_format="png")
+    try:
+        return client.get_render(height=camera.image_height, width=camera.image_width, transport_format="png")
+    except RuntimeError:
+        raise ValueError("the page was closed before the picture was drawn") from None

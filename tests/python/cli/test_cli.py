@@ -189,7 +189,7 @@ def test_the_figures_of_the_paper_are_drawn_where_asked(run, tmp_path, monkeypat
     monkeypatch.setattr("ninedof.plot.save", save)
     status, out, err = run("paper --figures --json --out figures")
     assert status == 0
-    assert "figure figure_5" in err
+    assert "drawn: figure_5" in err
     figures = {f"figure_{k}.png" for k in range(1, 8)}
     assert {path.name for path in (tmp_path / "figures").iterdir()} == {
         "record.json",

@@ -69,7 +69,7 @@ def test_an_interruption_while_drawing_leaves_the_record(tmp_path, monkeypatch, 
             main(shlex.split(f"{line} --out run-{kind.__name__}"))
         said = capsys.readouterr()
         assert ended.value.code == 130
-        assert f"interrupted while drawing; run folder run-{kind.__name__} has the record" in said.out
+        assert f"interrupted; run folder run-{kind.__name__} has the record" in said.out
         assert "Traceback" not in said.err
         assert isinstance(nd.load(f"run-{kind.__name__}"), kind)
 

@@ -225,6 +225,17 @@ def test_a_broken_bound_fails(paper):
     assert "design" in failed(moved(paper, zp=100.0), perturbations=0)  # 80 at most
 
 
+def test_what_a_certificate_proves_is_of_the_worst_pose(monkeypatch):
+    study = nd.Study(objective={"poses": [{"position": (1.0, 0.0, 0.5), "rotation": (0.5, 0.0, 0.0)}]}, starts=8)
+    result = nd.optimize(study)
+    neutral, worst = result.best.neutral_condition_number, result.condition_number
+    assert neutral < 0.999 * worst
+    for value, passed in ((0.5 * (neutral + worst), True), (1.001 * worst, False)):
+        bound = nd.LowerBound("certificate", value, True, "no design is below it")
+        monkeypatch.setattr(check_module, "applicable_bounds", lambda _, bound=bound: [bound])
+        assert failed(result, perturbations=0) == (set() if passed else {"bound: certificate"})
+
+
 def test_a_value_below_a_proved_bound_fails(paper):
     """No design is below a bound, so a bound that is too high must fail."""
     bound = nd.applicable_bounds(paper)[0]

@@ -6,6 +6,7 @@ What every run that is kept in pieces promises is in optimize/test_pieces.py.
 import errno
 import os
 import signal
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -124,11 +125,21 @@ def test_a_disk_without_room_for_the_arrays_leaves_those_of_a_finished_run(tmp_p
     condition_numbers(tmp_path)
     before = {p: p.read_bytes() for p in tmp_path.rglob("*.np*")}
 
-    def full(*_):
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    class Full:
+        """An open file of a disk that is full."""
 
-    monkeypatch.setattr(np.lib.format, "open_memmap", full)
-    with pytest.raises(OSError, match="No space left on device") as caught:
+        __enter__, __exit__, seek = lambda self: self, lambda *_: None, lambda *_: None
+
+        def write(self, _):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    plain = Path.open
+
+    def opened(path, mode="r", *arguments, **options):
+        return Full() if mode == "r+b" else plain(path, mode, *arguments, **options)
+
+    monkeypatch.setattr(Path, "open", opened)
+    with pytest.raises(OSError, match=r"No space left on device: .*condition_number\.npy") as caught:
         condition_numbers(tmp_path)
     assert caught.value.__notes__ == [f"Finished pieces are kept in {tmp_path}: the same call goes on from there."]
     assert {p: p.read_bytes() for p in tmp_path.rglob("*") if p.is_file() and ".np" in p.name} == before

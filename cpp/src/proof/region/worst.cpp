@@ -47,9 +47,12 @@ Met searched(const IndexOverPoses& index, int threads, const std::stop_token& st
   });
   if (!machine.region.empty() && !stop.stop_requested()) {
     RegionSettings settings{.samples = samples, .threads = threads, .last_step = roughly ? 1e-4 : 1e-9};
-    const Region& region = machine.region.front();
-    const RegionExtremes ends = region_extremes(region, [&] { return std::make_unique<LessIndex>(index); }, settings);
-    if (!ends.ends[0].empty()) met.push_back({-ends.least(0).value, domain.point(ends.least(0).at)});
+    const auto make = [&] { return std::make_unique<LessIndex>(index); };
+    try {
+      const RegionExtremes ends = region_extremes(machine.region.front(), make, settings, {stop, {}});
+      if (!ends.ends[0].empty()) met.push_back({-ends.least(0).value, domain.point(ends.least(0).at)});
+    } catch (const Stopped&) {  // what is met at the middles is an answer too
+    }
   }
   Met best = *std::ranges::max_element(met, {}, &Met::value);
   const auto here = [&](const Geometry& g) { return index.at(g, best.at); };
