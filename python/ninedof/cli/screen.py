@@ -184,7 +184,9 @@ class Bar(Progress):
     def show(self, done: int, total: int, value: float | None) -> None:
         """Update the bar: the progress callback of a long call."""
         self.reported = True
-        self.update(self._task, completed=done, total=total, value=self._words(value))
+        of_proof = not total and self._words is best_words  # boxes, of no known number, and another value
+        words = "" if of_proof else self._words(value)
+        self.update(self._task, completed=done, total=total or None, value=words)
         self.start()
         self._line()
 

@@ -8,7 +8,7 @@ import pytest
 from ninedof.cli.screen import Screen
 
 
-def lines_of(capsys, kind, reports, terminal=False):
+def lines_of(capsys, kind, reports, terminal=False, total=500):
     """What a bar prints before its end, for reports (second, done, value) by a fake clock."""
     now = 0.0
     screen = Screen(json=False)
@@ -16,7 +16,7 @@ def lines_of(capsys, kind, reports, terminal=False):
     console.get_time, console._force_terminal = (lambda: now), terminal
     with screen.bar(kind, "study.toml") as bar:
         for now, done, value in reports:  # noqa: B007 the clock reads it
-            bar(done, 500, value)
+            bar(done, total, value)
         lines = capsys.readouterr().err.splitlines()
     return lines
 
@@ -42,6 +42,10 @@ def test_lines_come_at_growing_spacing_and_then_every_five_minutes(capsys):
 )
 def test_a_line_has_the_words_of_the_bar(capsys, kind, line):
     assert lines_of(capsys, kind, [(12.0, 120, 2.5)]) == [line]
+
+
+def test_boxes_of_a_proof_have_no_total_and_no_best(capsys):
+    assert lines_of(capsys, "starts", [(12.0, 46_871, 0.128)], total=0) == ["study.toml  46871/?  0:00:12"]
 
 
 def test_short_work_prints_no_line(capsys):
