@@ -26,6 +26,7 @@ from ninedof.support.arguments import finite, flag, known_keys, table, text
 from ninedof.support.running import Progress, phase, progress_argument
 from ninedof.support.structs import Fixed, StudyTable, entry
 from ninedof.support.text import short_repr
+from ninedof.support.units import amount
 
 PROOFS = 12  # about as many are needed for the largest tolerances
 FIRST, LEAST, MOST = 1e-4, 1e-6, 0.05  # of the machine's height
@@ -66,7 +67,7 @@ def largest(result: Any, options: dict[str, Any]) -> tuple[Tolerances, bool]:
 
     def proved(size: float) -> bool:
         nonlocal timed
-        phase(progress, f"proving {size:.3g}")
+        phase(progress, f"proving tolerances of {amount(format(size, '.3g'), study.unit)}")
         each = max(seconds, FOR_LIMITS) if size == own else max(seconds / PROOFS, 0.5)  # its own ones as `certify` does
         begin = perf_counter()
         unproved = open_limits(study, (*design, rule), of(size), each, **how)

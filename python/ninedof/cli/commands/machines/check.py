@@ -54,6 +54,7 @@ def check(options: _Options) -> Answer:
     if result.words == "this is no certificate":
         parts.append(f"Expected {FILE} {MAKERS}. certify.json says what is proved of a machine, and not why.")
     if result.study:
-        parts.append(f"{result.boxes} boxes read, {result.recut} cut further by the checker")
+        boxes = "1 box" if result.boxes == 1 else f"{result.boxes} boxes"
+        parts.append(f"{boxes} read, {result.recut} cut further by the checker")
     data = {name: getattr(result, name) for name in ("proved", "incomplete", "words", "boxes", "study")}
     return Answer(parts, data, DONE if result.proved else NO_RESULT if result.incomplete else REFUSED)
