@@ -45,7 +45,7 @@ def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
     def parsed(**values: Any) -> None:
         options: Any = kind(**values)
         if (answer := call(options)) is not None:
-            options.screen.print(*answer.parts)
+            _print_parts(options.screen, answer)
             options.screen.data(answer.data)
             raise typer.Exit(answer.status)
 

@@ -79,13 +79,14 @@ def all_finite(name: str, values: Floats, missing: bool = False) -> Floats:
 
 def checked_out(out: Any, shape: tuple[int, ...]) -> Floats | None:
     """Return `out` if it is None or an array that can take a result of this shape."""
-    is_array = isinstance(out, np.ndarray)
-    if out is None or (is_array and out.shape == shape and out.dtype == np.float64 and out.flags.carray):
-        return out  # type: ignore[no-any-return]  # the condition says what it is
+    if out is None:
+        return None
     got = repr(type(out).__name__)
-    if is_array:
+    if isinstance(out, np.ndarray):
         flags = {"C-contiguous": out.flags.c_contiguous, "aligned": out.flags.aligned, "writeable": out.flags.writeable}
         faults = [f"not {name}" for name, fine in flags.items() if not fine]
+        if out.shape == shape and out.dtype == np.float64 and not faults:
+            return out
         got = ", ".join([f"one of {out.dtype} and shape {out.shape}", *faults])
     raise ValueError(f"out: got {got}, expected a writeable aligned C-contiguous float64 array of shape {shape}")
 
