@@ -50,13 +50,13 @@ def largest(result: Any, options: dict[str, Any]) -> tuple[Tolerances, bool]:
     """
     known_keys("largest_tolerance", options, {"condition_number", "slack", "time_limit", "threads", "rule", "progress"})
     study, place, design = result.study, placing_of(result, result.configuration), machine_of(result)
-    asked = Certify(**{"time_limit": 60.0, "slack": 0.0} | options)
-    seconds, progress, rule = asked.time_limit, asked.progress, None
-    if isinstance(asked.rule, PointRule):
-        rule = asked.rule
+    request = Certify(**{"time_limit": 60.0, "slack": 0.0} | options)
+    seconds, progress, rule = request.time_limit, request.progress, None
+    if isinstance(request.rule, PointRule):
+        rule = request.rule
     elif place is not None:
-        rule = rule_of(place, *design, asked.threads, progress)
-    how: dict[str, Any] = {name: getattr(asked, name) for name in ("threads", "slack", "condition_number")}
+        rule = rule_of(place, *design, request.threads, progress)
+    how: dict[str, Any] = {name: getattr(request, name) for name in ("threads", "slack", "condition_number")}
     height = study.zp(design[1][0])
     first, least, most, limit = (share * height for share in (FIRST, LEAST, MOST, LARGEST_TOLERANCE))
     own = max(study.tolerances.joints, study.tolerances.legs)

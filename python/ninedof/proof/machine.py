@@ -79,9 +79,9 @@ def certify(
     configurations are the neutral one, then the poses listed in the study. `Result.certify` says what the options mean;
     a `rule` that is a function without arguments is called for it once all else is known to fit.
     """
-    asked: Certify = read(Certify, options)
-    region, slack, built = study.objective.region, asked.slack, asked.built(study, configurations)
-    threads, seconds, resume, progress = asked.threads, asked.time_limit, asked.resume, asked.progress
+    request: Certify = read(Certify, options)
+    region, slack, built = study.objective.region, request.slack, request.built(study, configurations)
+    threads, seconds, resume, progress = request.threads, request.time_limit, request.resume, request.progress
     only_neutral = region is None and len(configurations) == 1
     where = _where(study, only_neutral)
     digest = machine_digest(study, geometry, configurations, characteristic_length, built)
@@ -91,12 +91,12 @@ def certify(
         if resume.machine != digest:
             raise ValueError("resume: got a certificate of another machine, expected one of this machine")
     begin = perf_counter()
-    rule = _rule(study, configurations[0], asked.rule, resume)
+    rule = _rule(study, configurations[0], request.rule, resume)
 
     def settings(bounds: list[float]) -> _core.ConditionSettings:
         remaining = end - perf_counter()
         return _core.ConditionSettings(
-            threads=threads, seconds=remaining, gap=asked.gap, wanted=bounds, tolerance=slack
+            threads=threads, seconds=remaining, gap=request.gap, wanted=bounds, tolerance=slack
         )
 
     phase(progress, "proving the limits")
@@ -115,13 +115,13 @@ def certify(
     if built:
         phase(progress, "proving the error of the platform")
         of_errors, start = max(FOR_ERRORS * seconds, FOR_LIMITS), perf_counter()
-        errors = _core.error_over_poses(machine, 2.0 * asked.gap, threads, of_errors)
+        errors = _core.error_over_poses(machine, 2.0 * request.gap, threads, of_errors)
         errors_timed = not np.isfinite(errors).all() and perf_counter() - start >= of_errors
 
     phase(progress, "proving the condition number")
     end = perf_counter() + seconds  # what was before does not count: it is done again whenever a proof is gone on with
     objective = study.objective
-    bounds = {CONDITION_LIMIT: objective.condition_limit, "condition_number": asked.condition_number}
+    bounds = {CONDITION_LIMIT: objective.condition_limit, "condition_number": request.condition_number}
     limits_of_index = {name: bound for name, bound in bounds.items() if bound is not None}
     at_neutral = neutral_limit(study, (geometry, configurations, characteristic_length), built, settings, slack)
 
@@ -153,7 +153,7 @@ def certify(
             machine=digest,
         )
 
-    keep = asked.keep
+    keep = request.keep
     keep_state = None if keep is None else lambda state: keep(certificate(state, True))
     state = _core.search_condition(
         machine, settings(list(limits_of_index.values())), _state_of(resume), keep_state, progress
