@@ -14,7 +14,7 @@ WORDS = {"str": "text", "int": "integer", "float": "number", "Path": "file"}
 
 def all_commands() -> dict[str, Any]:
     """Return the commands by name, in the order of `ninedof --help`."""
-    return dict(typer.main.get_command(app).commands)  # type: ignore[attr-defined]
+    return dict(typer.main.get_command(app()).commands)  # type: ignore[attr-defined]
 
 
 def pages() -> dict[str, str]:

@@ -18,6 +18,7 @@ from ninedof.cli.ending import finish, interruptible
 from ninedof.support.running import running
 
 PROGRAM = "ninedof"
+COMPLETE = f"_{PROGRAM.upper()}_COMPLETE"  # set by a shell that completes a line
 OWN = ("-h", "--help", "--version", "--install-completion", "--show-completion")  # options of no command
 DEFAULT = "optimize"  # the command of a line that begins with a study file or an option
 # In --help; the other commands are between them by their names.
@@ -45,19 +46,6 @@ class _Commands(TyperGroup):
         return items
 
 
-app = typer.Typer(
-    cls=_Commands,
-    no_args_is_help=False,
-    rich_markup_mode="rich",
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-    help="Optimum design of the nine-degree-of-freedom parallel manipulator of Zanganeh and Angeles.",
-    epilog="Without a command: [bold]ninedof optimize[/bold], the paper's design problem. Exit status: 0 done, "
-    "1 refused by the system (a file, the disk), 2 bad input, 3 no acceptable result, 4 a failure of memory, a library "
-    "or a cluster, 130 interrupted.",
-)
-
-
 def _version(value: bool) -> None:
     if value:
         from ninedof import __version__
@@ -66,7 +54,6 @@ def _version(value: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def _root(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
@@ -75,11 +62,33 @@ def _root(
     pass
 
 
-_FILES = (one.name for one in walk_packages(commands.__path__, f"{commands.__name__}.") if not one.ispkg)
-MODULES = {file.rpartition(".")[2]: import_module(file) for file in _FILES}
-for _name in (*FIRST, *sorted(MODULES.keys() - {*FIRST, *LAST}), *LAST):
-    _examples = MODULES[_name].EXAMPLES.replace("\n", "\n\n")  # a paragraph each
-    app.command(epilog=f"[bold]Examples[/bold]{_examples}")(command(getattr(MODULES[_name], _name)))
+FILES = {
+    one.name.rpartition(".")[2]: one.name
+    for one in walk_packages(commands.__path__, f"{commands.__name__}.")
+    if not one.ispkg
+}
+"""The modules of the commands by their names."""
+
+
+def app(*names: str) -> typer.Typer:
+    """Return the program with some commands, by default with all: each has its rooms to load."""
+    program = typer.Typer(
+        cls=_Commands,
+        no_args_is_help=False,
+        rich_markup_mode="rich",
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+        help="Optimum design of the nine-degree-of-freedom parallel manipulator of Zanganeh and Angeles.",
+        epilog="Without a command: [bold]ninedof optimize[/bold], the paper's design problem. Exit status: 0 done, "
+        "1 refused by the system (a file, the disk), 2 bad input, 3 no acceptable result, 4 a failure of memory, a "
+        "library or a cluster, 130 interrupted.",
+    )
+    program.callback()(_root)
+    for name in names or (*FIRST, *sorted(FILES.keys() - {*FIRST, *LAST}), *LAST):
+        module = import_module(FILES[name])
+        examples = module.EXAMPLES.replace("\n", "\n\n")  # a paragraph each
+        program.command(epilog=f"[bold]Examples[/bold]{examples}")(command(getattr(module, name)))
+    return program
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -87,5 +96,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     words = _with_command(sys.argv[1:] if arguments is None else arguments)
     if not os.environ.get("COLUMNS", "1").strip("0"):
         del os.environ["COLUMNS"]  # nothing can be written on no columns: as wide as the terminal
+    names = FILES.keys() & {words[0]} if COMPLETE not in os.environ else ()
+    program = app(*names)
     with interruptible(), running(PROGRAM, words):
-        raise SystemExit(finish(lambda: app(words, prog_name=PROGRAM, standalone_mode=False), words))
+        raise SystemExit(finish(lambda: program(words, prog_name=PROGRAM, standalone_mode=False), words))

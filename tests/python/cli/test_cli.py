@@ -218,7 +218,7 @@ def test_help(run, line):
 
 
 def test_every_command_has_a_row_in_the_tour():
-    commands = [command.callback.__name__ for command in app.registered_commands]
+    commands = [command.callback.__name__ for command in app().registered_commands]
     assert len(commands) > 6
     assert commands[0] == "optimize"
     tour = (Path(__file__).resolve().parents[3] / "docs" / "tour.md").read_text()

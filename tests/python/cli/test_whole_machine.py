@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.app import MODULES
+from ninedof.cli.app import FILES
 
 pytestmark = pytest.mark.slow
 
@@ -115,7 +115,7 @@ def _there(folder, monkeypatch):
 def test_a_machine_goes_through_every_command(run, folder):
     status, out, errors = run("optimize machine.toml --out run")
     assert status == 0, out + errors
-    assert set(MODULES) - {line.split()[0] for line in LINES} <= ELSEWHERE
+    assert set(FILES) - {line.split()[0] for line in LINES} <= ELSEWHERE
     result = nd.load("run")
     assert result.reserve.proved
     says = {}

@@ -11,7 +11,7 @@ from sizes import LONG
 
 from ninedof.cli.app import app, main
 
-COMMANDS = typer.main.get_command(app).commands
+COMMANDS = typer.main.get_command(app()).commands
 STATUSES = {0, 1, 2, 3}
 FEW = {True: 1, False: 3}  # values of an option in a short run, of commands that work long and of others
 

@@ -14,7 +14,7 @@ PAGE = (Path(__file__).parents[3] / "docs" / "questions.md").read_text(encoding=
 ROWS = [line.strip("| ").split(" | ") for line in PAGE.splitlines() if line.startswith("| [")]
 LINES = [line for row in ROWS for line in re.findall(r"`(ninedof [^`]+)`", " ".join(row[1:]))]
 NAMES = sorted(set(re.findall(r"\bnd\.([A-Za-z_]+)", PAGE)))
-COMMANDS = typer.main.get_command(app).commands
+COMMANDS = typer.main.get_command(app()).commands
 
 
 def test_there_are_some_forty_questions():

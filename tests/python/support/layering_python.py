@@ -93,7 +93,7 @@ def python_violations(files: Mapping[str, str]) -> list[str]:
             rooms = {room_of(other) for other in own_modules(imports(text, package, run_time=True), known)}
             out.extend(f"{name}: must not use {x}" for x in sorted(rooms - {room} - AT_RUN_TIME[room]))
     for module in sorted(reachable("__init__", on_import) | {"__init__"}):
-        out.extend(f"{module}: loads {x} on `import ninedof`" for x in sorted(heavy.get(module, ())))
+        out.extend(f"{module}: loads {x} with public names" for x in sorted(heavy.get(module, ())))
     out.extend(cycles(every))
     return out
 
