@@ -160,13 +160,13 @@ class Options:
         """The screen that the command prints on."""
         return Screen(self.json)
 
-    def given(self, *names: str) -> dict[str, Any]:
-        """Return the options of some names that are given."""
+    def values_of(self, *names: str) -> dict[str, Any]:
+        """Return the options of some names that were typed, by name."""
         return {name: value for name in names if (value := getattr(self, name)) is not None}
 
     def refuse(self, where: str, *names: str) -> None:
         """Raise for options that have no effect where they are given."""
-        for name, value in self.given(*names).items():
+        for name, value in self.values_of(*names).items():
             if value is not False:
                 several = value if isinstance(value, list | tuple) else [value]
                 got = "it" if value is True else " ".join(f"{x:g}" if isinstance(x, float) else str(x) for x in several)

@@ -121,7 +121,7 @@ def named_design(name: str | None) -> Chosen:
 
 def chosen_design(name: str | None, options: HexagonalOptions) -> Chosen:
     """Return the design that an argument DESIGN names, or that of the sides and heights of the hexagonal family."""
-    values = options.given(*HEXAGON)
+    values = options.values_of(*HEXAGON)
     if name is None:
         if missing := [f"--{side}" for side in HEXAGONAL if side not in values]:
             expected = "expected a design file or all of a1 a2 b1 b2 zp zs"
@@ -164,7 +164,7 @@ class PoseOptions(Options):
         turn = np.radians((0.0, 0.0, 0.0) if self.rotation_deg is None else vector("--rotation-deg", self.rotation_deg))
         q = home.moved(np.concatenate([turn, np.zeros(6)])).rotation if turn.any() else home.rotation
         s = home.internal_point
-        if self.given(*POSE):
+        if self.values_of(*POSE):
             s = _internal_point(chosen, p, q, self.internal_point or chosen.rule)
         return nd.Configuration(p[None], q[None], s[None])
 

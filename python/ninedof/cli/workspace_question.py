@@ -33,7 +33,7 @@ from ninedof.support.units import DEG, plain_name, unit_entry
 from ninedof.workspace.certified import GAPS, require_certifiable
 from ninedof.workspace.question import ARCHETYPES, CRITERIA
 from ninedof.workspace.search import METHODS
-from ninedof.workspace.study_question import ACTUATORS, Asked, asked_criteria, place_of, rule_of_region
+from ninedof.workspace.study_question import ACTUATORS, StudyCriteria, place_of, rule_of_region, study_criteria
 
 
 @struct
@@ -96,7 +96,7 @@ class Question:
 
     keywords: dict[str, Any]
     """Keywords of `nd.workspace`."""
-    asked: Asked
+    criteria: StudyCriteria
     """The criteria, and where they are from."""
     region: nd.Region | None
     """The region of the study."""
@@ -110,12 +110,12 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     region = None if study is None else study.objective.region
     names = (one.name for one in fields(options))
     limits_of = [n for n in names if plain_name(n) in (*OF_LENGTHS, *CRITERIA) or n.endswith("_axis")]
-    numbers = options.given(*limits_of).items()
+    numbers = options.values_of(*limits_of).items()
     values = {plain_name(name): _radians(name, x) if name.endswith(DEG) else x for name, x in numbers}
     if (axis := options.platform_cone_axis) is not None:
         values["platform_cone_axis"] = chosen.tool.turned(axis)
     choice("--actuators", options.actuators, ACTUATORS)
-    limits = asked_criteria(chosen.result if options.study_limits else None, values, options.actuators)
+    limits = study_criteria(chosen.result if options.study_limits else None, values, options.actuators)
     if not limits.criteria:
         raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
     if options.method == "grid":
@@ -123,7 +123,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     of_angles = options.archetype == "orientation"
     at = None if not of_angles else home.position if options.position is None else options.position
     turns = options.archetype not in ("constant_orientation", "orientation")
-    bounds = options.given("angle_deg", "tilt_deg", "torsion_deg")
+    bounds = options.values_of("angle_deg", "tilt_deg", "torsion_deg")
     keywords: dict[str, Any] = {
         "archetype": options.archetype,
         "criteria": limits.criteria,
@@ -131,7 +131,7 @@ def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
         "internal_point": _rule(options.internal_point, chosen, region, at, turns),
         "method": options.method,
         "tolerance": options.tolerance,
-        **options.given("orientations", "resolution", "points", "seed", "index"),
+        **options.values_of("orientations", "resolution", "points", "seed", "index"),
         **unit_entry(chosen.unit),
     }
     if bounds:
@@ -161,7 +161,7 @@ def _changed_place(options: WorkspaceOptions, place: Mapping[str, Any]) -> dict[
     if "position" in place:
         if any(end is not None for end in ends):
             raise ValueError("workspace: got a box, expected none for orientations at one position")
-        return options.given("position")
+        return options.values_of("position")
     options.refuse("but for --archetype orientation", "position")
     around = [own if end is None else end for own, end in zip(zip(*place["box"], strict=True), ends, strict=True)]
     return {"box": tuple(zip(*around, strict=True))}
@@ -169,7 +169,7 @@ def _changed_place(options: WorkspaceOptions, place: Mapping[str, Any]) -> dict[
 
 def _proof(options: WorkspaceOptions, rule: Any) -> dict[str, Any] | None:
     """Return gap and time of the proof; None where none is wanted."""
-    settings = options.given("gap", "time")
+    settings = options.values_of("gap", "time")
     if not options.certify:
         options.refuse("without --certify", *settings)
         return None

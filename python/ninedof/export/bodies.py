@@ -42,7 +42,7 @@ RADIUS = 0.012  # of a rod, by the mean length of the legs; for the eye and for 
 
 
 class Inertial(NamedTuple):
-    """What a simulator knows of the mass of a body, in the frame of the body."""
+    """The mass of a body as a simulator takes it, in the frame of the body."""
 
     mass: float
     centre: Vector

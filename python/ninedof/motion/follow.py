@@ -233,7 +233,7 @@ class Followed(Saved):
 
 
 class FollowDuty(TypedDict, total=False):
-    """What the legs bear in `follow`, which says what the options mean."""
+    """Loads and masses that the legs bear in `follow`, where the options are described."""
 
     load: tuple[ArrayLike | None, ArrayLike | None]
     masses: Any

@@ -99,11 +99,11 @@ class Pieces:
         """
         earlier = None
         if (piece := self._read()) is not None:
-            kept = OptimumProof.from_dict(from_json_array(piece[WORDS]))
-            kept = replace(kept, certificate=piece[CERTIFICATE].tobytes())
+            proof = OptimumProof.from_dict(from_json_array(piece[WORDS]))
+            proof = replace(proof, certificate=piece[CERTIFICATE].tobytes())
             if UNFINISHED not in piece:
-                return kept
-            earlier = kept
+                return proof
+            earlier = proof
             self._next, self.new_pieces = self._next - 1, self.new_pieces + 1
         proof = compute(earlier)
         piece = {

@@ -71,7 +71,7 @@ def is_neutral(study: Study) -> bool:
 
 @dataclass(frozen=True)
 class Ways:
-    """How the bound of a study can be proved."""
+    """Ways to prove the bound of a study."""
 
     home: Study | None
     """The study at its neutral pose, where its class has a proof."""

@@ -35,11 +35,11 @@ def of_result(
     run: str = "RUN",
     again: Html | None = None,
     certificate: MachineCertificate | None = None,
-    kept: Sequence[str] = (),
+    other_proofs: Sequence[str] = (),
 ) -> Page:
     """Return the page of an optimization; `again` says how to reproduce it, where its study alone does not.
 
-    `kept` is a sentence on a certificate for other tolerances, if there is one.
+    `other_proofs` is a sentence on a certificate for other tolerances, if there is one.
     `run` is the run in the commands of the page: "RUN#7" for a point of a front.
     """
     best, study = result.best, result.study
@@ -54,7 +54,7 @@ def of_result(
         machines += [design_machine(f"optimum no. {k}", other, study) for k, other in others]
         view = scene.scene(machines, study.unit)
         machine, words = (best.geometry, best.configuration), result.words
-    sections["proof"] = proof.of_result(result, certificate, kept)
+    sections["proof"] = proof.of_result(result, certificate, other_proofs)
     sections["again"] = again or origin.of_study(study, "ninedof optimize study.toml", record)
     headline, good = words[:1].upper() + words[1:], result.status == Status.OPTIMAL
     return Page("optimization", headline, _key_figures(result, sheet), sections, view, good, machine)
@@ -213,8 +213,8 @@ def duty_sentences(study: Study) -> Iterator[str]:
     if loads.wrenches:
         words = "; ".join(load_words(k, load, unit, study.force_unit) for k, load in enumerate(loads.wrenches, start=1))
         yield f"{words[:1].upper()}{words[1:]}."
-    given = {name.replace("_", " "): x for name in MASSES if (x := getattr(study.masses, name))}
-    masses = [amount(f"{name} {x:g}", "kg" * bool(study.force_unit)) for name, x in given.items()]
+    bodies = {name.replace("_", " "): x for name in MASSES if (x := getattr(study.masses, name))}
+    masses = [amount(f"{name} {x:g}", "kg" * bool(study.force_unit)) for name, x in bodies.items()]
     if masses:
         centre = amount(vector_words(study.masses.centre), unit)
         at = f", the platform's centre at {centre} in the frame of the plate" * (study.masses.platform > 0.0)

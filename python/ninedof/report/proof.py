@@ -25,12 +25,12 @@ STATUS = {
 }
 
 
-def of_result(result: Result, certificate: MachineCertificate | None, kept: Sequence[str] = ()) -> Html:
+def of_result(result: Result, certificate: MachineCertificate | None, others: Sequence[str] = ()) -> Html:
     """Return what is established of an optimization and what is not.
 
-    `certificate` is what `ninedof certify` proved, `kept` a sentence on another one for other tolerances.
+    `certificate` is what `ninedof certify` proved, `others` a sentence on another one for other tolerances.
     """
-    proofs = [*(certificate.sentences() if certificate else ()), *kept, *_checked(result)]
+    proofs = [*(certificate.sentences() if certificate else ()), *others, *_checked(result)]
     as_built = result.reserve is not None and result.reserve.proved  # of every machine within the tolerances
     if as_built and (certificate is None or certificate.tolerances != result.study.tolerances):
         proofs.append("Proved: every machine within the tolerances keeps the limits at every pose.")

@@ -58,7 +58,7 @@ class _Command:
     words: list[str]
     again: list[str] | None = None
     why: str = ""
-    kept: bool = False
+    goes_on: bool = False
 
 
 _RUNNING: ContextVar[_Command | None] = ContextVar("command", default=None)
@@ -87,14 +87,14 @@ def goes_on(out: Path | None = None) -> None:
     """
     if (command := _RUNNING.get()) is not None:
         has_out = out is None or any(word == "--out" or word.startswith("--out=") for word in command.words)
-        command.kept = out is None
+        command.goes_on = out is None
         command.again = command.words if has_out else [*command.words, "--out", str(out)]
 
 
 def has_kept() -> None:
     """Note that a part of the work is kept: typed again, the command goes on from there."""
     if (command := _RUNNING.get()) is not None:
-        command.kept = True
+        command.goes_on = True
 
 
 def ended_by_time(without: str = "", instead: Sequence[str] = ()) -> None:
@@ -115,7 +115,7 @@ def how_to_go_on(interrupted: bool) -> str:
     """Return how a command ended, and the line to type to go on with its run; "" where it came to its end."""
     command = _RUNNING.get() or _Command([])
     why = "interrupted" if interrupted else command.why
-    aim = "to go on" if command.kept else "to begin anew"
+    aim = "to go on" if command.goes_on else "to begin anew"
     return f"{why}; {aim}, type: {_typed(command.again)}" if why and command.again else why
 
 

@@ -110,15 +110,15 @@ def certified_workspace(
         threads=thread_argument(threads),
     )
     begin = perf_counter()
-    found = _core.certified_workspace(problem, settings, progress)
+    answer = _core.certified_workspace(problem, settings, progress)
     seconds = perf_counter() - begin
     return from_core(
         CertifiedWorkspace,
-        found,
+        answer,
         connected=connected(problem),
         archetype=arguments["archetype"],
         seconds=seconds,
         estimate=None,
         unit=unit,
-        certificate=np.frombuffer(_core.workspace_certificate(problem, found), np.uint8),
+        certificate=np.frombuffer(_core.workspace_certificate(problem, answer), np.uint8),
     )

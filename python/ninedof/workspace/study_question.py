@@ -82,7 +82,7 @@ def design_question(design: HasRobot, archetype: str = "constant_orientation") -
     }
     if study is None:
         return arguments, []
-    of_study = asked_criteria(design)
+    of_study = study_criteria(design)
     return arguments | {"criteria": of_study.criteria}, of_study.left
 
 
@@ -104,7 +104,7 @@ def place_of(home: Configuration, region: Region | None, tool: Tool, archetype: 
     return box | ({"rotation": home.rotation} if archetype == "constant_orientation" else {})
 
 
-class Asked(NamedTuple):
+class StudyCriteria(NamedTuple):
     """Criteria of a workspace."""
 
     criteria: dict[str, Any]
@@ -118,7 +118,9 @@ class Asked(NamedTuple):
     """Limits of the study in whose place others count."""
 
 
-def asked_criteria(design: Any = None, values: Mapping[str, Any] = Fixed(), actuators: str = ACTUATORS[0]) -> Asked:
+def study_criteria(
+    design: Any = None, values: Mapping[str, Any] = Fixed(), actuators: str = ACTUATORS[0]
+) -> StudyCriteria:
     """Return the criteria of the study of a design, and of values that count instead.
 
     `values` are of constraints of leg lengths, angles and axes of cones, and of other criteria; one of all legs or of
@@ -149,11 +151,11 @@ def asked_criteria(design: Any = None, values: Mapping[str, Any] = Fixed(), actu
     criteria = others if legs is None else {LEG_LIMITS: legs} | others
     compares = any(name in SPREADS for name in left) and OF_LENGTHS.keys().isdisjoint(values)
     if not compares or (built := built_ranges(design, actuators)) is None:
-        return Asked(criteria, own, left, "", replaced)
+        return StudyCriteria(criteria, own, left, "", replaced)
     least, most = criteria.get(LEG_LIMITS, (0.0, math.inf))
     criteria[LEG_LIMITS] = (np.maximum(least, built[0]), np.minimum(most, built[1]))
     left = [name for name in left if name not in SPREADS]
-    return Asked(criteria, own - {LEG_LIMITS}, left, ACTUATOR_WORDS[actuators], replaced)
+    return StudyCriteria(criteria, own - {LEG_LIMITS}, left, ACTUATOR_WORDS[actuators], replaced)
 
 
 def _covers(one: str, other: str) -> bool:

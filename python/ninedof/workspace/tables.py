@@ -120,7 +120,7 @@ def share_words(region: Region, workspace: _core.RegionShare, unit: str) -> str:
 
 KINDS = {"external": slice(0, 3), "upper internal": slice(3, 6), "lower internal": slice(6, 9)}
 
-ASKED = {
+CRITERIA = {
     "constant_orientation": "positions of the platform at the neutral rotation alone: no tilts and no yaws",
     "orientation": "rotations of the platform at one position",
     "reachable": "positions of the platform where one of a set of rotations, or more, is allowed",
@@ -129,11 +129,11 @@ ASKED = {
 }
 
 
-def asked_lines(
+def criteria_lines(
     keywords: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str], unit: str, tool: Tool
 ) -> Iterator[str]:
     """Yield what is asked, a line for each part."""
-    yield f"workspace: {ASKED[keywords['archetype']]}"
+    yield f"workspace: {CRITERIA[keywords['archetype']]}"
     p, o = (amount(point_words(point), unit) for point in (home.position, home.internal_point))
     yield f"home: p = {p}, O = {o}"
     yield f"O: {rule_words(keywords, unit)}"

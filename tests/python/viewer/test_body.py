@@ -12,7 +12,7 @@ import ninedof as nd
 from ninedof.viewer.body import Body, BodySearch, body_of, leg_limits, question_of
 from ninedof.viewer.machine import machine_of
 from ninedof.viewer.state import State
-from ninedof.workspace.study_question import asked_criteria
+from ninedof.workspace.study_question import study_criteria
 
 
 def body(state, condition_limit=math.inf):
@@ -105,6 +105,6 @@ def test_the_spread_of_a_study_bounds_the_body(constraint):
 def test_legs_have_the_ranges_of_the_command(constraint, objective):
     limits = constraint | {"upper_length": (0.2, 9.0)}
     result = nd.optimize(nd.Study(constraints=limits, objective=objective), starts=2)
-    typed = asked_criteria(result).criteria["leg_limits"]
+    typed = study_criteria(result).criteria["leg_limits"]
     for own, other in zip(leg_limits(State(machine_of(result)).variant), typed, strict=True):
         assert_allclose(own, other, rtol=1e-6)

@@ -12,7 +12,7 @@ import ninedof as nd
 from ninedof.cli.workspace_figures import _planes, _section
 from ninedof.paper.published import published_variables
 from ninedof.records.record import write_run
-from ninedof.workspace.study_question import EASE, asked_criteria, leg_ranges, own_fraction, study_limits
+from ninedof.workspace.study_question import EASE, leg_ranges, own_fraction, study_criteria, study_limits
 from ninedof.workspace.tables import criterion_words
 
 BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])
@@ -262,12 +262,12 @@ def test_limits_of_legs_and_what_the_poses_need_hold_together():
     short, long = lengths.min(axis=0), lengths.max(axis=0)
     permitted = np.sqrt(short * long / 1.5), np.sqrt(short * long * 1.5)
     for actuators, (low, high) in {"needed": (short, long), "permitted": permitted}.items():
-        asked = asked_criteria(result, actuators=actuators)
+        asked = study_criteria(result, actuators=actuators)
         least, most = asked.criteria["leg_limits"]
         assert_allclose(least, np.maximum(low, np.repeat([4.0, 0.0, 0.0], 3)), rtol=2 * EASE)
         assert_allclose(most, high, rtol=2 * EASE)
         assert (asked.own, asked.left) == (set(), [])
-    typed = asked_criteria(result, {"upper_length": (1.0, 9.0)})
+    typed = study_criteria(result, {"upper_length": (1.0, 9.0)})
     assert (typed.left, typed.actuators) == (["stroke_ratio"], "")
     assert typed.criteria["leg_limits"][0].tolist() == pytest.approx(np.repeat([4.0, 1.0, 0.0], 3).tolist())
 
@@ -280,14 +280,14 @@ def test_an_option_of_all_joints_or_legs_replaces_those_of_each_kind(run, tmp_pa
         "upper_length": (0.5, 9.0),
     }
     result = nd.optimize(nd.Study(variables={"a1": 0.0, "b2": 0.0}, constraints=limits), starts=2)
-    typed = asked_criteria(result, {"base_cone": 0.7})
+    typed = study_criteria(result, {"base_cone": 0.7})
     assert typed.replaced == ["base_cone_external", "base_cone_internal"]
     assert sorted(typed.criteria) == ["base_cone", "leg_limits", "platform_cone_internal"]
     assert typed.own == {"leg_limits", "platform_cone_internal"}
-    assert asked_criteria(result, {"base_cone_external": 0.7}).replaced == ["base_cone_external"]
-    assert asked_criteria(result, {"leg_length": (1.0, 8.0)}).replaced == ["upper_length"]
-    assert asked_criteria(result, {"external_length": (1.0, 8.0)}).replaced == []
-    assert asked_criteria(result).replaced == []
+    assert study_criteria(result, {"base_cone_external": 0.7}).replaced == ["base_cone_external"]
+    assert study_criteria(result, {"leg_length": (1.0, 8.0)}).replaced == ["upper_length"]
+    assert study_criteria(result, {"external_length": (1.0, 8.0)}).replaced == []
+    assert study_criteria(result).replaced == []
     folder = nd.save(result, tmp_path / "run").parent
     status, out, _ = run(f"workspace {folder} --base-cone-deg 40 --no-figures --tolerance 0.2 --out {tmp_path / 'w'}")
     assert status == 0

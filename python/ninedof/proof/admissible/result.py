@@ -59,7 +59,7 @@ class Reason(NamedTuple):
 
 
 class Room(dict[str, tuple[float, float]]):
-    """How far each variable may go at once: its two ends."""
+    """The two ends of each variable to which all may go at once."""
 
     ended_by: dict[str, tuple[str, str]]
     """In words: a bound, a limit that designs just beyond break and at which pose, or how far the search came."""

@@ -1,1 +1,1 @@
-"""What is kept: files that are whole and checked, the folder of a run with its question, long work in chunks."""
+"""Kept things: files that are whole and checked, the folder of a run with its question, long work in chunks."""

@@ -80,7 +80,7 @@ def _countable(points: int, chunk: int) -> None:
 def _computed(work: Work, store: Store | None, executor: Executor | None, tell: Progress) -> Computed:
     size = work.chunk if store is None else store.chunk
     _countable(work.points, size)
-    done, missing, some = 0, [], store is not None and store.kept()
+    done, missing, some = 0, [], store is not None and store.has_pieces()
     for k, first in enumerate(range(0, work.points, size)):
         last = min(first + size, work.points)
         if not some or store is None or (values := store.read(k)) is None:

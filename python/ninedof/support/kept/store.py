@@ -80,12 +80,12 @@ class Store:
     def __exit__(self, kind: object, error: BaseException | None, *_: object) -> None:
         """Name what is kept where an error ends the run; remove the folder where that is nothing."""
         self.close()
-        if self.kept():
+        if self.has_pieces():
             has_kept()
         if not isinstance(error, Exception):
             return
         with suppress(OSError):
-            if self.kept():
+            if self.has_pieces():
                 error.add_note(f"Finished pieces are kept in {self._run}: the same call goes on from there.")
                 return
             self.folder.rmdir()
@@ -100,7 +100,7 @@ class Store:
             os.close(self._lock)
             self._lock = None
 
-    def kept(self) -> bool:
+    def has_pieces(self) -> bool:
         """Return whether there are pieces."""
         return any(self.folder.glob("*.npz"))
 

@@ -61,7 +61,7 @@ def export(options: _Options) -> Answer:
     file = out or Path(stem.replace("#", "-") + row.suffix)  # "front-7" for "runs/front#7"
     if file.resolve() == path.resolve():
         raise ValueError(f"--out: got {file}, the design itself, expected another file")
-    more = options.given("leg_mass", "platform_mass", "gravity")
+    more = options.values_of("leg_mass", "platform_mass", "gravity")
     for key in more.keys() - row.options:
         what = ", ".join(map(typed, row.options)) or "no option"
         raise ValueError(f"{typed(key)}: got {more[key]:g} with --to {row.name}, which takes {what}")

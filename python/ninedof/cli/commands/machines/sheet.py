@@ -71,7 +71,7 @@ def sheet(options: _Options) -> None:
         own_or_new("--csv", options.csv, MARK)
     chosen = named_design(options.design)
     vectors: dict[str, Any] = {
-        name: several(typed(name), text, VECTORS[name]) for name, text in options.given(*VECTORS).items()
+        name: several(typed(name), text, VECTORS[name]) for name, text in options.values_of(*VECTORS).items()
     }
     turn = options.turn_deg
     with searching(screen, "sheet", chosen):

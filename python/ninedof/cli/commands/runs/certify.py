@@ -81,13 +81,13 @@ def certify(options: _Options) -> Answer:
         built, timed = _largest_of(result, how, screen)
     if options.certificate is not None:
         require_replayable(result.study, built)
-    kept = kept_certificates(file)
+    certificates = kept_certificates(file)
     if earlier is not None and earlier.tolerances != built:  # a proof of other machines is kept, and not gone on with
-        other = save_certificate(earlier, _place_of(earlier, kept, file))
+        other = save_certificate(earlier, _place_of(earlier, certificates, file))
         screen.print(f"the certificate for other tolerances is kept as {other}")
         earlier = None
     if earlier is None:
-        fits = (one for one in kept.values() if one.tolerances == built and result.is_certified_by(one))
+        fits = (one for one in certificates.values() if one.tolerances == built and result.is_certified_by(one))
         earlier = min(fits, key=lambda one: (not one.proved, one.condition[1]), default=None)
     states = []
 
@@ -141,9 +141,11 @@ def certify(options: _Options) -> Answer:
     return Answer([], data, INTERRUPTED if certificate.interrupted else status)
 
 
-def _place_of(certificate: nd.MachineCertificate, kept: Mapping[Path, nd.MachineCertificate], file: Path) -> Path:
+def _place_of(
+    certificate: nd.MachineCertificate, certificates: Mapping[Path, nd.MachineCertificate], file: Path
+) -> Path:
     """Return where a certificate is kept: a new place, or that of one that proves no more of the same machines."""
-    for path, one in kept.items():
+    for path, one in certificates.items():
         same = (one.machine, one.tolerances, one.slack) == (
             certificate.machine,
             certificate.tolerances,

@@ -108,7 +108,7 @@ def path(options: _Options) -> None:
     if options.file:
         question["file"] = str(options.file)
     else:
-        question |= options.given(*SHAPES) | {"duration": trajectory.time[-1], "points": len(trajectory)}
+        question |= options.values_of(*SHAPES) | {"duration": trajectory.time[-1], "points": len(trajectory)}
     with run_folder(options.out) as directory, Store(directory, {"kind": "motion", **question}):
         duty: Any = {"load": (force, moment), "masses": masses, "gravity": gravity}
         result = nd.follow(g, trajectory, home, **how, characteristic_length=chosen.characteristic_length, **duty)
@@ -136,7 +136,7 @@ def path(options: _Options) -> None:
 
 
 def _trajectory(chosen: Chosen, options: _Options) -> nd.Trajectory:
-    home, shapes = chosen.configuration, options.given(*SHAPES)
+    home, shapes = chosen.configuration, options.values_of(*SHAPES)
     names = [*(["a file"] if options.file else []), *(f"--{name}" for name in shapes)]
     if len(names) != 1:
         got = " and ".join(names) or "none"
@@ -146,7 +146,7 @@ def _trajectory(chosen: Chosen, options: _Options) -> nd.Trajectory:
         return nd.Trajectory.load(options.file, home, chosen.unit)
     ((name, value),) = shapes.items()
     trajectory: nd.Trajectory = getattr(nd.Trajectory, name)(
-        home, *(value if name == "spiral" else (value,)), **options.given(*TIMES), unit=chosen.unit
+        home, *(value if name == "spiral" else (value,)), **options.values_of(*TIMES), unit=chosen.unit
     )
     return trajectory
 

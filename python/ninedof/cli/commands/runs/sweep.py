@@ -116,7 +116,7 @@ def _over_poses(
 ) -> Callable[..., nd.SweepResult]:
     """Return the sweep over coordinates of a design, or of the published one at its best zs."""
     if chosen is None:
-        chosen = chosen_design(None, job) if job.given(*HEXAGON) else with_length(named_design(None), job.lc)
+        chosen = chosen_design(None, job) if job.values_of(*HEXAGON) else with_length(named_design(None), job.lc)
     return partial(
         nd.sweep,
         chosen.geometry,
@@ -156,7 +156,7 @@ def _over_designs(
 
 
 def _sides(job: _Options, over: Iterable[str]) -> Mapping[str, float]:
-    own = job.given(*HEXAGON)
+    own = job.values_of(*HEXAGON)
     twist = own.pop("theta_z_deg", None)
     if both := sorted(set(own) & set(over)):
         raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")

@@ -18,7 +18,7 @@ from ninedof.support.kept.store import Store
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap, certified_workspace
 from ninedof.workspace import workspace as find_workspace
 from ninedof.workspace.study_question import region_share
-from ninedof.workspace.tables import asked_lines, cut_words, share_words, workspace_table, workspace_words
+from ninedof.workspace.tables import criteria_lines, cut_words, share_words, workspace_table, workspace_words
 
 S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)
 OF_THE_MAP = ("method", "tolerance", "resolution", "points", "seed", "index")
@@ -99,15 +99,15 @@ def _piece(store: Store, number: int, kind: type[S], compute: Callable[[], S]) -
 
 
 def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
-    asked, unit, tool = question.asked, chosen.unit, chosen.tool
-    lines = asked_lines(question.keywords, chosen.configuration, asked.own, asked.left, unit, tool)
+    criteria, unit, tool = question.criteria, chosen.unit, chosen.tool
+    lines = criteria_lines(question.keywords, chosen.configuration, criteria.own, criteria.left, unit, tool)
     yield from (bold(*words) for words in cut_words(result))
     yield next(lines)
     yield from tool.remark(unit)
-    if asked.actuators:
-        yield asked.actuators
-    if asked.replaced:
-        yield f"limits of the study that options replace: {', '.join(asked.replaced)}"
+    if criteria.actuators:
+        yield criteria.actuators
+    if criteria.replaced:
+        yield f"limits of the study that options replace: {', '.join(criteria.replaced)}"
     yield from lines
     yield from chosen.duty.tolerances.remark()
     yield workspace_table(result)
