@@ -47,9 +47,9 @@ def test_every_command_and_option_is_in_the_reference(builder):
     modules = (ROOT / "python/ninedof/cli/commands").glob("*/[a-z]*.py")
     assert sorted(pages) == sorted(path.stem for path in modules)
     for name, command in builder.commands.all_commands().items():
-        for parameter in command.params:
-            for word in parameter.opts if parameter.param_type_name == "option" else [parameter.name.upper()]:
-                assert word in pages[name], (name, word)
+        assert pages[name].count("\n| `") == len(command.params), name
+        for word in (word for parameter in command.params for word in parameter.opts if word.startswith("-")):
+            assert f"`{word} " in pages[name] or f"`{word}`" in pages[name], (name, word)
         assert f"ninedof {name}" in pages[name].partition("## Examples")[2], name
 
 
