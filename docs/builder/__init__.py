@@ -33,7 +33,7 @@ def complete(docs: Path, page: str, source: list[str]) -> None:
     here = (docs / page).parent
     text = links.within_site(source[0], here, here, docs)
     if page == "gallery/index":
-        text += gallery.cards(docs / "gallery/examples")
+        text += "\n" + (docs / "gallery/examples/cards.txt").read_text(encoding="utf-8")
     source[0] = fences(text) + contents.below(docs, page)
 
 
