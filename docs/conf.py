@@ -28,6 +28,7 @@ smartquotes = False  # J' is no quotation
 
 myst_heading_anchors = 4  # links to headings as a repository page has them
 
+autodoc_default_options = {"members": True, "undoc-members": True}
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
 autodoc_typehints = "none"  # types are in the tables of parameters, in words
