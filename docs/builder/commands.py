@@ -46,5 +46,5 @@ def prose(text: str) -> str:
 def examples(epilog: str) -> list[str]:
     """Return the examples at the end of the help text, as lines of a page."""
     lines = [line.strip() for line in epilog.splitlines() if line.strip() and "[/bold]" not in line]
-    lines = [re.sub(r"\s{3,}", "  # ", line, count=1) for line in lines]  # what follows a wide gap is said, not typed
+    lines = [re.sub(r"\s{3,}", "  # ", line, count=1) for line in lines]  # what follows a wide gap is a comment
     return ["## Examples", "", "```bash", *lines, "```", ""] if lines else []

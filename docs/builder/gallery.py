@@ -65,10 +65,10 @@ def run(arguments: list[str], folder: str) -> str:
 
 def draw(source: Path, file: Path) -> None:
     """Draw the robot of a design file or of a run folder; a study without a best design has no picture."""
-    found = nd.load(source)
-    if isinstance(found, nd.Result) and found.status != nd.Status.OPTIMAL:
+    machine = nd.load(source)
+    if isinstance(machine, nd.Result) and machine.status != nd.Status.OPTIMAL:
         return
-    panel = nd.plot.Robot("", found.geometry, found.configuration, float(nd.condition_number(found)))
+    panel = nd.plot.Robot("", machine.geometry, machine.configuration, float(nd.condition_number(machine)))
     with DRAWING:
         nd.plot.mechanisms([panel]).savefig(file, dpi=110, bbox_inches="tight")
 

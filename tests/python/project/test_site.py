@@ -57,6 +57,7 @@ def test_every_command_and_option_is_in_the_reference(builder):
 def test_every_header_is_in_the_reference(builder):
     include = ROOT / "cpp/include/ninedof"
     text = "\n".join(builder.headers.pages(include).values())
+    assert {room.name for room in include.iterdir() if room.is_dir()} == set(builder.headers.TITLES)
     for header in include.rglob("*.hpp"):
         assert f"#include <ninedof/{header.relative_to(include)}>" in text
     assert "double condition_number(const Geometry& g, const Configuration& c" in text
