@@ -28,6 +28,7 @@ smartquotes = False  # J' is no quotation
 
 myst_heading_anchors = 4  # links to headings as a repository page has them
 
+autodoc_default_options = {"members": True, "undoc-members": True}
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
 autodoc_typehints = "none"  # types are in the tables of parameters, in words
@@ -35,7 +36,7 @@ autodoc_class_signature = "mixed"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_preprocess_types = False
-default_role = "public"  # `name` in a docstring is a link where the name is public
+default_role = "py:obj"  # `name` in a docstring is a link where the name is public
 add_module_names = False
 python_maximum_signature_line_length = 90
 
@@ -52,9 +53,9 @@ html_theme_options = {
 
 def setup(app):
     """Make the pages that come from the sources; complete each page as it is read."""
-    app.add_role("public", docstrings.public_name)
     app.connect("autodoc-process-docstring", docstrings.read, priority=400)
-    app.connect("doctree-read", docstrings.keep_public_links)
+    app.connect("doctree-read", docstrings.whole_names)
+    app.connect("missing-reference", docstrings.public_name)
     app.connect("doctree-read", formulas.lower_indices)
     app.connect("builder-inited", lambda app: builder.generate(DOCS))
     app.connect("source-read", lambda app, page, source: builder.complete(DOCS, page, source))

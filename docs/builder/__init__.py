@@ -2,47 +2,37 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
 from . import commands, contents, gallery, headers, links, public_names
 
-MADE = ("reference/python", "reference/commands", "reference/cpp", "gallery/examples", "project")
-
 
 def generate(docs: Path) -> None:
     """Write every page that is made, in folders of their own that git ignores; older ones are removed first."""
     root = docs.parent
-    for folder in MADE:
-        shutil.rmtree(docs / folder, ignore_errors=True)
     pages = {
-        **{f"reference/python/{name}": text for name, text in public_names.pages().items()},
-        **{f"reference/commands/{name}": text for name, text in commands.pages().items()},
-        **{f"reference/cpp/{name}": text for name, text in headers.pages(root / "cpp/include/ninedof").items()},
-        **{f"project/{name}": text for name, text in links.project_pages(root).items()},
+        "reference/python": public_names.pages(),
+        "reference/commands": commands.pages(),
+        "reference/cpp": headers.pages(root / "cpp/include/ninedof"),
+        "project": links.project_pages(root),
     }
-    for name, text in pages.items():
-        path = docs / f"{name}.md"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+    for folder, texts in pages.items():
+        shutil.rmtree(docs / folder, ignore_errors=True)
+        (docs / folder).mkdir()
+        for name, text in texts.items():
+            (docs / folder / f"{name}.md").write_text(text, encoding="utf-8")
+    shutil.rmtree(docs / "gallery/examples", ignore_errors=True)
     gallery.write(root / "examples", docs / "gallery/examples")
 
 
 def complete(docs: Path, page: str, source: list[str]) -> None:
-    """Change the text of a page in place: links that leave the site, then the list of pages below it."""
+    """Change the text of a page in place: links that leave the site, names of blocks, the list of pages below it."""
     here = (docs / page).parent
     text = links.within_site(source[0], here, here, docs)
+    # A fenced block without a name gets one, so that it is told from an indented formula.
+    text = re.sub(r"^```(\S*)(\n.*?^```)$", lambda block: f"```{block[1] or 'text'}{block[2]}", text, flags=re.M | re.S)
     if page == "gallery/index":
-        text += gallery.cards(docs / "gallery/examples")
-    source[0] = fences(text) + contents.below(docs, page)
-
-
-def fences(text: str) -> str:
-    """Return `text` with a name for each fenced block without one, so that it is told from an indented formula."""
-    lines, inside = text.split("\n"), False
-    for k, line in enumerate(lines):
-        if line.startswith("```"):
-            inside = not inside
-            if inside and line == "```":
-                lines[k] = "```text"
-    return "\n".join(lines)
+        text += "\n" + (docs / "gallery/examples/cards.txt").read_text(encoding="utf-8")
+    source[0] = text + contents.below(page)

@@ -26,35 +26,35 @@ class Page(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         """Note the attributes that matter."""
-        given = dict(attrs)
-        if place := given.get("id"):
+        attributes = dict(attrs)
+        if place := attributes.get("id"):
             self.places.add(place)
-        if tag == "a" and (target := given.get("href")):
+        if tag == "a" and (target := attributes.get("href")):
             self.links.add(target)
-        if target := given.get(LOADED.get(tag, "")):
+        if target := attributes.get(LOADED.get(tag, "")):
             self.loaded.add(target)
 
 
 def problems(site: Path) -> list[str]:
     """Return a line for each link that leads nowhere, and for each file that a page loads from a network."""
     pages = {path: Page(path.read_text(encoding="utf-8")) for path in sorted(site.rglob("*.html"))}
-    found = []
+    lines = []
     for path, page in pages.items():
         name = path.relative_to(site)
         for target in sorted(page.links | page.loaded):
             if "//" in target:
                 if target in page.loaded:
-                    found.append(f"{name}: loads {target}")
+                    lines.append(f"{name}: loads {target}")
                 continue
             if target.startswith(("mailto:", "data:")):
                 continue
             file, _, place = target.partition("#")
             goal = Path(os.path.normpath(path.parent / unquote(file.partition("?")[0]))) if file else path
             if not goal.is_file():
-                found.append(f"{name}: {target} is not there")
+                lines.append(f"{name}: {target} is not there")
             elif place and goal in pages and unquote(place) not in pages[goal].places:
-                found.append(f"{name}: {target}: the page has no such place")
-    return found
+                lines.append(f"{name}: {target}: the page has no such place")
+    return lines
 
 
 if __name__ == "__main__":

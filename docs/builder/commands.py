@@ -1,4 +1,4 @@
-"""The reference of the command line: a page for each command, from what its `--help` is made of."""
+"""The reference of the command line: a page for each command, from the records of its `--help`."""
 
 from __future__ import annotations
 
@@ -8,8 +8,6 @@ from typing import Any
 import typer
 
 from ninedof.cli.app import app
-
-WORDS = {"str": "text", "int": "integer", "float": "number", "Path": "file"}
 
 
 def all_commands() -> dict[str, Any]:
@@ -24,61 +22,29 @@ def pages() -> dict[str, str]:
 
 def page(name: str, command: Any) -> str:
     """Return the page of a command."""
-    arguments = [p for p in command.params if p.param_type_name == "argument"]
-    options = [p for p in command.params if p.param_type_name == "option"]
-    usage = " ".join(["ninedof", name, *(shown(argument) for argument in arguments), "[OPTIONS]"])
+    context = typer.Context(command, info_name=name)
+    usage = " ".join(["ninedof", name, *command.collect_usage_pieces(context)])
     lines = [f"# ninedof {name}", "", prose(command.help), "", "```bash", usage, "```", ""]
-    if arguments:
-        lines += ["## Arguments", "", *table(("argument", "meaning"), [row(p, shown(p)) for p in arguments]), ""]
-    lines += ["## Options", "", *table(("option", "meaning"), [row(p, spelled(p)) for p in options]), ""]
+    for kind in ("argument", "option"):
+        records = [p.get_help_record(context) for p in command.params if p.param_type_name == kind]
+        if records:
+            lines += [f"## {kind.capitalize()}s", "", f"| {kind} | meaning |", "| --- | --- |"]
+            lines += [f"| `{word(name)}` | {prose(meaning)} |" for name, meaning in records] + [""]
     return "\n".join(lines + examples(command.epilog or ""))
 
 
-def shown(argument: Any) -> str:
-    """Return an argument as usage lines have it: in brackets where it may be left out."""
-    word = str(argument.name).upper() + "..." * (argument.nargs == -1)
-    return word if argument.required else f"[{word}]"
-
-
-def spelled(option: Any) -> str:
-    """Return an option with the kind of its value."""
-    names = " / ".join([*option.opts, *option.secondary_opts])
-    if option.is_flag:
-        return names
-    kind = getattr(option.type_descriptor.annotation, "__name__", "") or ""
-    inner = re.match(r"list\[(\w+)\]", str(option.type_descriptor.annotation))
-    word = WORDS.get(inner[1] if inner else kind, "value")
-    count = option.nargs if isinstance(option.nargs, int) and option.nargs > 1 else 1
-    return f"{names} {' '.join([f'<{word}>'] * count)}"
-
-
-def row(parameter: Any, word: str) -> tuple[str, str]:
-    """Return a row of a table: how the parameter is written, what it means and its default."""
-    meaning = prose(parameter.help or "")
-    default = parameter.default
-    if parameter.required:
-        meaning += " Required."
-    elif isinstance(default, (int, float, str)) and not isinstance(default, bool):
-        meaning += f" Default: `{default}`."
-    return f"`{word}`", meaning
-
-
-def table(titles: tuple[str, str], rows: list[tuple[str, str]]) -> list[str]:
-    """Return the lines of a Markdown table."""
-    return [
-        f"| {' | '.join(cells)} |".replace("\n", " ")
-        for cells in (titles, ("---", "---"), *((a, b.replace("|", "\\|")) for a, b in rows))
-    ]
+def word(name: str) -> str:
+    """Return the name of an argument or option as a cell of a table: any list is told by its entries."""
+    return re.sub(r"list\[(\w+)\]", r"\1", name).replace("|", "\\|")
 
 
 def prose(text: str) -> str:
-    """Return help text as Markdown: rich's markup removed, signs of Markdown escaped."""
-    return re.sub(r"([*<\[\]_])", r"\\\1", re.sub(r"\[/?\w+\]", "", text.strip()))
+    """Return help text as Markdown, its signs escaped."""
+    return re.sub(r"([*<\[\]_|])", r"\\\1", text.strip())
 
 
 def examples(epilog: str) -> list[str]:
     """Return the examples at the end of the help text, as lines of a page."""
-    lines = [line.strip() for line in re.sub(r"\[/?\w+\]", "", epilog).splitlines()]
-    lines = [line for line in lines if line and line not in ("Example", "Examples")]
-    lines = [re.sub(r"\s{3,}", "  # ", line, count=1) for line in lines]  # what follows a wide gap is said, not typed
+    lines = [line.strip() for line in epilog.splitlines() if line.strip() and "[/bold]" not in line]
+    lines = [re.sub(r"\s{3,}", "  # ", line, count=1) for line in lines]  # what follows a wide gap is a comment
     return ["## Examples", "", "```bash", *lines, "```", ""] if lines else []

@@ -2,50 +2,32 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-
-def _listed(names: str, folder: str = "") -> list[str]:
-    return [folder + name for name in names.split()]
-
-
-CORE = "velocity conditioning closed-form position singularity statics dynamics redundancy"
-THEORY = f"{CORE} kernels design minimax limits proof"
-# Page: groups of (heading, pages). A pattern stands for all pages it matches, in the order of their names.
+# Page: heading and pages, as names or patterns that stand for all pages they match, in the order of their names.
 TREE = {
-    "index": [
-        ("Start", _listed("questions first-design requirement tour gallery/index")),
-        ("Guides", _listed("characteristic-length regions reading-a-map assembly-modes confidence", "guides/")),
-        (
-            "Subjects",
-            _listed("conventions kinematics workspace failure optimization certificate certify admissible actuators")
-            + _listed("sweeps study-file figures viewer report exports"),
-        ),
-        ("The paper", _listed("paper values equations")),
-        ("Theory and code", _listed("theory/index reference/index architecture extend testing wheels comparison")),
-        ("Project", ["project/*"]),
-    ],
-    "theory/index": [("", _listed(f"{THEORY} proof-machine elementary admissible workspace", "theory/"))],
-    "gallery/index": [("", ["gallery/examples/*"])],
-    "reference/index": [
-        ("Python", ["reference/python/*"]),
-        ("Command line", ["reference/commands/*"]),
-        ("C++", ["reference/cpp/*"]),
-    ],
+    "index": {
+        "Start": "questions first-design requirement tour gallery/index",
+        "Guides": "guides/characteristic-length guides/regions guides/reading-a-map guides/assembly-modes "
+        "guides/confidence",
+        "Subjects": "conventions kinematics workspace failure optimization certificate certify admissible actuators "
+        "sweeps study-file figures viewer report exports",
+        "The paper": "paper values equations",
+        "Theory and code": "theory/index reference/index architecture extend testing wheels comparison",
+        "Project": "project/*",
+    },
+    "theory/index": {
+        "": "velocity conditioning closed-form position singularity statics dynamics redundancy kernels design minimax "
+        "limits proof proof-machine elementary admissible workspace"
+    },
+    "gallery/index": {"": "examples/*"},
+    "reference/index": {"Python": "python/*", "Command line": "commands/*", "C++": "cpp/*"},
 }
 
 
-def below(docs: Path, page: str) -> str:
-    """Return the lists of the pages below `page`, as Sphinx reads them; pages that do not exist are left out."""
+def below(page: str) -> str:
+    """Return the lists of the pages below `page`, as Sphinx reads them."""
+    shown = "titlesonly" if page == "reference/index" else "hidden"
     lists = []
-    for heading, patterns in TREE.get(page, []):
-        names = [
-            str(path.relative_to(docs).with_suffix(""))
-            for pattern in patterns
-            for path in sorted(docs.glob(f"{pattern}.md"))
-        ]
-        shown = "hidden" if page in ("index", "gallery/index", "theory/index") else "titlesonly"
-        lists.append(
-            "\n".join(["\n\n```{toctree}", f":caption: {heading}", f":{shown}:", "", *(f"/{n}" for n in names), "```"])
-        )
-    return "".join(lists).replace(":caption: \n", "") + "\n"
+    for heading, pages in TREE.get(page, {}).items():
+        caption = [f":caption: {heading}"] if heading else []
+        lists.append("\n".join(["\n\n```{toctree}", *caption, f":{shown}:", ":glob:", "", *pages.split(), "```\n"]))
+    return "".join(lists)

@@ -2,119 +2,79 @@
 
 from __future__ import annotations
 
-import ast
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 import threading
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
 
 import ninedof as nd
 
 DRAWING = threading.Lock()  # matplotlib is for one thread
 PACKAGE = str(Path(nd.__file__).parents[1])  # the package that the reference describes, not another one
-QUICK = ["--starts", "4"]  # of a study: the same optimum in less time
-
-
-@dataclass
-class Example:
-    """An example with what it printed and drew."""
-
-    name: str
-    title: str
-    command: str
-    code: str
-    printed: str
-    figure: str | None
-
-    def page(self) -> str:
-        """Return the page of the example."""
-        language = "python" if self.command.startswith("python") else "toml"
-        picture = f"![{self.title}]({self.figure})\n\n" if self.figure else ""
-        code = f"```{language}\n{self.code}\n```\n\n```bash\n{self.command}\n```\n"
-        return f"# {self.title}\n\n{picture}{code}\nIt prints\n\n```text\n{self.printed}\n```\n"
+QUICK = ["--out", "run", "--no-figures", "--starts", "4"]  # of a study: the same optimum in less time
 
 
 def write(examples: Path, pages: Path) -> None:
-    """Run every example and write its page and figure. An example that fails ends the build."""
+    """Run every example; write pages, figures and the cards of all. An example that fails ends the build."""
     pages.mkdir(parents=True, exist_ok=True)
-    paths = [path for path in sorted(examples.iterdir()) if path.is_file()]
+    paths = sorted(path for path in examples.iterdir() if path.is_file())
     with ThreadPoolExecutor(2) as two:  # most of the time is spent in other processes
-        for path, example in zip(paths, two.map(lambda path: run(path, pages), paths), strict=True):
-            (pages / f"{path.stem}.md").write_text(example.page(), encoding="utf-8")
+        cards = list(two.map(lambda path: example(path, pages), paths))
+    text = "\n".join(["````{container} gallery\n", *cards, "````\n"])
+    (pages / "cards.txt").write_text(text, encoding="utf-8")
 
 
-def run(path: Path, pages: Path) -> Example:
-    """Run one example in a folder that is removed afterwards."""
+def example(path: Path, pages: Path) -> str:
+    """Run an example, write its page and figure, and return its card: its name over the figure or what it prints."""
     code = path.read_text(encoding="utf-8").strip()
+    name, language = title(code), {".py": "python", ".toml": "toml"}[path.suffix]
+    figure = pages / f"{'figure' if language == 'python' else 'robot'}_{path.stem}.png"
     with tempfile.TemporaryDirectory() as folder:
-        drawn = Path(folder) / "figure.png"
-        arguments, command, status = call(path, code, drawn)
-        done = subprocess.run(
-            [sys.executable, *arguments],
-            capture_output=True,
-            text=True,
-            cwd=folder,
-            env=os.environ | {"COLUMNS": "100", "NO_COLOR": "1", "PYTHONPATH": PACKAGE},
-        )
-        if done.returncode not in status:
-            raise RuntimeError(f"examples/{path.name} ended with {done.returncode}: {done.stderr.strip()}")
-        robot = path if path.suffix == ".toml" and "evaluate" in command else Path(folder) / "run"
-        if path.suffix == ".toml":
-            draw(robot, drawn)
-        kind = "robot" if path.suffix == ".toml" else "figure"
-        figure = f"{kind}_{path.stem}.png" if drawn.is_file() else None
-        if figure:
-            shutil.copy(drawn, pages / figure)
-    printed = re.sub(r"\n.*(run folder|figures?: ).*", "", done.stdout.replace(folder, "")).rstrip()
-    return Example(path.stem, title(code), command, code, printed, figure)
+        if language == "python":
+            command = "python"
+            printed = run([str(path), *(["--figure", str(figure)] if "--figure" in code else [])], folder)
+        else:
+            command = "ninedof " + ("optimize" if "[variables]" in code else "evaluate")
+            printed = run(["-m", *command.split(), str(path), *(QUICK if "optimize" in command else [])], folder)
+            draw(Path(folder, "run") if "optimize" in command else path, figure)
+    picture = f"![{name}]({figure.name})\n\n" if figure.is_file() else ""
+    code = f"```{language}\n{code}\n```\n\n```bash\n{command} {path.name}\n```\n\nIt prints\n\n"
+    page = f"# {name}\n\n{picture}{code}```text\n{printed}\n```\n"
+    (pages / f"{path.stem}.md").write_text(page, encoding="utf-8")
+    seen = picture.replace("](", "](examples/") or "\n".join(["```text", *printed.splitlines()[:9], "```\n"])
+    return f"- [{name}](examples/{path.stem}.md)\n\n" + re.sub("^(?=.)", "  ", seen, flags=re.MULTILINE)
 
 
-def call(path: Path, code: str, drawn: Path) -> tuple[list[str], str, set[int]]:
-    """Return the arguments of Python that run an example, the command a reader types, the statuses it may end with."""
-    if path.suffix == ".py":
-        return [str(path), *(["--figure", str(drawn)] if "--figure" in code else [])], f"python {path.name}", {0}
-    if "[variables]" not in code and "family" not in code:
-        return ["-m", "ninedof", "evaluate", str(path)], f"ninedof evaluate {path.name}", {0}
-    arguments = ["-m", "ninedof", "optimize", str(path), "--out", "run", "--no-figures", *QUICK]
-    return arguments, f"ninedof optimize {path.name}", {0, 3}
+def run(arguments: list[str], folder: str) -> str:
+    """Return what Python prints with these arguments, without the places of files."""
+    done = subprocess.run(
+        [sys.executable, *arguments],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        env=os.environ | {"COLUMNS": "100", "NO_COLOR": "1", "PYTHONPATH": PACKAGE},
+    )
+    if done.returncode not in (0, 3):  # 3: a study without a design
+        raise RuntimeError(f"{' '.join(arguments)} ended with {done.returncode}: {done.stderr.strip()}")
+    return re.sub(r"\n.*run folder .*", "", done.stdout.replace(folder, "")).rstrip()
 
 
 def draw(source: Path, file: Path) -> None:
     """Draw the robot of a design file or of a run folder; a study without a best design has no picture."""
-    found = nd.load(source)
-    if isinstance(found, nd.Result) and found.status != nd.Status.OPTIMAL:
+    machine = nd.load(source)
+    if isinstance(machine, nd.Result) and machine.status != nd.Status.OPTIMAL:
         return
-    kappa = float(nd.condition_number(found.geometry, found.configuration, found.characteristic_length))
-    panel = nd.plot.Robot("", found.geometry, found.configuration, kappa)
+    panel = nd.plot.Robot("", machine.geometry, machine.configuration, float(nd.condition_number(machine)))
     with DRAWING:
         nd.plot.mechanisms([panel]).savefig(file, dpi=110, bbox_inches="tight")
 
 
 def title(code: str) -> str:
-    """Return the first sentence of the docstring or of the first comment."""
-    if code.startswith('"""'):
-        words = ast.get_docstring(ast.parse(code)) or ""
-    else:
-        words = " ".join(line.lstrip("# ") for line in code.partition("\n\n")[0].splitlines() if line.startswith("#"))
+    """Return the first sentence of the first paragraph, which is a docstring or a comment."""
+    words = re.sub(r'^(?:"""|# )|"""$', "", code.partition("\n\n")[0], flags=re.MULTILINE)
     first = re.split(r"(?<!qs\.)(?<=[.?!])\s|:\s|, for `", " ".join(words.split()))[0]
     return first.rstrip(".").replace("`", "")
-
-
-def cards(pages: Path) -> str:
-    """Return the list of examples for the page of the gallery, those with a figure as pictures."""
-    lines = ["", "", "````{container} gallery", ""]
-    for path in sorted(pages.glob("*.md")):
-        text = path.read_text(encoding="utf-8")
-        name = text.partition("\n")[0].lstrip("# ")
-        printed = text.partition("It prints\n\n```text\n")[2].splitlines()[:9]
-        figures = sorted(path.parent.glob(f"*_{path.stem}.png"))
-        seen = [f"![{name}](examples/{figure.name})" for figure in figures] or ["```text", *printed]
-        seen += [] if figures or "```" in printed else ["```"]
-        lines += [f"- [{name}](examples/{path.name})", "", *(f"  {line}" for line in seen), ""]
-    return "\n".join([*lines, "````", ""])

@@ -6,20 +6,20 @@ import os
 import re
 from pathlib import Path
 
-# Pages of the folder `project`: files that lie outside docs/.
+# Pages of files outside docs/. The folder `project` is made of such files.
 OUTSIDE = {
-    "contributing": "CONTRIBUTING.md",
-    "security": "SECURITY.md",
-    "benchmarks": "bench/README.md",
-    "changes": "CHANGELOG.md",
+    "README.md": "index",
+    "CONTRIBUTING.md": "project/contributing",
+    "SECURITY.md": "project/security",
+    "bench/README.md": "project/benchmarks",
+    "CHANGELOG.md": "project/changes",
+    "examples": "gallery/index",
 }
-LINK = re.compile(r"(?<!!)\[([^\]]*)\]\(([^)\s]+)\)")
+LINK = re.compile(r"(?<!!)\[([^\]]*)\]\((?!#|\w+:)([^)#\s]+)(#[^)\s]+)?\)")
 
 
 def within_site(text: str, written: Path, shown: Path, docs: Path) -> str:
-    """Return `text` with links for the site.
-
-    A file that is no page of the site becomes a download, a folder plain text.
+    """Return `text` with links for the site: a file that is no page of it becomes a download, a folder plain text.
 
     Parameters
     ----------
@@ -30,32 +30,27 @@ def within_site(text: str, written: Path, shown: Path, docs: Path) -> str:
     docs : Path
         The folder of the site's pages.
     """
-    root = docs.parent
-    other = {root / file: docs / "project" / f"{name}.md" for name, file in OUTSIDE.items()}
-    other[root / "README.md"] = docs / "index.md"
 
     def link(match: re.Match[str]) -> str:
-        words, (target, _, part) = match[1], match[2].partition("#")
-        if "://" in target or not target:
-            return match[0]
-        path = Path(os.path.normpath(written / target))
-        there = path.is_file()
-        if path.parent == root / "examples" and there:
+        path = Path(os.path.normpath(written / match[2]))
+        outside = os.path.relpath(path, docs.parent)
+        if path.parent == docs.parent / "examples" and path.is_file():
             path = docs / "gallery/examples" / f"{path.stem}.md"
-        elif path == root / "examples":
-            path, there = docs / "gallery/index.md", True
-        path = other.get(path, path)
-        if not there:
-            return words
-        return f"[{words}]({os.path.relpath(path, shown)}{'#' * bool(part)}{part})"
+        elif outside in OUTSIDE:
+            path = docs / f"{OUTSIDE[outside]}.md"
+        elif path.is_dir():
+            return match[1]
+        return f"[{match[1]}]({os.path.relpath(path, shown)}{match[3] or ''})"
 
     return LINK.sub(link, text)
 
 
 def project_pages(root: Path) -> dict[str, str]:
     """Return the text of each page about the project, with links for the site."""
-    docs = root / "docs"
-    return {
-        name: within_site((root / file).read_text(encoding="utf-8"), (root / file).parent, docs / "project", docs)
-        for name, file in OUTSIDE.items()
-    }
+    pages = {}
+    for file, page in OUTSIDE.items():
+        folder, _, name = page.rpartition("/")
+        if folder == "project":
+            text = (root / file).read_text(encoding="utf-8")
+            pages[name] = within_site(text, (root / file).parent, root / "docs/project", root / "docs")
+    return pages

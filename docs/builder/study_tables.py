@@ -68,8 +68,8 @@ def parameters(source: Any) -> list[tuple[list[str], str, str]]:
     """Return names, kind and meaning of the parameters of a docstring."""
     section = re.search(r"Parameters\n-+\n(.*?)\n\n\w+\n-+\n", inspect.getdoc(source) or "", flags=re.DOTALL)
     assert section is not None, source
-    found = re.findall(r"^(\w[\w, ]*?)(?: : (.*))?\n((?:    .*\n?|\n)+)", section[1] + "\n", flags=re.MULTILINE)
-    return [(names.split(", "), spelled(kind), quoted(" ".join(words.split()))) for names, kind, words in found]
+    entries = re.findall(r"^(\w[\w, ]*?)(?: : (.*))?\n((?:    .*\n?|\n)+)", section[1] + "\n", flags=re.MULTILINE)
+    return [(names.split(", "), spelled(kind), quoted(" ".join(words.split()))) for names, kind, words in entries]
 
 
 def spelled(kind: str) -> str:

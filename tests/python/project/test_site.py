@@ -39,7 +39,8 @@ def test_every_public_name_is_in_the_reference_once(builder):
 
 
 def test_every_room_of_the_reference_has_a_title(builder):
-    assert [room for room in builder.public_names.by_room() if room not in builder.public_names.ROOMS] == []
+    assert list(builder.public_names.by_room()) == list(builder.public_names.ROOMS)
+    assert all(builder.public_names.by_room().values())
 
 
 def test_every_command_and_option_is_in_the_reference(builder):
@@ -47,15 +48,16 @@ def test_every_command_and_option_is_in_the_reference(builder):
     modules = (ROOT / "python/ninedof/cli/commands").glob("*/[a-z]*.py")
     assert sorted(pages) == sorted(path.stem for path in modules)
     for name, command in builder.commands.all_commands().items():
-        for parameter in command.params:
-            for word in parameter.opts if parameter.param_type_name == "option" else [parameter.name.upper()]:
-                assert word in pages[name], (name, word)
+        assert pages[name].count("\n| `") == len(command.params), name
+        for word in (word for parameter in command.params for word in parameter.opts if word.startswith("-")):
+            assert f"`{word} " in pages[name] or f"`{word}`" in pages[name], (name, word)
         assert f"ninedof {name}" in pages[name].partition("## Examples")[2], name
 
 
 def test_every_header_is_in_the_reference(builder):
     include = ROOT / "cpp/include/ninedof"
     text = "\n".join(builder.headers.pages(include).values())
+    assert {room.name for room in include.iterdir() if room.is_dir()} == set(builder.headers.TITLES)
     for header in include.rglob("*.hpp"):
         assert f"#include <ninedof/{header.relative_to(include)}>" in text
     assert "double condition_number(const Geometry& g, const Configuration& c" in text
@@ -100,9 +102,14 @@ constexpr int twice(int n) {
 
 
 def test_every_page_has_its_place(builder):
-    pages = [path.relative_to(DOCS).with_suffix("") for path in DOCS.rglob("*.md")]
-    listed = "".join(builder.contents.below(DOCS, page) for page in builder.contents.TREE)
-    assert [str(page) for page in pages if str(page) != "index" and f"\n/{page}\n" not in listed] == []
+    listed = {"index"}
+    for page, lists in builder.contents.TREE.items():
+        for pattern in " ".join(lists.values()).split():
+            found = {str(path.relative_to(DOCS).with_suffix("")) for path in (DOCS / page).parent.glob(f"{pattern}.md")}
+            assert found or pattern.endswith("*"), pattern
+            listed |= found
+            assert f"\n{pattern}\n" in builder.contents.below(page)
+    assert {str(path.relative_to(DOCS).with_suffix("")) for path in DOCS.rglob("*.md")} == listed
 
 
 def test_links_that_leave_the_site(builder):
