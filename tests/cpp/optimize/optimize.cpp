@@ -196,7 +196,7 @@ TEST_SUITE("optimize") {
     problems.push_back(pose_study(ninedof::Aggregate::weighted));
     for (const Problem& p : problems) {
       const Result one = optimize(p, {.starts = cases(24), .seed = 5, .threads = 1});
-      for (const int threads : {1, 2, 3})
+      for (const int threads : {2, 3})
         CHECK(same_bits(optimize(p, {.starts = cases(24), .seed = 5, .threads = threads}), one));
     }
   }

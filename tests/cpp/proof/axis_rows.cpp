@@ -12,6 +12,7 @@
 #include "ninedof/problem/problem.hpp"
 #include "proof/checker/blocks.hpp"
 #include "proof/optimum/box_bound.hpp"
+#include "support/support.hpp"
 
 using namespace ninedof;
 using namespace ninedof::proof;
@@ -268,7 +269,7 @@ TEST_SUITE("axis_rows") {
                       : *chart.length == LengthKind::mean_leg ? checker::Length::mean_leg
                                                               : checker::Length::platform_radius;
       for (const double factor : {0.1, 0.3, 1.0, 3.0})
-        for (int i = 0; i < 4000; ++i) {
+        for (int i = 0; i < support::cases(4000); ++i) {
           Box box = box_in(chart, random.point(), factor, random);
           for (std::size_t k = at_ratio; k < coordinates; ++k)
             if (random.part() < 0.6) box[k] = middle_of(box, k);

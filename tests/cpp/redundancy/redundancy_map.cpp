@@ -147,7 +147,8 @@ TEST_SUITE("redundancy_map") {
   TEST_CASE("a map has the optima of single searches, for any number of threads") {
     constexpr std::size_t n = sanitized ? 16 : 24;
     const std::vector<PlatformPose> poses = plane(n);
-    for (const InternalPointProblem& problem : {InternalPointProblem{}, with_limits(1.8, 4.6)}) {
+    for (const InternalPointProblem& problem : {with_limits(1.8, 4.6), InternalPointProblem{}}) {
+      if (sanitized && !problem.limits.high.allFinite()) continue;  // the map below, which is stopped, has no limits
       MapSettings settings;
       settings.threads = 1;
       const InternalPointMap map = best_internal_map(published, {poses, {n, n}, {}}, problem, settings);

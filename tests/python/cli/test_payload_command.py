@@ -18,7 +18,7 @@ DUTY = {
 def folder(tmp_path_factory):
     study = nd.Study(
         variables={"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": (2.3, 2.5)},
-        objective={"region": {"box": [0.3, 0.3, 0.3], "tilt_deg": 5.0}},
+        objective={"region": {"box": [0.3, 0.3, 0.0]}},
         characteristic_length=1.0,
         **DUTY,
     )
@@ -48,6 +48,8 @@ def test_the_payload(folder, mass, run):
     alone = " ".join(run(f"payload {folder} --force 60 --centre 0 0 1 --load '0 0 0 0 0 -5'")[1].split())
     assert "at (0, 0, 1) in the frame of the plate (--centre); gravity" in alone
     assert "force (0, 0, -5) and" in alone
+    beside = nd.largest_payload(nd.load(folder), 60.0, centre=(0.0, 0.0, 1.0), loads=[[0.0, 0.0, 0.0, 0.0, 0.0, -5.0]])
+    assert f"largest payload {beside.mass:.6g}" in alone
     assert "kg:" not in said
     status, out, _ = run(f"payload {folder} --force 1")
     assert status == 3

@@ -47,7 +47,7 @@ leg_clearance = { radius = 0.6 }
 power = { max = 4000.0 }
 singularity_free = {}
 [objective.region]
-box = [1.0, 1.0, 0.8]
+box = [1.0, 0.0, 0.0]
 tilt_deg = 4.0
 [solver]
 starts = 2

@@ -335,7 +335,7 @@ def test_same_front_for_any_number_of_threads():
 
 CUBE = nd.Study(
     variables={"a1": 0.0, "a2": (2.0, 10.0), "b1": (1.0, 5.0), "b2": 0.0, "zp": (3.0, 6.0), "zs": (1.0, 5.0)},
-    objective={"region": {"box": [0.4, 0.4, 0.3], "tilt_deg": 6}},
+    objective={"region": {"box": [0.4, 0.4, 0.0], "tilt_deg": 4}},
     starts=size(4, 32),
 )
 
