@@ -80,22 +80,6 @@ def test_searches_of_a_region_agree_to_the_last_bit():
     assert nd.check(a).passed
 
 
-def test_the_optimum_of_a_free_study_is_that_of_its_twin():
-    free = OWN | {"zp": (2.0, 8.0), "zs": (0.5, 6.0), "platform_external_height": (-1.0, 1.0)}
-    shifted = twin(OWN) | {
-        "zp": (2.0 + HEIGHT, 8.0 + HEIGHT),
-        "zs": (0.5, 6.0),
-        "platform_external_height": (-1.0 - HEIGHT, 1.0 - HEIGHT),
-    }
-    how = {"characteristic_length": 1.5, "starts": 8}
-    one = nd.Study("symmetric_nonplanar", free, LIMITS, tool={"position": (0.0, 0.0, HEIGHT)}, **how)
-    # The limit zs < zp, which is of the plates, stops neither.
-    a, b = nd.optimize(one), nd.optimize(nd.Study("symmetric_nonplanar", shifted, LIMITS, **how))
-    assert a.condition_number == pytest.approx(b.condition_number, rel=1e-10)
-    assert a.variables["zp"] + HEIGHT == pytest.approx(b.variables["zp"], rel=1e-6)
-    assert nd.check(a).passed
-
-
 TOOL = nd.Tool((0.4, -0.3, -1.2), (0.3, -0.2, 0.5))
 POSES = [
     {"position": (0.3, 0.1, 0.2), "rotation": (0.1, 0.2, -0.1)},
@@ -159,19 +143,6 @@ def test_a_tool_beside_the_axis_is_the_robot_made_by_hand():
 def test_limits_of_the_design_are_those_of_the_plates():
     with_tool, without = study_with(TOOL).evaluate(general()), study_with(nd.Tool()).evaluate(general())
     assert {n: with_tool.margins[n] for n in OF_PLATES} == {n: without.margins[n] for n in OF_PLATES}
-
-
-@pytest.mark.parametrize("length", [1.3, "natural", "platform_radius", "mean_leg"])
-def test_gradients_are_difference_quotients(length):
-    study = study_with(TOOL, length)
-    problem, x, step = study.problem(), study.vector(general()), 1e-6
-    here = problem.evaluate(x)
-    for k in range(len(x)):
-        up, down = (problem.evaluate([v + sign * step * (j == k) for j, v in enumerate(x)]) for sign in (1, -1))
-        quotient = (up.objective - down.objective) / (2 * step) / here.objective
-        assert here.gradient[k] == pytest.approx(quotient, abs=5e-9)
-        for one, a, b in zip(*(e.margins for e in (here, up, down)), strict=True):
-            assert one.gradient[k] == pytest.approx((a.value - b.value) / (2 * step), abs=5e-7), one.name
 
 
 def test_proofs_of_limits_of_the_design_hold_those_of_the_plates():
