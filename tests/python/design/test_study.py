@@ -141,7 +141,7 @@ def test_objective_may_be_given_as_a_table():
 
 
 def test_a_design_point_has_its_robot_and_slopes_by_name():
-    """Slopes by differences; those of the core are held in tests/cpp: optimize/evaluate.cpp, problem/constraints.cpp."""
+    """Slopes by differences; those of the core are in tests/cpp: optimize/evaluate.cpp, problem/constraints.cpp."""
     study = nd.Study(variables={"a1": 0.0, "b2": 0.0, "theta_z": (-1.0, 1.0)}, constraints={"zs_fraction": (0.1, 0.9)})
     at = {"a2": 5.8124, "b1": 2.9062, "zp": 3.9828, "zs": 2.3745, "theta_z": 0.2}
     point, h = study.evaluate(at), 1e-5

@@ -47,21 +47,6 @@ def both(values=OWN, **study):
     return own, nd.Study("symmetric_nonplanar", twin(values), LIMITS, **study)
 
 
-def test_a_machine_and_its_twin_agree_to_the_last_bit():
-    poses = [{"position": (0.1, 0.2, 0.3), "rotation": (0.1, -0.2, 0.3)}, {"position": (0.0, 0.0, 0.5)}]
-    one, other = both(objective={"poses": poses}, characteristic_length=1.5)
-    a, b = one.evaluate(OWN), other.evaluate(twin(OWN))
-    assert (a.condition_number, a.conditions, a.objective) == (b.condition_number, b.conditions, b.objective)
-    assert dict(a.margins) == dict(b.margins)
-    g, c = a.geometry, a.configurations
-    assert np.array_equal(g.platform_external, b.geometry.platform_external)
-    assert np.array_equal(c.position, b.configurations.position)
-    line = nd.Trajectory.line(c[0], [0.3, 0.2, -0.1])
-    assert np.array_equal(
-        nd.follow(g, line, c[0]).leg_lengths, nd.follow(b.geometry, line, b.configurations[0]).leg_lengths
-    )
-
-
 @pytest.mark.slow
 def test_searches_of_a_region_agree_to_the_last_bit():
     one, other = both(objective={"region": REGION})
