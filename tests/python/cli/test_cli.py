@@ -3,8 +3,6 @@
 import html
 import json
 import signal
-import subprocess
-import sys
 from functools import partial
 from pathlib import Path
 
@@ -74,28 +72,13 @@ STUDIES = {
 }
 
 
-def test_a_limit_at_the_neutral_pose_is_named_on_the_screen(run):
-    Path("study.toml").write_text(
-        """
-        [constraints]
-        leg_ratio = [{ max = 3.0 }, { max = 2.0, at = "neutral" }]
-        [[objective.poses]]
-        position = [0.2, 0, 0]
-        """
+def test_limits_of_a_front_that_were_chosen_are_told_from_those_given(run):
+    given, chosen = (
+        run(f"pareto {limits} --starts 4 --no-figures --out {name}")[1]
+        for limits, name in (("--value 1.9 --value 2.1", "given"), ("--points 2", "chosen"))
     )
-    status, out, _ = run("optimize study.toml --starts 4 --no-figures --out run")
-    assert status == 0
-    assert "1 % more leg_ratio at neutral gains" in out
-    line = "pareto study.toml --against 'leg_ratio at neutral' --value 1.9 --value 2.1"
-    status, out, err = run(f"{line} --starts 4 --json --no-figures --out front")
-    assert status == 0
-    assert "may have designs too" not in err  # limits that were given
-    _, _, err = run("pareto --points 2 --starts 4 --json --no-figures --out chosen")
-    assert "may have designs too" in err
-    assert json.loads(out)["front"]["against"] == "leg_ratio at neutral"
-    status, _, err = run("pareto study.toml --against 'stroke at neutral' --value 1.0")
-    assert status == 2
-    assert 'stroke.at: got "neutral"' in err
+    assert "may have designs too" not in given
+    assert "may have designs too" in chosen
 
 
 @pytest.mark.parametrize("status", STUDIES)
@@ -126,30 +109,8 @@ def test_study_over_poses_shows_prices_and_poses(run):
     ):
         assert part in text
     best = json.loads(Path("run/record.json").read_text())["results"]["optimization"]["candidates"][0]
-    assert len(best["conditions"]) == 3
-    assert best["objective"] == pytest.approx(max(best["conditions"]), rel=1e-9)
-    assert "radius_ratio" in best["prices"]
     evaluated = json.loads(run("evaluate run --json")[1])
     assert evaluated["condition_number"] == pytest.approx(best["neutral_condition_number"], rel=1e-9)
-
-
-def test_evaluate_published_design(run):
-    status, out, _ = run("evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.3745 --json")
-    data = json.loads(out)
-    assert status == 0
-    assert data["condition_number"] == pytest.approx(3.9110, abs=5e-5)
-    assert data["reciprocal_condition_number"] == pytest.approx(1.0 / data["condition_number"])
-    assert len(data["singular_values"]) == 6
-    kinds = data["characteristic_lengths"]
-    assert min(kinds.values(), key=lambda k: k["condition_number"]) == kinds["optimal"]
-
-
-def test_evaluate_names_the_condition_number_of_each_length(run, monkeypatch):
-    """The line was "107.3: k = 3.896", while every other one says condition number."""
-    monkeypatch.setenv("COLUMNS", "80")
-    out = run("evaluate --a1 0 --a2 581.24 --b1 290.62 --b2 0 --zp 398.28 --zs 244.35")[1]
-    assert "107.299091: condition number 3.896032 │" in out
-    assert " k = " not in out
 
 
 def test_evaluate_a_singular_design(run):
@@ -208,22 +169,21 @@ def test_the_figures_of_the_paper_are_drawn_where_asked(run, tmp_path, monkeypat
     assert run("paper --out other")[0] == 2
 
 
-@pytest.mark.parametrize("line", ["--help", "optimize --help", "evaluate -h", "paper --help"])
-def test_help(run, line):
-    status, out, _ = run(line)
-    assert status == 0
-    assert "Usage" in out
-    if " " in line:
-        assert "Example" in out
+COMMANDS = [command.callback.__name__ for command in app().registered_commands]
+
+
+@pytest.mark.parametrize("command", ["", *COMMANDS])
+def test_help_has_an_example_of_every_command(run, command):
+    status, out, _ = run(f"{command} --help")
+    assert (status, "Usage" in out) == (0, True)
+    assert ("Example" in out) == bool(command)
 
 
 def test_every_command_has_a_row_in_the_tour():
-    commands = [command.callback.__name__ for command in app().registered_commands]
-    assert len(commands) > 6
-    assert commands[0] == "optimize"
+    assert COMMANDS[0] == "optimize"
     tour = (Path(__file__).resolve().parents[3] / "docs" / "tour.md").read_text()
     rows = [row for row in tour.splitlines() if row.startswith("| `ninedof")]
-    assert [name for name in commands if not any(f"ninedof {name}" in row for row in rows)] == []
+    assert [name for name in COMMANDS if not any(f"ninedof {name}" in row for row in rows)] == []
 
 
 def test_version(run):
@@ -232,31 +192,17 @@ def test_version(run):
     assert out.strip().count(".") == 2
 
 
-def test_interrupted_run_records_the_best_design(tmp_path):
+def test_an_interrupted_run_records_the_best_design(run, monkeypatch):
     """Ctrl-C on a run of a million starts: status 130, the best so far printed and recorded."""
-    arguments = ["--starts", "1000000", "--no-figures", "--out", "run"]
-    script = f"""
-import signal, sys
-signal.signal(signal.SIGINT, signal.default_int_handler)  # inherited as ignored by a job in the background
-sys.path[:] = {sys.path}
-import ninedof.cli.app, ninedof.cli.screen
-report = ninedof.cli.screen.Bar.show
-def starts(bar, done, total, best):
-    report(bar, done, total, best)
-    if done < total:
-        sys.stderr.write("working\\n")
-ninedof.cli.screen.Bar.show = ninedof.cli.screen.Bar.__call__ = starts
-ninedof.cli.app.main({arguments})
-"""
-    command = [sys.executable, "-c", script]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
-        while "working" not in child.stderr.readline():  # past the small studies, in the large one
-            assert child.poll() is None
-        child.send_signal(signal.SIGINT)
-        out, err = child.communicate(timeout=120)
-    assert child.returncode == 130, err
-    assert "Traceback" not in err
+    many = 10**6
+
+    def pressed(bar, done, total, best):
+        if total == many and done > 10:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr("ninedof.cli.screen.Bar.__call__", pressed)
+    status, out, err = run(f"--starts {many} --no-figures --out run")
+    assert (status, "Traceback" in err) == (130, False)
     assert "3.762659" in out
     assert "interrupted after" in out
-    record = json.loads((tmp_path / "run" / "record.json").read_text())
-    assert record["results"]["optimization"]["interrupted"] is True
+    assert nd.load("run").interrupted

@@ -173,6 +173,23 @@ def test_o_is_where_the_region_of_the_study_has_it(run, tmp_path, rule):
     assert nd.load(tmp_path / "path").configurations.internal_point[3] == pytest.approx(there, abs=1e-6)
 
 
+def test_the_workspace_of_a_region_says_where_o_is(run, tmp_path):
+    region = {"box": (0.2, 0.2, 0.1), "tilt_deg": 5.0}
+    sides = {"a1": 0.0, "a2": 5.8, "b1": 2.9, "b2": 0.0, "zp": 4.0, "zs": 2.4}
+    study = nd.Study(variables=sides, constraints={"leg_length": (1.0, 9.0)}, objective={"region": region})
+    nd.save(nd.optimize(study), tmp_path / "run")
+    for options, words in (
+        ("", "of its frame; without turns as shifted"),
+        ("--archetype orientation --angle-deg 20", "O: held in the base, at (0, 0, "),
+        ("--internal-point held", "O: held in the base, at (0, 0, "),
+        ("--legs 1 9", "limit: all legs 1 to 9"),
+    ):
+        line = (
+            f"workspace {tmp_path / 'run'} {options} --no-figures --resolution 4 --tolerance 0.2 --out {tmp_path}/space"
+        )
+        assert words in " ".join(run(f"{line}-{len(options)}")[1].split())
+
+
 BEYOND = "beyond a singularity: det {} is {} at the neutral pose, {}; every way from the neutral pose passes det {} = 0"
 COMMANDS = [f"forces {{}} --load {LOAD}", "stiffness {} --leg-stiffness 10", "accuracy {} --leg-error 1"]
 
@@ -266,25 +283,6 @@ def test_leg_limits_of_the_study_bound_the_best_point(run, folder):
     assert free["value"][0] <= data["value"][0] * (1.0 + 1e-14)
 
 
-@pytest.mark.parametrize("command", ["accuracy", "forces", "stiffness", "singularity", "modes", "best"])
-def test_help_has_examples_that_name_a_point_of_a_front_or_a_run(run, command):
-    status, out, _ = run(f"{command} --help")
-    assert status == 0
-    assert "Examples" in out
-    assert f"ninedof {command} runs/" in " ".join(out.split())
-
-
-@pytest.mark.parametrize("line", [
-    "accuracy run --leg-error 0.01 --all-poses", f"forces front#1 --load {LOAD} --load {LOAD} --all-poses",
-    "stiffness design.toml --leg-stiffness 123456", "singularity run --all-poses", "modes design.toml",
-    "best run --all-poses", "best run --all-poses --legs 1 2",
-])  # fmt: skip
-def test_screens_fit_80_columns(run, line):
-    out = run(line)[1]
-    assert max(map(len, out.splitlines())) <= 80
-    assert "…" not in out
-
-
 # --- Sweeps of any family ---------------------------------------------------------------------------------------------
 
 
@@ -300,28 +298,6 @@ def test_a_sweep_over_variables_of_a_symmetric_run(run, tmp_path):
     for value, kappa in zip(angle, turned["arrays"]["condition_number"], strict=True):
         point = result.study.evaluate(result.variables | {"platform_internal_angle": value})
         assert kappa == pytest.approx(point.neutral_condition_number, rel=1e-9)
-
-
-def test_a_sweep_over_variables_of_a_general_design_file(run, tmp_path):
-    found = nd.load("design.toml")
-    moved = swept(run, tmp_path, "design.toml --over base_internal_1_x=1.9,2.0 --index leg_lengths")
-    assert np.array(moved["arrays"]["leg_lengths"][0]) == pytest.approx(
-        nd.leg_lengths(found.geometry, found.configuration)
-    )
-    assert moved["arrays"]["leg_lengths"][1][6] != moved["arrays"]["leg_lengths"][0][6]
-
-
-def test_any_index_of_the_table_can_be_swept(run, tmp_path):
-    from ninedof.design.indices import INDICES
-
-    indices = " ".join(f"--index {name}" for name in INDICES)
-    found = swept(run, tmp_path, f"front#1 --over zs=1.0,1.2 {indices}")
-    assert set(found["arrays"]) == set(INDICES)
-    result = nd.load("front#1")
-    study = nd.Study("symmetric", objective=nd.Objective("six_legged"))
-    for zs, value in zip((1.0, 1.2), found["arrays"]["six_legged"], strict=True):
-        expected = study.evaluate(result.variables | {"zs": zs}).objective
-        assert value == ("inf" if np.isinf(expected) else pytest.approx(expected, rel=1e-12))
 
 
 def test_names_that_no_family_of_the_design_has(run, tmp_path):
@@ -389,15 +365,6 @@ def test_a_fixed_design_that_violates_a_limit_shows_its_index_and_all_margins(ru
         rows = [line for line in text.splitlines() if line.startswith(("│ radius_ratio", "│ leg_length"))]
         assert [("violated" in row) for row in rows] == [True, False, False]
         assert f"{100.0 * point.margins['radius_ratio']:.2f} %" in rows[0]
-
-
-def test_the_table_of_indices_names_determinants_and_fits_80_columns(run, tmp_path, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "80")
-    sides = "--a1 0 --a2 2850 --b1 1290 --b2 0 --zp 1480 --zs 1320"
-    lines = run(f"evaluate {sides} --lc 150")[1].splitlines()
-    assert any(line.startswith("│ singularity margins: det N, B, C ") for line in lines)
-    rows = [line.split("│") for line in lines if line.startswith("│")]
-    assert all(value.strip() for _, _, value, _ in rows)
 
 
 def test_poses_that_coincide_are_named_once(run, folder):

@@ -103,11 +103,3 @@ def test_other_files_are_not_replaced_either(line, run, tmp_path, monkeypatch):
     assert err.startswith(f"ninedof: {option}: got kept.txt, which exists")
     for _ in range(2):
         assert run(line.replace("kept", "own"))[0] == 0
-
-
-def test_a_run_folder_that_cannot_be_written_is_known_before_the_work(run, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    status, _, err = run(f"optimize --out {300 * 'a'}")
-    assert (status, err.count("\n")) == (2, 1)
-    assert err.startswith("ninedof: --out: got 'aaa")
-    assert run("optimize --out there --threads=0")[2].startswith("ninedof: --threads: got 0, expected ")

@@ -9,14 +9,12 @@ import sys
 from functools import partial
 
 import pytest
-from killing import COMMANDS, Killer
 
 import ninedof as nd
 from ninedof import _core
 from ninedof.cli.app import main
 from ninedof.support.kept.store import Store
 
-LONG = "NINEDOF_LONG" in os.environ
 STUDY = """
 [variables]
 zp = [1.0, 6.0]
@@ -52,16 +50,6 @@ def interrupted(monkeypatch, line, piece, ending_signal):
     with monkeypatch.context() as patch:
         patch.setattr(Store, "keep", ending)
         return run(line)
-
-
-@pytest.mark.slow(sanitized=True)
-@pytest.mark.parametrize("kind", COMMANDS if LONG else ["sweep"])
-def test_killed_at_random_moments(kind, tmp_path):
-    killer = Killer(tmp_path, seed=5)
-    whole, seconds = killer.undisturbed(kind)
-    got, kills = killer.killed(kind, seconds, 20 if LONG else 3)
-    assert got == whole
-    assert kills == killer.kills
 
 
 @pytest.mark.slow(sanitized=True)
@@ -194,24 +182,6 @@ def test_an_interrupted_certificate_leaves_the_one_that_is_there(monkeypatch, ca
     assert run("certify solved") == 130
     assert capsys.readouterr().err.endswith("ninedof: interrupted; to go on, type: ninedof certify solved\n")
     assert nd.load_certificate("solved") == before
-    assert nd.load_certificate("solved") == before
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        "pareto --against foo",
-        "pareto --value -1",
-        "pareto --points 1",
-        "path --line 1",
-        "sweep --over x_p=0:1:3 --chunk 0",
-    ],
-)
-def test_bad_input_leaves_no_folder(tmp_path, capsys, arguments):
-    for out in ("", " --out a/b"):
-        assert run(f"{arguments}{out}") == 2
-        assert sum(line.startswith("ninedof: ") for line in capsys.readouterr().err.splitlines()) == 1
-    assert not [path for path in tmp_path.rglob("*") if path.is_file()]
 
 
 FULL = OSError(28, "No space left on device")

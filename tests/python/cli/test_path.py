@@ -8,17 +8,6 @@ import pytest
 
 import ninedof as nd
 
-STUDY = """
-[design]
-family = "hexagonal"
-[constraints]
-radius_ratio = { max = 2.0 }
-leg_length = { min = 1.5, max = 6.5 }
-lower_length = { max = 3.2 }
-leg_ratio = { max = 4.0 }
-"""
-POSES = "t,x,y,z,yaw_deg\n" + "".join(f"{k / 10},{0.01 * k},0,3.6,0\n" for k in range(11))
-
 
 @pytest.fixture(autouse=True)
 def _in_a_folder_of_its_own(tmp_path, monkeypatch):
@@ -51,25 +40,6 @@ def test_a_circle_of_the_published_design(run, tmp_path):
     columns = [found.time[:, None], found.leg_lengths, found.leg_rates, found.leg_accelerations, found.leg_forces]
     columns.append(found.leg_powers)
     assert (table == np.concatenate(columns, axis=1)).all()
-
-
-def test_a_run_with_its_limits(run):
-    with open("study.toml", "w") as file:
-        file.write(STUDY)
-    with open("poses.csv", "w") as file:
-        file.write(POSES.replace(",yaw_deg", "").replace(",0\n", "\n"))
-    assert run("optimize study.toml --starts 4 --no-figures --out optimum")[0] == 0
-    status, out, _ = run("path optimum poses.csv --no-figures --json --internal-point best --out along")
-    assert status == 0
-    motion = json.loads(out)["motion"]
-    assert [motion["legs"][leg]["high"] for leg in ("l1", "q1", "r1")] == [6.5, 6.5, 3.2]
-    assert motion["legs"]["l1"]["low"] == 1.5
-    assert motion["legs"]["r1"]["longest"] <= 3.2
-    status, out, _ = run("path optimum poses.csv --no-figures --legs 1 2")
-    assert status == 3
-    assert "limit breaks: l1 high, from t = 0 to 1" in out
-    assert "Limits of the study along the path" in out
-    assert "leg_ratio" in out
 
 
 REGION = """

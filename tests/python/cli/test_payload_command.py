@@ -138,16 +138,3 @@ def test_legs_that_never_carry_are_named(run, tmp_path):
     nd.save(nd.Design(hexagons, nd.Configuration.neutral(3.9828, 2.4432)), tmp_path / "design.toml")
     out = " ".join(run(f"forces {tmp_path / 'design.toml'} --load '0 0 0 0 0 -100'")[1].split())
     assert "never carry load 1: l1, l2, l3; no force closes their play" in out
-
-
-def test_limits_that_are_not_looked_at_are_named(run, tmp_path):
-    study = nd.Study(
-        variables={"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.4432},
-        constraints={"force": [{"max": 500.0}, {"max": 400.0, "at": "neutral"}], "power": (None, 1000.0)},
-        speeds={"linear": 1.0, "angular": 0.1},
-        **DUTY,
-        characteristic_length=1.0,
-    )
-    nd.save(nd.optimize(study, starts=1), tmp_path / "run")
-    out = run(f"payload {tmp_path / 'run'}")[1]
-    assert "not looked at: force at neutral, power" in " ".join(out.split())

@@ -100,6 +100,7 @@ def test_a_front_without_a_limit_names_those_of_the_study(words, folder):
     out = words("pareto ./run --no-figures --no-report --out ./no-price")
     assert "no limit with a max has a price in this run; with a max its study has " in out
     assert "leg_length, radius_ratio" in out
+    assert "--against: got none" in out
 
 
 def test_a_front_says_which_limit_it_is_against_where_it_was_not_told(words):
@@ -107,61 +108,55 @@ def test_a_front_says_which_limit_it_is_against_where_it_was_not_told(words):
     assert out.startswith("--against is not given: the front is against radius_ratio at 3")
 
 
+QUIET = "--no-figures --no-report"
+OF_WEIGHTS = {  # what the commands say of the machine with masses and limits
+    "sheet ./heavy": [
+        *("(W)", "200000 N mm/s", "1 W is 1000 N mm/s", "700 N", "load 1: moment (0, 0, 0) N mm, force (0, 0, 90) N"),
+    ],
+    "sheet ./heavy --leg-stiffness 1e4 --mass 5 --centre 0 0 20": [
+        "a mass of 5 kg, centre (0, 0, 20) in the frame of the plate",
+        "stiffness: of each leg 10000 N/mm, as given",
+    ],
+    "forces ./heavy": ["N mm", "a mass of 3 kg", "Forces (N), + pushes"],
+    f"path ./heavy --line 1 0 0 --points 51 {QUIET} --out ./heavier": [
+        *("200000 N mm/s", "700 N", "reaches its force of 700 N at t = "),
+    ],
+    "export ./heavy --to latex --out ./t.tex": ["t.tex"],
+    "payload ./heavy": [
+        *(" kg: ", "gravity (0, 0, -9.81) m/s²; beside it", "reaches its limit of 700 N ("),
+        *("Leg forces (N) there, with the payload", "from the study: force at most 700 N"),
+    ],
+    "stiffness ./heavy --leg-stiffness 1e4": [
+        *("moment (N mm) and force (N) for a turn", "leg stiffness 10000 N/mm, each leg"),
+    ],
+    "failure ./heavy --no-pairs": ["(N)", "force (0, 0, 90) N"],
+    "certify ./heavy --time 0.1": ["force (N)", "power (N mm/s)"],
+    f"workspace ./heavy --tolerance 0.5 --resolution 6 --points 500 {QUIET} --out ./space": [
+        *("force at most 700 N, of the study", "power at most 200000 N mm/s"),
+    ],
+}  # fmt: skip
+
+
 def test_forces_are_newtons_and_powers_watts_where_masses_are_stated(words, folder):
     """The sheet had power in force mm/s, the path of the same machine in W, and forces had no unit."""
     limits = {**STUDY.constraints, "power": {"max": 2e5}, "force": {"max": 700.0}}
     nd.save(nd.optimize(replace(STUDY, masses={"platform": 3.0}, constraints=limits, objective={})), folder / "heavy")
+    said = {line: words(line) for line in OF_WEIGHTS}
+    missing = [(line, part) for line, parts in OF_WEIGHTS.items() for part in parts if part not in said[line]]
+    assert missing == []
+    assert not [line for line in said if "force/mm" in said[line] or "force mm" in said[line]]
     sheet = nd.load(folder / "heavy").sheet()
-    out = words("sheet ./heavy")
-    most = max(sheet.legs, key=lambda leg: leg.power)
-    assert f" {1e-3 * most.power:.5g} " in out
-    assert "(W)" in out
-    assert "200000 N mm/s" in out
-    assert "1 W is 1000 N mm/s" in out
-    assert "700 N" in out
-    assert "load 1: moment (0, 0, 0) N mm, force (0, 0, 90) N" in out
-    assert "N mm" in words("forces ./heavy")
-    along = words("path ./heavy --line 1 0 0 --points 51 --no-figures --no-report --out ./heavier")
-    assert "200000 N mm/s" in along
-    assert "700 N" in along
-    laden = words("path ./heavy --line 1 0 0 --points 51 --mass 300 --no-figures --no-report --out ./laden")
+    assert f" {1e-3 * max(leg.power for leg in sheet.legs):.5g} " in said["sheet ./heavy"]
+    laden = words(f"path ./heavy --line 1 0 0 --points 51 --mass 300 {QUIET} --out ./laden")
     assert re.search(r"limit breaks: force \w+ max, from t = \S+ to \S+ s, at worst [\d.]+ N at \S+ s", laden)
-    assert "t.tex" in words("export ./heavy --to latex --out ./t.tex")
     assert "N mm/s" in (folder / "t.tex").read_text()
     head = sheet.to_csv().partition("\n")[0]
     assert "power (N mm/s),force_largest (N),force_1_min (N),force_1_max (N),platform_speed (mm/s)" in head
     units = sheet.to_dict()["units"]
     assert (units["force"], units["power"], units["moment"], units["stiffness"]) == ("N", "N mm/s", "N mm", "N/mm")
-    assert "a mass of 3 kg" in words("forces ./heavy")
-    assert "Forces (N), + pushes" in words("forces ./heavy")
-    stiff = words("sheet ./heavy --leg-stiffness 1e4 --mass 5 --centre 0 0 20")
-    assert "a mass of 5 kg, centre (0, 0, 20) in the frame of the plate" in stiff
-    assert "stiffness: of each leg 10000 N/mm, as given" in stiff
-    assert "force/mm" not in stiff
-    assert "force mm" not in stiff
-    assert "reaches its force of 700 N at t = " in along or "reaches its power of 200000 N mm/s at t = " in along
-    said = words("payload ./heavy")
-    assert " kg: " in said
-    assert "gravity (0, 0, -9.81) m/s²; beside it" in said
-    assert "reaches its limit of 700 N (" in said
-    assert "Leg forces (N) there, with the payload" in said
-    assert "from the study: force at most 700 N" in said
-    stiff = words("stiffness ./heavy --leg-stiffness 1e4")
-    assert "moment (N mm) and force (N) for a turn" in stiff
-    assert "leg stiffness 10000 N/mm, each leg" in stiff
-    said = words("failure ./heavy --no-pairs")
-    assert "(N)" in said
-    assert "force (0, 0, 90) N" in said
-    proved = words("certify ./heavy --time 0.1")
-    assert "force (N)" in proved
-    assert "power (N mm/s)" in proved
-    space = words(
-        "workspace ./heavy --tolerance 0.5 --resolution 6 --points 500 --no-figures --no-report --out ./space"
-    )
-    assert "force at most 700 N, of the study" in space
-    assert "power at most 200000 N mm/s" in space
-    assert "force mm" in words("sheet ./run")
-    assert "N mm" not in words("sheet ./run")
+    plain = words("sheet ./run")
+    assert "force mm" in plain
+    assert "N mm" not in plain
 
 
 def test_lengths_that_poses_need_and_that_limits_permit_have_two_names_in_files(folder, words):

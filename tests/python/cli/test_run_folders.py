@@ -22,25 +22,3 @@ def test_a_backend_of_matplotlib_that_is_not_there_does_not_matter(tmp_path):
     chosen = "import ninedof.plot, matplotlib; assert matplotlib.rcParams['backend'] == 'svg'"
     environment = os.environ | {"PYTHONPATH": path, "MPLBACKEND": "svg"}
     subprocess.run([sys.executable, "-c", chosen], env=environment, check=True, timeout=60)
-
-
-@pytest.mark.parametrize(
-    ("place", "words"),
-    [
-        ("folder.csv", "was not written by ninedof"),
-        ("mine.csv", "was not written by ninedof"),
-        ("none/s.csv", "expected a file in a folder that exists"),
-    ],
-)
-def test_a_file_that_cannot_be_written_is_told_before_the_work(run, tmp_path, place, words):
-    (tmp_path / "folder.csv").mkdir()
-    (tmp_path / "mine.csv").write_text("mine")
-    before = sorted(tmp_path.iterdir())
-    (tmp_path / "design.toml").write_text("")
-    code, _, err = run(f"sheet {tmp_path / 'design.toml'} --csv {tmp_path / place}")
-    assert code == 2
-    assert err.startswith(f"ninedof: --csv: got {tmp_path / place}, ")
-    assert words in err
-    (tmp_path / "design.toml").unlink()
-    assert sorted(tmp_path.iterdir()) == before
-    assert (tmp_path / "mine.csv").read_text() == "mine"

@@ -12,10 +12,8 @@ import ninedof as nd
 SWEEP = f"{shlex.quote(sys.executable)} -m ninedof sweep --over x_p=-1:1:9 --no-figures --out run"
 HOW = {  # the end of a shell line to the status where the command alone ends with 0
     "| true": 0,
-    "--json | true": 0,
     "> /dev/full": 1,
     ">&-": 0,
-    "2>&-": 0,
 }
 
 
@@ -49,7 +47,6 @@ def test_an_encoding_without_the_letters_of_a_table(tmp_path):
 
 
 @pytest.mark.slow(sanitized=True)
-@pytest.mark.parametrize("columns", ["00", ""])
-def test_no_columns_are_as_many_as_the_terminal_has(tmp_path, columns):
-    done = shell(f"{shlex.quote(sys.executable)} -m ninedof evaluate --help", tmp_path, COLUMNS=columns)
+def test_no_columns_are_as_many_as_the_terminal_has(tmp_path):
+    done = shell(f"{shlex.quote(sys.executable)} -m ninedof evaluate --help", tmp_path, COLUMNS="00")
     assert "--help" in done.stdout

@@ -3,8 +3,6 @@
 import json
 from dataclasses import replace
 
-import pytest
-
 import ninedof as nd
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, exit_status
 
@@ -50,27 +48,3 @@ def test_a_design_that_keeps_its_limits_is_a_result(tmp_path):
     assert exit_status(replace(ended, interrupted=True), timed=True) == INTERRUPTED
     for worse in ({"margin": -1e-3}, {"looked_at": 4000}):
         assert exit_status(replace(ended, region=replace(whole.region, **worse)), timed=True) == NO_RESULT
-
-
-PLANAR = """
-[design]
-family = "symmetric"
-[constraints]
-radius_ratio = { max = 2.0 }
-leg_ratio = { max = 3.0 }
-[solver]
-starts = 2
-"""
-
-
-@pytest.mark.slow
-def test_the_time_ends_a_proof_with_what_is_proved(run, tmp_path):
-    """That proof takes minutes."""
-    (tmp_path / "study.toml").write_text(PLANAR)
-    folder = tmp_path / "run"
-    status, _, err = run(f"optimize {tmp_path / 'study.toml'} --no-figures --certify --time 4 --out {folder}")
-    assert status == DONE
-    assert "the time is over; to go on, type: " in err
-    proof = nd.load(folder).proof
-    assert not proof.complete
-    assert proof.lower_bound > 1.0

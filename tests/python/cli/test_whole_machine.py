@@ -124,6 +124,7 @@ def test_a_machine_goes_through_every_command(run, folder):
         assert status in (0, 3), f"{line}: {errors}"
         assert "Traceback" not in errors
         assert max(map(len, out.splitlines()), default=0) <= 80, name
+        assert "…" not in out, name
         says[name] = " ".join(out.split())
     assert "proved" in says["certify"]
     assert f"{result.objective:.6f}"[:6] in says["evaluate"]

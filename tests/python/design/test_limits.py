@@ -97,3 +97,47 @@ def test_degrees_survive_a_file(degrees):
 def test_radians_survive_a_file_to_the_last_bit(radians):
     (limit,) = limits.parse("platform_cone", (None, radians))
     assert limits.parse("platform_cone", limit.to_dict()) == (limit,)
+
+
+# --- At the neutral pose alone ----------------------------------------------------------------------------------------
+
+
+def test_normal_form():
+    assert parsed("leg_ratio", {"max": 3, "at": "poses"}) == parsed("leg_ratio", [{"max": 3}]) == (None, 3.0)
+    assert parsed("leg_ratio", {"max": 3, "at": "neutral"}) == {"max": 3.0, "at": "neutral"}
+    assert parsed("singularity_free", {"at": "neutral"}) == {"min": 1e-3, "at": "neutral"}
+    two = parsed("leg_ratio", [{"max": 2, "at": "neutral"}, (None, 3)])
+    assert two == parsed("leg_ratio", two) == ({"max": 3.0}, {"max": 2.0, "at": "neutral"})
+    assert parsed("leg_ratio", [1, 2]) == (1.0, 2.0)  # a pair as before
+    assert [limit.at for limit in limits.parse("leg_ratio", two)] == ["poses", "neutral"]
+
+
+def test_two_limits_of_a_file(tmp_path):
+    text = """
+        [constraints]
+        base_cone = [
+            { max_deg = 30, axis = [0, 0, 1], at = "neutral" },
+            { max_deg = 45, axis = [0, 0, 1], at = "poses" },
+        ]
+        [[constraints.leg_ratio]]
+        max = 3.0
+    """
+    (tmp_path / "typed.toml").write_text(text)
+    study = nd.Study.load(tmp_path / "typed.toml")
+    assert study.to_dict()["constraints"] == {
+        "base_cone": [
+            {"max_deg": 45.0, "axis": [0.0, 0.0, 1.0]},
+            {"max_deg": 30.0, "axis": [0.0, 0.0, 1.0], "at": "neutral"},
+        ],
+        "leg_ratio": {"max": 3.0},
+    }
+    study.save(tmp_path / "study.toml")
+    assert nd.Study.load(tmp_path / "study.toml") == study
+    with pytest.raises(TypeError):
+        study.constraints["base_cone"][1]["max"] = 1.0
+
+
+def test_without_poses_both_hold_at_the_neutral_pose():
+    study = nd.Study(constraints={"leg_ratio": [{"max": 3.0}, {"max": 2.0, "at": "neutral"}]})
+    margins = study.evaluate({"a1": 0.2, "a2": 5.0, "b1": 2.5, "b2": 0.3, "zp": 4.0, "zs": 2.0}).margins
+    assert (1.0 - margins["leg_ratio at neutral"]) / (1.0 - margins["leg_ratio"]) == pytest.approx(1.5)

@@ -127,6 +127,15 @@ def test_an_objective_is_a_value():
         one.index = "frobenius"
 
 
+def test_the_objective_has_defaults_for_its_region():
+    table = {"internal_point": "held", "unit": "zp", "region": {"ball": 0.1}}
+    assert nd.Objective.from_dict(table).region == nd.Region(ball=0.1, internal_point="held", unit="zp")
+    own = table | {"region": {"ball": 0.1, "internal_point": "best"}}
+    assert nd.Objective.from_dict(own).region == nd.Region(ball=0.1, internal_point="best", unit="zp")
+    shifted = table | {"internal_point": [0.0, 0.0, 0.1]}
+    assert nd.Objective.from_dict(shifted).region == nd.Region(ball=0.1, unit="zp")
+
+
 def test_an_infinite_condition_limit_is_none():
     assert nd.Objective(condition_limit=INF, neutral_condition_limit=INF) == nd.Objective()
 

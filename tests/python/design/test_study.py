@@ -1,6 +1,6 @@
 """A study as an object: its defaults, lengths, families, immutable copies, full vectors of variables.
 
-What it evaluates is in test_design.py, what it refuses in test_bad_entries.py.
+What it evaluates is in test_design_point.py, what it refuses in test_bad_entries.py.
 """
 
 import copy
@@ -138,6 +138,21 @@ def test_another_number_of_starts_keeps_the_defaulted_variables():
 def test_objective_may_be_given_as_a_table():
     table = {"index": "frobenius", "poses": [{"position": [0.1, 0, 0]}]}
     assert nd.Study(objective=table) == nd.Study(objective=nd.Objective.from_dict(table))
+
+
+def test_a_design_point_has_its_robot_and_slopes_by_name():
+    """Slopes by differences; those of the core are in tests/cpp: optimize/evaluate.cpp, problem/constraints.cpp."""
+    study = nd.Study(variables={"a1": 0.0, "b2": 0.0, "theta_z": (-1.0, 1.0)}, constraints={"zs_fraction": (0.1, 0.9)})
+    at = {"a2": 5.8124, "b1": 2.9062, "zp": 3.9828, "zs": 2.3745, "theta_z": 0.2}
+    point, h = study.evaluate(at), 1e-5
+    assert point.geometry == nd.Geometry.hexagonal(0.0, 5.8124, 2.9062, 0.0)
+    assert point.configuration == nd.Configuration.neutral(3.9828, 2.3745, 0.2)
+    assert point.variables == at | {"a1": 0.0, "b2": 0.0}  # what is fixed may be left out
+    for name in at:
+        up, down = (study.evaluate(at | {name: at[name] + way * h}) for way in (1, -1))
+        assert point.gradient[name] == pytest.approx((up.objective - down.objective) / (2 * h), abs=1e-8)
+        slope = (up.margins["zs_fraction"] - down.margins["zs_fraction"]) / (2 * h)
+        assert point.margin_gradients["zs_fraction"][name] == pytest.approx(slope, abs=1e-8)
 
 
 def test_vector_completes_free_lengths_and_offsets():

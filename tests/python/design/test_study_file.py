@@ -68,6 +68,19 @@ STUDIES = {
     "length of a kind": nd.Study(characteristic_length="natural"),
     "six legs": nd.Study(objective=nd.Objective(index="six_legged")),
     "open constraint": nd.Study(constraints={"radius_ratio": (None, None), "leg_ratio": (None, INF)}),
+    **{
+        f"region {number}": nd.Study(objective={"region": region})
+        for number, region in enumerate(
+            (
+                nd.Region(box=(0.1, 0.0, 0.3), tilt=0.3, yaw=0.2),
+                nd.Region(ball=0.4, tilt=0.1, unit="zp", internal_point="held"),
+                nd.Region(cylinder=(0.2, 0.1), yaw=1.0),
+                nd.Region(path=((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 2.0, 0.0)), tilt=0.2),
+                nd.Region(tilt=0.5, yaw=0.5),
+                nd.Region(box=(0.1, 0.1, 0.0), tilt=0.1, internal_point="best"),
+            )
+        )
+    },
 }
 
 

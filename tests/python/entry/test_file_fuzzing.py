@@ -6,8 +6,8 @@ NINEDOF_LONG=1 tries twenty times as many.
 """
 
 import random
-import tomllib
 from collections import Counter
+from pathlib import Path
 
 import entry_things as it
 import numpy as np
@@ -26,35 +26,7 @@ def _memory():
         yield
 
 
-STUDY = """
-unit = "mm"
-[design]
-family = "hexagonal"
-characteristic_length = 150.0
-[variables]
-a1 = 0.0
-a2 = [100.0, 850.0]
-b1 = [50.0, 350.0]
-b2 = 0.0
-zp = [300.0, 700.0]
-zs = [50.0, 650.0]
-theta_z_deg = [-10.0, 10.0]
-[constraints]
-stroke_ratio = { max = 1.4 }
-base_cone = { max_deg = 45.0, axis = [0.0, 0.0, 1.0] }
-leg_clearance = { min = 20.0 }
-leg_length = [{ min = 100.0 }, { max = 900.0, at = "neutral" }]
-[objective]
-index = "condition_number"
-condition_limit = 10.0
-poses = [{ position = [10.0, 0.0, 0.0], rotation_deg = [1.0, 0.0, 0.0], weight = 1.0 }]
-[objective.region]
-box = [60.0, 60.0, 40.0]
-tilt_deg = 10.0
-[solver]
-starts = 4
-seed = 1
-"""
+EXAMPLES = Path(__file__).parents[3] / "examples"
 
 
 def path_load(path):
@@ -62,7 +34,8 @@ def path_load(path):
 
 
 KINDS = {
-    "study": ("study.toml", STUDY.encode, toml_mutant, nd.Study.load, 6),
+    "study of a region": ("study.toml", (EXAMPLES / "18_requirement.toml").read_bytes, toml_mutant, nd.Study.load, 3),
+    "study of poses": ("study.toml", (EXAMPLES / "10_robust.toml").read_bytes, toml_mutant, nd.Study.load, 3),
     "design": ("design.toml", lambda: it.design_file().read_bytes(), toml_mutant, nd.load, 4),
     "path": ("path.csv", lambda: it.path_file().read_bytes(), csv_mutant, path_load, 4),
     "certificate of an optimum": (
@@ -104,7 +77,3 @@ def test_damaged_files_load_or_are_refused_by_name(kind, tmp_path):
                 failures.append(f"{kind} {k}: {fault}")
     print(f"{kind}: {SHARE * weight} mutants, {dict(counts)}")
     assert not failures, "\n".join([f"{len(failures)} of {SHARE * weight}:", *failures[:25]])
-
-
-def test_the_study_of_these_tests_is_whole():
-    assert nd.Study.from_dict(tomllib.loads(STUDY)).objective.region is not None

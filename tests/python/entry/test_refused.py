@@ -281,6 +281,12 @@ APART = [  # a row, entries that are refused because of what they are together o
     ("trace", {"start": {"a2": 5.0, "b1": 3.0, "zp": 4.0, "theta_z": 0.0}}, "start: zs: got no value"),
     ("trace", {"start": {"a2": NAN, "b1": 3.0, "zp": 4.0, "zs": 2.0, "theta_z": 0.0}}, "start: a2: got nan"),
     ("trace", {"start": {"c1": 1.0}}, "start: variables: got the entry 'c1'"),
+    *(
+        (name, {"not_a_name": 1}, r"\w+: got the entry 'not_a_name'")
+        for name in "About Actuator Loads Masses Objective Pose Region Speeds Study Tolerances Tool".split()
+    ),
+    ("Study", {"constraint": {}}, r".*got the entry 'constraint', expected only .*\(did you mean 'constraints'\?\)$"),
+    ("Region", {"tilts": 0.1}, r".*got the entry 'tilts', expected only .*\(did you mean 'tilt'\?\)$"),
     ("Study", {"starts": 2**31 - 1}, "starts: got 2147483647, expected a whole number from 1 to 1000000"),
     ("sweep", {"threads": 4096}, "threads: got 4096"),
     ("sweep", {"threads": 0}, "threads: got 0"),
@@ -392,6 +398,7 @@ APART = [  # a row, entries that are refused because of what they are together o
     ),
     ("prove_optimum", {"study": nd.Study(objective={"index": "speed"})}, "objective: got another index"),
     ("optimize", {"study": MANY_FREE, "certify": True, "warm": None}, "variables: got 7 that are free"),
+    ("optimize", {"time_limit": 0.0}, "time_limit: got 0.0, expected seconds, more than 0"),
     ("optimize", {"start": 3}, "optimize: got the entry 'start', expected only study, .*did you mean 'starts'"),
     ("sweep", {"thread": 3}, "sweep: got the entry 'thread', expected only .*did you mean 'threads'"),
     ("prove_optimum", {"condition_number": 3.0, "gap": 1.0}, ".*more than 1 to be proved"),

@@ -310,17 +310,6 @@ def test_the_time_limit_ends_the_search():
     assert result.reason.startswith("the search of actuators ended after 0 studies")
 
 
-@pytest.mark.slow
-def test_a_run_keeps_the_choice(tmp_path):
-    result = nd.optimize(replace(POSES, actuators=BOTH))
-    nd.save(result, tmp_path / "run")
-    loaded = nd.load(tmp_path / "run")
-    assert loaded.actuators == result.actuators
-    assert loaded.study == result.study
-    assert loaded.summary() == result.summary()
-    assert math.isclose(loaded.objective, result.objective)
-
-
 def test_who_does_not_choose_rows_refuses_them():
     study = replace(POSES, actuators=BOTH)
     for call in (lambda: nd.pareto(study, "base_cone"), lambda: nd.admissible(study, ("a2", "b1"))):
@@ -347,32 +336,3 @@ def test_the_best_of_all_combinations_comes_first_whatever_is_solved_early(monke
         monkeypatch.setattr(search, "_ask", lambda some, s=search, f=solved: s.results.setdefault(some, f(some)))
         found = [values[some] for some in search._best_first()]
         assert found == [value for value in sorted(values.values())[:2] if value < math.inf]
-
-
-@pytest.mark.slow
-def test_rows_without_a_design_that_were_solved_early_are_not_the_best():
-    """The rows nearest to the best design of all have none here: the search ended with an error."""
-    limits = {name: {"max_deg": 45.0} for name in ("base_cone", "platform_cone")}
-    rows = (("SA6", 7.0, 11.0, 900.0, 6.0), ("SA8", 9.0, 14.5, 900.0, 5.0), ("SA10", 11.0, 18.5, 1200.0, 5.0),
-            ("SA12", 14.0, 23.0, 1200.0, 4.5), ("SA16", 18.0, 30.0, 1500.0, 4.0))  # fmt: skip
-    study = nd.Study(
-        unit="in",
-        family="hexagonal",
-        characteristic_length=6.0,
-        variables={"a1": 0.0, "a2": (6.0, 34.0), "b1": (3.0, 14.0), "b2": 0.0, "zp": (12.0, 28.0), "zs": (3.0, 25.0)}
-        | {"theta_z": 0.0},
-        constraints=limits | {"leg_clearance": {"radius": 0.6}, "power": {"max": 4000.0}, "singularity_free": {}},
-        objective={"poses": nd.poses.box(half=(2.0, 2.0, 1.5))},
-        tool={"position": [0.0, 0.0, -3.5]},
-        loads={"wrenches": [[0.0, 0.0, 40.0, 0.0, 0.0, 300.0]]},
-        masses={"platform": 14.0, "centre": [0.0, 0.0, -1.0], "cylinder": 1.4, "rod": 0.6, "cylinder_centre": 4.0}
-        | {"rod_centre": 4.0},
-        speeds={"linear": 3.0, "angular_deg": 15.0},
-        actuators=[nd.Actuator(name, *ends, force=force, rate=rate) for name, *ends, force, rate in rows],
-        starts=2,
-    )
-    result = nd.optimize(study)
-    assert result.status == nd.Status.OPTIMAL
-    alone = nd.optimize(study.with_actuators(result.actuators.chosen.rows))
-    assert alone.objective == pytest.approx(result.objective, rel=1e-6)
-    assert result.actuators.next_best.objective >= result.objective

@@ -171,51 +171,7 @@ def test_sigint_ends_a_search_without_progress(search):
         search(G, places(300).reshape(-1, 3))
 
 
-@pytest.mark.timing
-@pytest.mark.parametrize("threads", [1, 2])
-def test_sigint_is_heard_within_half_a_second(threads):
-    """The aim is 0.2 s; the rest is room for a busy machine."""
-    seconds = []
-    for _ in range(2):
-        with interrupter() as progress:
-            result = nd.optimize(PAPER, starts=HUGE, threads=threads, progress=progress)
-            seconds.append(time.perf_counter() - progress.sent)
-        assert result.interrupted
-    assert min(seconds) < 0.5
-
-
-@pytest.mark.timing
-def test_sigint_ends_the_finest_levels_of_a_workspace():
-    """Very many cells are numbered and judged there; the summary takes a second for each million."""
-    enough = size(600_000, 4_000_000)
-    with interrupter() as interrupt:
-        call = workspace(tolerance=1e-7, most_evaluations=10**9)
-        result = call(lambda done, *_: done > enough and interrupt())
-        seconds = time.perf_counter() - interrupt.sent
-    assert result.status == "stopped"
-    assert result.evaluations > enough
-    assert seconds < 12.0
-
-
 # --- The last moment --------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("call", "times"), [(optimize(starts=4), 20), (workspace(method="grid", resolution=8), 5)], ids=["optimize", "grid"]
-)
-def test_an_interruption_at_the_very_end_is_not_lost(call, times):
-    """The result is complete, so that the exception may be all that shows it."""
-
-    def stop(done, total, _):
-        if done == total:
-            raise KeyboardInterrupt
-
-    for _ in range(times):
-        try:
-            heard = call(stop).interrupted
-        except KeyboardInterrupt:
-            heard = True
-        assert heard
 
 
 def late(*_):

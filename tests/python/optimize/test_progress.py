@@ -1,4 +1,4 @@
-"""A long run: progress, interruption, and calls from several threads."""
+"""A long run: progress and interruption. Calls from several threads at once: project/test_threads_at_once.py."""
 
 import itertools
 import math
@@ -8,31 +8,13 @@ import sys
 import threading
 
 import pytest
-from interrupts import interrupter
+from interrupts import InterruptedPhase, interrupter
 
 import ninedof as nd
 from ninedof.cli.screen import best_words
 
 LEAST = 3.762659078596047
 HUGE = 10**6  # starts: minutes of work
-
-
-def test_short_run_reports_its_end():
-    seen = []
-    nd.optimize(nd.Study.paper(), starts=1, progress=lambda *arguments: seen.append(arguments))
-    assert seen == [(1, 1, pytest.approx(LEAST, rel=1e-9))]
-
-
-@pytest.mark.slow
-def test_unbounded_study_reports_all_its_rounds():
-    seen = []
-    study = nd.Study(
-        variables=dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, math.inf))
-        | dict.fromkeys(("zp", "zs"), (0.05, math.inf))
-    )
-    result = nd.optimize(study, starts=200, progress=lambda *arguments: seen.append(arguments))
-    assert seen[-1][0] == seen[-1][1] == result.starts_done
-    assert result.starts_done in range(400, 2001, 200)
 
 
 def test_a_search_that_goes_on_reports_the_starts_it_adds():
@@ -57,14 +39,6 @@ DISAGREEING = nd.Study(
 )
 
 
-def test_fixed_study_reports_a_total_it_reaches():
-    seen = []
-    fixed = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.3745}
-    nd.optimize(nd.Study(variables=fixed), progress=lambda *arguments: seen.append(arguments))
-    assert seen
-    assert seen[-1][0] == seen[-1][1]
-
-
 def test_callback_may_call_the_library():
     inner = []
     nd.optimize(
@@ -72,24 +46,6 @@ def test_callback_may_call_the_library():
     )
     assert inner
     assert all(r.condition_number == pytest.approx(LEAST, rel=1e-9) for r in inner)
-
-
-def test_from_other_threads():
-    alone = nd.optimize(nd.Study.paper(), starts=200)
-    results = {}
-
-    def work(key):
-        results[key] = nd.optimize(nd.Study.paper(), starts=200, threads=1 + key % 2)
-
-    threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
-    for t in threads:
-        t.start()
-    for t in threads:
-        t.join()
-    assert len(results) == 4
-    for r in results.values():
-        assert [c.variables for c in r.candidates] == [c.variables for c in alone.candidates]
-        assert r.evaluations == alone.evaluations
 
 
 @pytest.fixture
@@ -154,30 +110,17 @@ def test_the_runs_that_place_o_are_counted():
     assert seen[-1][2] <= result.objective * (1.0 + 1e-9)
 
 
-class Bar:
-    """A progress callback that keeps what it is told."""
-
-    def __init__(self):
-        self.seen, self.phases = [], []
-
-    def __call__(self, *arguments):
-        self.seen.append(arguments)
-
-    def phase(self, words):
-        self.phases.append(words)
-
-
 def test_starts_of_a_region_are_counted_and_its_rounds_are_told():
     study = nd.Study(
         constraints={"radius_ratio": (None, 2.0)},
         objective={"region": {"box": [0.3, 0.3, 0.0], "tilt_deg": 5}},
         starts=8,
     )
-    bar = Bar()
+    bar = InterruptedPhase()
     result = nd.optimize(study, progress=bar)
     assert result.region.rounds > 1
-    assert bar.seen[-1][0] == bar.seen[-1][1] >= 8
-    assert all(a[0] <= b[0] for a, b in itertools.pairwise(bar.seen))
+    assert bar.reports[-1][0] == bar.reports[-1][1] >= 8
+    assert all(a[0] <= b[0] for a, b in itertools.pairwise(bar.reports))
     assert bar.phases[0] == "all starts, at 17 poses"
     assert bar.phases[1] == "round 1, at 17 poses"
     assert bar.phases[-1].startswith(f"round {result.region.rounds}, at ")

@@ -3,21 +3,15 @@
 Oracle: poses drawn in numpy, and O placed at each by a search of its own, in region_oracle.py.
 """
 
-import math
 import re
 from dataclasses import replace
 from functools import cache
 
-import numpy as np
 import pytest
-from interrupts import InterruptedPhase
 from region_oracle import worst_placed
-from scipy.optimize import minimize
-from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
-from ninedof import _core
 
 TURNS = nd.Study(
     constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 2.5)},
@@ -88,40 +82,11 @@ def test_the_index_is_at_most_that_of_the_other_rules(name):
 
 
 @pytest.mark.slow
-def test_check_finds_ranges_that_are_too_narrow():
-    result = solved("line")
-    assert result.region.leg_ranges
-    narrow = tuple((0.5 * (low + high), 0.5001 * (low + high)) for low, high in result.region.leg_ranges)
-    worse = replace(result, region=replace(result.region, leg_ranges=narrow))
-    assert not nd.check(worse, perturbations=0)["region"].passed
-    wide = tuple((low / 1.01, high * 1.01) for low, high in result.region.leg_ranges)
-    worse = replace(result, region=replace(result.region, leg_ranges=wide))
-    assert not nd.check(worse, perturbations=0)["region"].passed
-
-
-@pytest.mark.slow
 def test_a_run_is_read_back(tmp_path):
     result = solved("line")
     assert nd.load(nd.save(result, tmp_path / "run")) == result
     assert "placing O is permitted leg lengths from" in result.summary()
     assert "with O placed at every pose" in result.summary()
-
-
-@pytest.mark.slow
-def test_an_interruption_keeps_the_design_with_o_shifted_until_there_is_a_better_one():
-    """In the first round O is no variable; behind it there is a design with O placed."""
-    shifted, best = solved("line", "shifted").objective, solved("line").objective
-    first, second = (nd.optimize(LINE, progress=InterruptedPhase(f"O placed, round {n}, ")) for n in (1, 2))
-    assert (first.status, first.interrupted, first.region.keeps_limits) == ("stopped", True, True)
-    assert first.objective == shifted
-    assert "O shifted" in first.reason
-    assert math.isinf(first.region.gain)
-    assert (second.status, second.interrupted) == ("stopped", True)
-    assert best * (1.0 - 1e-7) <= second.objective < shifted
-    assert "of placing O" in second.reason
-    assert second.region.margin >= -1e-7
-    for result in (first, second):
-        assert nd.check(replace(result, region=None, study=result.solved), perturbations=0).passed
 
 
 @pytest.mark.slow
@@ -135,60 +100,6 @@ def test_an_impossible_region_is_infeasible():
     # A warm start has the variables of the study, and none for O at the poses.
     warm = {"a1": 0.0, "a2": 5.0, "b1": 3.0, "b2": 0.0, "zp": 4.0, "zs": 2.0, "theta_z": 0.0}
     assert nd.optimize(study, warm=[warm]).status == "infeasible"
-
-
-G = nd.Geometry.hexagonal(1.0, 0.8, 0.5, 0.6)
-SIDES = {"a1": 1.0, "a2": 0.8, "b1": 0.5, "b2": 0.6, "zp": 2.0, "zs": 1.0}
-REGION = nd.Region(box=(0.3, 0.3, 0.3), tilt=0.3, internal_point="best")
-LEVEL = 1.0  # logarithm of the index
-
-
-def placed(known, samples=1, threads=1):
-    """Search the region for a design within ranges of lengths."""
-    plain = nd.Study(variables=SIDES | {"theta_z": 0.0}).problem()
-    lengths = np.asarray(nd.leg_lengths(G, nd.Configuration.neutral(2.0, 1.0))).reshape(1, 9)
-    ranges = _core.leg_ranges(nd.Study(constraints={"stroke_ratio": (None, 1.3)}).problem(), 2.0, lengths)
-    x = [SIDES.get(name, 0.0) for name in plain.names]
-    design = _core.PlacedDesign(problem=plain, variables=x, log_index=LEVEL, ranges=ranges)
-    found = _core.search_region_placed(design, REGION.for_core(), known, samples, 3, threads)
-    return found, ranges
-
-
-def test_o_is_placed_where_the_worst_is_least():
-    """Against a direct search (Nelder and Mead) of the definition."""
-    rng = np.random.default_rng(5)
-    at = [tuple((np.array(REGION.reach) * rng.uniform(-1.0, 1.0, 6)).tolist()) for _ in range(size(2, 40))]
-    found, ((_, low, high, _),) = placed([(pose, (0.0,) * 3) for pose in at])
-    above = []
-    for pose, excess in zip(at, found["at_known"], strict=True):
-        position, rotation = _core.region_poses(REGION.for_core(), [pose])[0, 6:12].reshape(2, 3)
-        p, q = np.add(position, [0.0, 0.0, 2.0]), Rotation.from_rotvec(rotation).as_matrix()
-
-        def worst(shift, p=p, q=q):
-            c = nd.Configuration(p, q, np.array([0.0, 0.0, 1.0]) + 2.0 * shift)
-            lengths = np.asarray(nd.leg_lengths(G, c))
-            index = np.log(float(nd.condition_number(G, c))) - LEVEL
-            return max(index, *np.log(low / lengths), *np.log(lengths / high))
-
-        ends = []
-        for start in (np.zeros(3), 0.5 * np.array(position), *rng.uniform(-0.2, 0.2, (size(1, 4), 3))):
-            end = start
-            for _ in range(3):
-                end = minimize(worst, end, method="Nelder-Mead", options={"xatol": 1e-8, "fatol": 1e-9}).x
-            ends.append(worst(end))
-        above.append(excess - ends[0])
-        assert excess >= min(ends) - 0.15  # a direct search may end at a kink
-    assert np.median(above) <= 1e-7
-    assert max(above) <= 0.05  # both are local: now and then another valley
-
-
-def test_ranges_of_lengths_divide_what_a_limit_leaves():
-    lengths = np.array([[1.0] * 9, [1.2] * 9])
-    both = nd.Study(constraints={"stroke": {"max": 0.4}, "stroke_ratio": (None, 1.5), "leg_ratio": (None, 3.0)})
-    found = {name: (low[0], high[0]) for name, low, high, _ in _core.leg_ranges(both.problem(), 1.0, lengths)}
-    assert found["stroke"] == pytest.approx((0.9, 1.3))
-    assert found["stroke_ratio"][1] / found["stroke_ratio"][0] == pytest.approx(1.5)
-    assert np.prod(found["leg_ratio"]) == pytest.approx(1.2)
 
 
 def test_poses_that_exclude_a_design_are_named_with_their_turns():

@@ -28,19 +28,11 @@ def solve(variables=None, constraints=None, **others):
 # --- Unbounded --------------------------------------------------------------------------------------------------------
 
 
-def test_unbounded_study_in_millimetres():
-    metres, millimetres = (
-        solve(OPEN | dict.fromkeys(("zp", "zs"), (0.05 * lc, INF)), characteristic_length=lc) for lc in (1, 1e3)
-    )
-    assert metres.status == millimetres.status == "unbounded"
-    assert metres.condition_number == pytest.approx(millimetres.condition_number, rel=1e-9)
-
-
-def test_leg_ratio_makes_the_problem_bounded():
-    """Legs of comparable length keep a planar machine from growing to advantage (theory of limits, section 3)."""
-    far, near = solve(OPEN, {"leg_ratio": (None, 3.0)}), solve({}, {"leg_ratio": (None, 3.0)})
-    assert far.status == near.status == "optimal"
-    assert far.condition_number == pytest.approx(near.condition_number, rel=1e-9)
+def test_planar_triples_without_a_size_are_unbounded():
+    """Theory of limits, section 1: the infimum of planar designs is 1, with ever larger robots."""
+    triples = ("base_external", "base_internal", "platform_external", "platform_internal")
+    open_ended = {f"{triple}_radius": (0.05, INF) for triple in triples} | dict.fromkeys(("zp", "zs"), (0.05, INF))
+    assert solve(open_ended, family="symmetric").status == "unbounded"
 
 
 @pytest.mark.parametrize("limit", [30.0, 100.0, 1000.0])
@@ -85,9 +77,6 @@ def test_heights_from_zero_as_9b_has_them(starts, lc):
 
 CONFLICTS = {
     "legs shorter than the shortest": ({}, {"leg_ratio": (None, 0.5)}, {"leg_ratio"}),
-    "O above the platform": ({}, {"zs_fraction": (1.5, 2.0)}, {"zs_fraction", "zp > zs"}),
-    "heights in the wrong order": ({"zp": 1.0, "zs": 2.0}, {}, {"zp > zs"}),
-    "bounds in the wrong order": ({"zp": (0.1, 1.0), "zs": (2.0, 3.0)}, {}, {"zp", "zs", "zp > zs"}),
     "base too large": (
         dict.fromkeys(("a1", "a2"), (5.0, 6.0)) | dict.fromkeys(("b1", "b2"), (0.0, 0.1)),
         TWICE,
@@ -110,19 +99,7 @@ def test_infeasible(variables, constraints, causes):
     for name in result.causes:
         assert name in result.reason
     assert result.candidates == ()
-    for name in ("best", "condition_number", "variables", "geometry", "configuration", "active", "optimality_residual"):
-        assert getattr(result, name) is None
-    assert result.constraint_violation is None
-
-
-def test_causes_name_only_what_is_in_conflict():
-    """No design has a longest leg of half its shortest: no bound of any variable has a part in that."""
-    assert solve({}, {"leg_ratio": (None, 0.5)}).causes == ("leg_ratio",)
-    assert set(solve({}, {"zs_fraction": (1.0, None)}).causes) == {"zs_fraction", "zp > zs"}
-    variables, constraints, causes = CONFLICTS["base too large"]
-    pinned = {"zp": (3.0, 3.0 + 1e-9), "zs": (1.0, 1.0 + 1e-9)}  # on their bounds wherever they go, and innocent
-    named = set(solve(variables | pinned, constraints).causes)
-    assert named in (causes | {"a1"}, causes | {"a2"})  # either side alone makes the base too large
+    assert (result.starts_done == 1) == (len(variables) == 6), "a design without free variables is tried once"
 
 
 def test_what_else_is_in_conflict_is_named_with_its_unit():
@@ -159,16 +136,6 @@ def test_sides_that_may_both_vanish_are_no_error():
 # --- Bounds always hold -----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("high", [1e6, 2e6, 1e7])
-def test_no_candidate_leaves_a_bound_however_large(high):
-    """Bounds too large to stop a flight are still bounds of the study."""
-    for variables in (OPEN | {"a2": (0.0, high)}, dict.fromkeys(OPEN, (0.0, 9e5)) | {"a2": (0.0, high)}):
-        result = solve(variables)
-        for c in result.candidates:
-            for name, (low, top) in variables.items():
-                assert low <= c.variables[name] <= top
-
-
 def test_limits_of_the_box_that_named_nothing():
     """Only a far higher platform has legs that change so little; once a violation shared by two rows hid all limits."""
     ten = [{}, {"position": (0, 0, 1)}, *({"position": p} for p in itertools.product((-1, 1), repeat=3))]
@@ -189,8 +156,10 @@ def test_limits_of_the_box_that_named_nothing():
     assert 1.2 < least < 1.31
 
 
-def test_heights_are_not_blamed_on_the_order_of_the_plates():
-    result = solve({}, {"height": (None, 1), "leg_length": (3, None), "footprint": (None, 1)})
+def test_heights_are_not_blamed_on_the_order_of_the_plates_by_any_number_of_threads():
+    study = nd.Study(constraints={"height": (None, 1), "leg_length": (3, None), "footprint": (None, 1)}, starts=8)
+    result = nd.optimize(study, threads=3)
+    assert result.reason == nd.optimize(study, threads=1).reason
     assert set(result.causes) == {"height", "leg_length", "footprint"}
     # A leg from the rim of the base to O below the platform: sqrt(1 + 1), or 3 = sqrt(1 + 8).
     for words in ("leg_length >= 1.414", "height <= 2.829", "footprint <= 2.829"):
@@ -246,11 +215,6 @@ def test_two_limits_in_conflict_are_named_and_nothing_else(seed):
     assert set(result.causes) == culprits
 
 
-def test_conflicts_have_the_same_words_for_any_number_of_threads():
-    study = nd.Study(constraints={"height": (None, 1), "leg_length": (3, None), "footprint": (None, 1)}, starts=8)
-    assert nd.optimize(study, threads=1).reason == nd.optimize(study, threads=3).reason
-
-
 def test_an_optimum_far_out_is_not_unbounded():
     """Legs of at most 1000 to 1 stop the flight at a base of 17 466: beyond the first cuts, not beyond all."""
     result = solve(OPEN, {"leg_ratio": (None, 1000.0)})
@@ -297,12 +261,6 @@ def test_few_starts_that_find_nothing_are_followed_by_others(starts, seed):
     result = nd.optimize(study)
     assert result.status == "optimal"
     assert starts < result.starts_done <= 16 + starts
-
-
-def test_a_design_without_free_variables_is_tried_once():
-    fixed = nd.optimize(nd.Study(variables=PUBLISHED | {"theta_z": 0.0}, constraints={"radius_ratio": (None, 0.5)}))
-    assert fixed.status == "infeasible"
-    assert fixed.starts_done == 1
 
 
 @pytest.mark.parametrize(

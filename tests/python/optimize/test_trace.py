@@ -35,33 +35,3 @@ def test_start_that_breaks_a_constraint_counts_as_infinite():
 )
 def test_awkward_starts(changes):
     assert nd.trace(STUDY, START | changes).end.condition_number == pytest.approx(LEAST, rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    "start",
-    [
-        (
-            29.257140259667715,
-            0.6421020811874084,
-            0.40986068631934924,
-            11.798318439268519,
-            6.902282678495787,
-            1.6775991978546139,
-        ),
-        (
-            12.216863121416141,
-            3.1350561615500165,
-            2.619059065309565,
-            4.1258089172215,
-            1.862449716658528,
-            0.9691215450053267,
-        ),
-    ],
-    ids=["a1 long", "b2 long"],
-)
-def test_run_that_ends_at_an_invalid_robot(start):
-    """Legs of very different length push some runs into a plate without size: an end like another, only a bad one."""
-    study = nd.Study(constraints={"radius_ratio": (None, 2.0), "leg_ratio": (4.0, None)})
-    t = nd.trace(study, dict(zip(START, start, strict=True)))
-    assert t.best
-    assert t.end.condition_number > 4.0

@@ -129,14 +129,6 @@ def test_a_set_from_its_file_is_gone_on_with(tmp_path):
     same(*(nd.admissible(study, vary, **options | fine, resume=one) for one in (loaded, coarse)))
 
 
-def test_without_time_nothing_is_decided():
-    study, vary, options = ASKED["two variables"]
-    found = nd.admissible(study, vary, **options, executor=Here(), time_limit=0.0)
-    is_a_partition(found)
-    assert found.shares["undecided"] == pytest.approx(1.0)
-    assert not found.interrupted
-
-
 def test_the_error_of_a_root_is_raised():
     study, vary, options = ASKED["two variables"]
     with pytest.raises(ArithmeticError, match="of a root"):

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import numpy_model as model
 import pytest
-from proved_machine import LIMITS, REGIONS, VARIABLES, apart, at_pose, proved, sampled
+from proved_machine import LIMITS, REGIONS, apart, at_pose, proved, sampled
 from region_poses import disc
 from singular_robots import unit_rows
 from sizes import size
@@ -235,17 +235,3 @@ def test_an_error_without_a_bound_has_its_reason(monkeypatch):
     singular = replace(certificate, errors=((math.inf, math.inf),) * 3)
     assert f"{no_bound}: to first order it is infinite at a pose, which is singular." in singular.sentences()[0]
     assert type(certificate).from_dict(without.to_dict()) == without
-
-
-def test_tolerances_of_the_study_are_those_of_its_proofs():
-    asked = nd.Study(
-        family="symmetric",
-        variables=VARIABLES,
-        constraints={"leg_length": (100.0, 700.0)},
-        characteristic_length=150.0,
-        objective=nd.Objective(region=REGIONS["ball"]),
-        tolerances=TOLERANCES,
-    )
-    result = nd.optimize(asked)
-    assert result.certify(time_limit=0.01).tolerances == TOLERANCES
-    assert result.certify(time_limit=0.01, tolerance=0.0).tolerances == nd.Tolerances()

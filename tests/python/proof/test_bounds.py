@@ -117,16 +117,6 @@ def test_a_singular_configuration_has_no_upper_bound_and_a_large_lower_one(kind)
     assert signs == [k == lost for k in range(3)]
 
 
-def test_a_leg_of_zero_length():
-    g = nd.Geometry.hexagonal(a1=1.0, a2=4.0, b1=2.5, b2=0.5)
-    c = nd.Configuration([0.0, 0.0, 3.0], np.eye(3), g.base_internal[0])
-    assert nd.condition_number_bounds(g, c).upper == np.inf
-    lengths = nd.leg_length_bounds(g, c)
-    assert lengths.lower[6] == 0.0
-    assert lengths.upper[6] < 1e-300
-    assert nd.determinant_bounds(g, c).det_b.lower <= 0.0 <= nd.determinant_bounds(g, c).det_b.upper
-
-
 def test_shapes_missing_poses_and_threads(published):
     grid = nd.Configuration.neutral([[3.0], [4.0]], [1.0, 1.5, 2.0])
     functions = {
@@ -146,15 +136,6 @@ def test_shapes_missing_poses_and_threads(published):
         assert_array_equal(np.isnan(function(published, missing).upper).reshape(2, -1).all(axis=1), [False, True])
     assert nd.determinant_bounds(published, grid).det_b.upper.shape == (2, 3)
     assert isinstance(nd.condition_number_bounds(published, grid[0, 0]).lower, float)
-
-
-def test_many_large_stacks_agree_with_the_ordinary_functions(published):
-    stack = nd.Configuration.neutral(3.9828, np.linspace(0.2, 3.8, 3000), np.linspace(-0.5, 0.5, 3000))
-    kappa = nd.condition_number(published, stack)
-    bounds = nd.condition_number_bounds(published, stack)
-    # The ordinary function rounds too: it may lie outside by its own error.
-    assert np.all(np.abs(kappa - 0.5 * (bounds.lower + bounds.upper)) < 1e-13 * kappa**2)
-    assert np.mean((bounds.lower <= kappa) & (kappa <= bounds.upper)) > 0.9
 
 
 def test_numbers_are_shown_in_full(published, neutral):
@@ -188,3 +169,13 @@ def test_a_length_at_the_end_of_the_range_has_finite_bounds():
     assert (lower[:3] <= 1.4142135623730951e100).all()
     assert (upper[:3] >= 1.414213562373095e100).all()
     assert (upper - lower <= 1e-14 * upper).all()
+
+
+def test_a_leg_of_zero_length():
+    g = nd.Geometry.hexagonal(a1=1.0, a2=4.0, b1=2.5, b2=0.5)
+    c = nd.Configuration([0.0, 0.0, 3.0], np.eye(3), g.base_internal[0])
+    assert nd.condition_number_bounds(g, c).upper == np.inf
+    lengths = nd.leg_length_bounds(g, c)
+    assert lengths.lower[6] == 0.0
+    assert lengths.upper[6] < 1e-300
+    assert nd.determinant_bounds(g, c).det_b.lower <= 0.0 <= nd.determinant_bounds(g, c).det_b.upper

@@ -116,15 +116,6 @@ def test_a_pose_that_was_moved_is_refused_or_shows_as_much(lines, verdict):
     assert refused > 0
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("factor", [0.9, 0.97, 1.03, 1.1])
-@pytest.mark.parametrize(("name", "place"), [("leg_length", 3), ("stroke_ratio", 3)])
-def test_another_value_of_a_limit_is_refused(name, place, factor, lines, verdict):
-    n = line_of(lines, f"limit {name}")
-    value = spelled(float.fromhex(lines[n].split(" ")[place]) * factor)
-    assert not verdict(with_word(lines, n, place, value)).proved
-
-
 def test_boxes_that_are_no_division_are_refused(lines, verdict):
     n = boxes(lines, "inside")[3]
     width = float.fromhex(lines[n].split(" ")[2])

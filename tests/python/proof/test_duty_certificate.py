@@ -144,16 +144,6 @@ def test_a_changed_duty_that_a_machine_does_not_bear_is_proved_by_neither(start,
     assert set_in_balls.check(sealed(forged)) == "incomplete"
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["force", "rate"])
-def test_a_tighter_limit_is_refused(name, lines, verdict):
-    n = line_of(lines, f"limit {name} ")
-    bound = float.fromhex(lines[n].split(" ")[3])
-    check = verdict(with_word(lines, n, 3, spelled(0.9 * bound)))
-    assert not check.proved
-    assert f"breaks {name}" in check.words
-
-
 def numbers(lines, start):
     return [[float.fromhex(x) for x in line.split(" ")[1:] if "0x" in x] for line in lines if line.startswith(start)]
 

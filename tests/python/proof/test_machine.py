@@ -9,18 +9,18 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
-from time import sleep
 
 import numpy as np
 import numpy_model as model
 import pytest
 from proved_machine import LIMITS, REGIONS, VARIABLES, apart, at_pose, proved, sampled, study
 from singular_robots import unit_rows
-from sizes import LONG, size
+from sizes import size
 from workspace_oracle import angles
 
 import ninedof as nd
 from ninedof import _core
+from ninedof.proof import machine
 from ninedof.proof.machine import certify, machine_digest
 from ninedof.proof.machine_record import MachineCertificate, outward
 
@@ -106,23 +106,6 @@ def test_a_bound_below_the_worst_condition_number_is_never_proved():
         assert again.limits[-1].answer == answer
 
 
-def test_random_designs_with_bounds_just_below_their_worst_sample():
-    rng = np.random.default_rng(3)
-    region = nd.Region(box=(0.05, 0.05, 0.05), tilt=0.05, unit="zp")
-    for _ in range(size(3, 200)):
-        radius, angle = rng.uniform(0.5, 3.0, 4), rng.uniform(-np.pi, np.pi, 4)
-        geometry = nd.Geometry(*(model.orbit(r, a, 0.0) for r, a in zip(radius, angle, strict=True)))
-        neutral = nd.Configuration.neutral([2.0], [1.2])
-        asked = nd.Study(family="general", objective=nd.Objective(region=region))
-        edge = sampled(region, geometry, neutral, rng, 500)
-        half = edge._replace(p=neutral.position + (edge.p - neutral.position) / VARIABLES["zp"] * 2.0)
-        half = half._replace(s=neutral.internal_point + (edge.s - neutral.internal_point) / VARIABLES["zp"] * 2.0)
-        worst = float(model.condition_number(half, 1.0).max())
-        found = certify(asked, geometry, neutral, 1.0, condition_number=worst * (1.0 - 1e-9), slack=0.0, time_limit=0.3)
-        assert found.limits[-1].answer != "proved"
-        assert found.condition[1] > worst
-
-
 def test_a_singular_pose_in_the_region_is_found():
     """O held in the plane of the upper joints at one place of the region: det C changes its sign."""
     region = nd.Region(box=(20.0, 20.0, 120.0), internal_point="held")
@@ -172,25 +155,6 @@ def test_a_study_without_a_region_is_proved_at_its_poses():
     assert worst.max() <= high <= low * (1.0 + 1e-8)
     assert certificate.condition_at.listed == 1 + worst.argmax()
     assert "2 listed poses" in str(certificate)
-
-
-def test_what_the_record_holds_comes_back():
-    *_, certificate = proved(REGIONS["path"], gap=0.5)
-    assert MachineCertificate.from_dict(certificate.to_dict()) == certificate
-
-
-@pytest.mark.skipif(not LONG, reason="ten minutes: NINEDOF_LONG=1")
-def test_ten_million_poses_of_the_region():
-    region = REGIONS["box"]
-    geometry, neutral, certificate = proved(region, gap=0.02)
-    rng = np.random.default_rng(11)
-    low, high = np.transpose(certificate.lengths)
-    for _ in range(100):
-        m = sampled(region, geometry, neutral, rng, 100_000)
-        lengths = model.lengths(m)
-        assert (lengths >= low * (1.0 - 1e-13)).all()
-        assert (lengths <= high * (1.0 + 1e-13)).all()
-        assert model.condition_number(m, 150.0).max() <= certificate.condition[1]
 
 
 SMALL = nd.Region(box=(3.0, 4.0, 2.0), tilt=0.01)
@@ -326,18 +290,20 @@ def test_no_known_pose_is_worse_than_the_worst_met():
 
 def test_the_time_of_the_limits_is_not_taken_from_the_condition_number(monkeypatch):
     """Whenever a proof is gone on with they take as long again."""
-    limits, settings, seconds = _core.limits_over_poses, _core.ConditionSettings, []
+    limits, settings, seconds, clock = _core.limits_over_poses, _core.ConditionSettings, [], [0.0]
 
     def slow(*arguments):
-        sleep(0.2)
+        clock[0] += 0.2
         return limits(*arguments)
 
     def noted(**given):
         seconds.append(given["seconds"])
         return settings(**given)
 
+    monkeypatch.setattr(machine, "perf_counter", lambda: clock[0])
     monkeypatch.setattr(_core, "limits_over_poses", slow)
     monkeypatch.setattr(_core, "ConditionSettings", noted)
     geometry, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0), nd.Configuration.neutral([4.0], [2.4])
     certify(nd.Study(objective={"region": {"box": [0.01] * 3}}), geometry, home, 1.0, time_limit=2.0)
-    assert 1.85 < seconds[0] <= 2.0
+    assert clock[0] > 0.0
+    assert seconds[0] == 2.0

@@ -315,11 +315,6 @@ def test_elsewhere_the_neutral_pose_proves_nothing(change):
     assert at_home(REGION) is not None
 
 
-def test_threads_do_not_change_it():
-    one, two = (nd.prove_optimum(REGION, 3.6, threads=count) for count in (1, 2))
-    assert replace(one, seconds=0.0) == replace(two, seconds=0.0)
-
-
 @pytest.mark.parametrize(
     ("study", "words"),
     [

@@ -4,11 +4,11 @@ Oracle: poses drawn from the definition of the region, and the numpy model; the 
 """
 
 import math
-import signal
 
 import numpy as np
 import numpy_model as model
 import pytest
+from interrupts import InterruptedPhase
 from region_poses import drawn
 from scipy.spatial.transform import Rotation
 
@@ -62,35 +62,20 @@ def test_a_rule_is_nearly_as_good_as_the_best_o(shape):
     assert worst < model.condition_number(robots(region, shifted)).max()
 
 
-class Told:
-    """A progress that keeps what it is told, and presses Ctrl-C at words of a kind."""
-
-    def __init__(self, at="never"):
-        self.words, self.at = [], at
-
-    def __call__(self, *_):
-        raise AssertionError("nothing is counted while a rule is fitted")
-
-    def phase(self, words):
-        self.words.append(words)
-        if words.startswith(self.at):
-            signal.raise_signal(signal.SIGINT)
-
-
 def test_a_fit_says_what_it_does():
-    told = Told()
+    told = InterruptedPhase()
     fitted(REGIONS["shift"], {}, 20.3, told)
-    first = [words.split()[0] for words in told.words]
+    first = [words.split()[0] for words in told.phases]
     assert first[:2] == ["placing", "fitting"]
     assert "checking" in first
 
 
 @pytest.mark.parametrize("at", ["placing", "fitting", "checking"])
 def test_an_interrupted_fit_raises(at):
-    told = Told(at)
+    told = InterruptedPhase(at)
     with pytest.raises(KeyboardInterrupt):
         fitted(REGIONS["shift"], {}, 20.3, told)
-    assert told.words[-1].startswith(at)
+    assert told.phases[-1].startswith(at)
 
 
 @pytest.mark.slow

@@ -21,12 +21,6 @@ def test_hexagonal_design(tmp_path):
     assert indices(design)["condition_number"] == pytest.approx(3.9110, abs=5e-5)
 
 
-def test_a_byte_order_mark_is_skipped(tmp_path):
-    file = tmp_path / "design.toml"
-    file.write_bytes(b"\xef\xbb\xbf" + (HEXAGON + NEUTRAL).encode())
-    assert load_design(file) == load(tmp_path, HEXAGON + NEUTRAL)
-
-
 def test_any_joints_and_any_pose(tmp_path, published):
     triples = "".join(
         f"{name} = {getattr(published, name).tolist()}\n"
@@ -63,6 +57,12 @@ BAD = {
     ),
     "table for a number": ("geometry = 3\n", "geometry: got 3"),
     "broken": ("[geometry\n", "not a TOML file"),
+    "angle twice": (
+        HEXAGON + NEUTRAL + "theta_z = 0.1\ntheta_z_deg = 9.0\n",
+        "theta_z: got both theta_z and theta_z_deg",
+    ),
+    "no unit of lengths": ('unit = "zp"\n' + HEXAGON + NEUTRAL, "unit: got 'zp'"),
+    "unit in a table": (HEXAGON + NEUTRAL + 'unit = "mm"\n', "configuration.unit: got 'mm', expected no unit here"),
 }
 
 

@@ -1,6 +1,5 @@
 """Fronts in run folders, written and read back, and the command that makes them."""
 
-import json
 from dataclasses import replace
 
 import pytest
@@ -8,11 +7,6 @@ import pytest
 import ninedof as nd
 from ninedof.optimize.pareto import solving
 from ninedof.records.record import load_run as load
-
-# --- Records ----------------------------------------------------------------------------------------------------------
-
-
-# --- The command ------------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -29,21 +23,6 @@ def test_the_command_prints_and_records(command, tmp_path):
     names = {path.name for path in (tmp_path / "run").iterdir()}
     assert names == {"record.json", "question.json", "report.html", "front.png", "front.svg", "front.pdf", "pieces"}
     assert load(tmp_path / "run").limits == (1.5, 2.0)
-
-
-def test_the_command_prints_json(command, tmp_path):
-    status, out, _ = command("--value 1.5 --value 2 --json --no-figures")
-    assert status == 0
-    data = json.loads(out)
-    assert [row["limit"] for row in data["front"]["rows"]] == [1.5, 2.0]
-    assert data["record"].endswith("record.json")
-    assert {path.name for path in (tmp_path / "run").iterdir()} == {"record.json", "question.json", "pieces"}
-
-
-def test_the_command_reports_an_infeasible_study(command):
-    status, out, _ = command("--against leg_ratio --value 0.5 --starts 16")
-    assert status == 3
-    assert "infeasible" in out
 
 
 @pytest.mark.slow(sanitized=True)

@@ -1,6 +1,6 @@
 """`nd.load` and `nd.save`: every object comes back equal, with one name for each."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -13,6 +13,12 @@ from ninedof.workspace.cells import IndexStatistics
 STUDY = nd.Study(starts=3, constraints={"radius_ratio": (None, 2.0)}, characteristic_length="mean_leg")
 HOME = nd.Configuration.neutral(3.9828, 2.4432, 0.1)
 BOX = ([-1, -1, 3], [1, 1, 5])
+ANY = nd.Study("general", {"zp": (2.0, 6.0), "zs": (0.5, 4.0)}, characteristic_length="optimal", starts=1)
+TWO = nd.Study(
+    constraints={"leg_ratio": [{"max": 3.0}, {"max": 2.0, "at": "neutral"}]},
+    objective={"poses": [{"position": [0.2, 0, 0]}, {"internal_point": "best"}]},
+    starts=4,
+)
 TURNED = nd.Study(
     "symmetric",
     constraints={"radius_ratio": (None, 2.0), "base_cone": {"max_deg": 45, "axis": [0, 0, 1]}},
@@ -43,6 +49,9 @@ def runs(published):
     none = nd.Study(constraints={"leg_ratio": (None, 0.5)}, starts=4)
     return {
         "optimum": lambda: nd.optimize(STUDY),
+        "optimum of any joints": lambda: nd.optimize(ANY),
+        "optimum with two limits of a name": lambda: nd.optimize(TWO),
+        "optimum of a catalogue": lambda: nd.optimize(replace(STUDY, actuators=[nd.Actuator("A", 0.1, 90.0)])),
         "front": lambda: nd.pareto(STUDY, "radius_ratio", values=[0.01, 1.5, 2.0]),
         "front in degrees": lambda: nd.pareto(TURNED, "base_cone_deg", values=[35, 38.05]),
         "front without designs": lambda: nd.pareto(none, "radius_ratio"),

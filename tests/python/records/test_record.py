@@ -34,17 +34,6 @@ def test_round_trip_with_infinite_bounds(tmp_path):
     assert load_record(path).results["optimization"]["status"] == "optimal"
 
 
-def test_round_trip_of_a_limit_at_the_neutral_pose(tmp_path):
-    both = [{"max": 3.0}, {"max": 2.0, "at": "neutral"}]
-    study = nd.Study(constraints={"leg_ratio": both}, objective={"poses": [{"position": [0.2, 0, 0]}, {}]}, starts=4)
-    result = nd.optimize(study)
-    write_run(result, tmp_path)
-    read = load(tmp_path)
-    assert read == result
-    assert "leg_ratio at neutral" in read.active
-    assert load_record(tmp_path).study.constraints["leg_ratio"] == ({"max": 3.0}, {"max": 2.0, "at": "neutral"})
-
-
 def test_non_finite_numbers_are_words_in_json():
     text = encode({"a": math.inf, "b": [-math.inf, math.nan], "c": np.array([0.1, math.inf]), "d": np.int64(3)})
     assert json.loads(text) == {"a": "inf", "b": ["-inf", "nan"], "c": [0.1, "inf"], "d": 3}
@@ -91,26 +80,6 @@ def test_record_without_a_design(tmp_path):
     assert load(tmp_path).best is None
     with pytest.raises(ValueError, match="holds no design"):
         named_design(str(tmp_path))
-
-
-@pytest.mark.parametrize("family", ["hexagonal", "symmetric", "symmetric_nonplanar", "general"])
-def test_design_of_a_record_of_any_family(tmp_path, family):
-    objective = nd.Objective(poses=(nd.Pose(position=(0.1, 0, 0), internal_point="best"),))
-    study = nd.Study(family=family, characteristic_length="optimal", objective=objective, starts=4)
-    x = study.problem().starts(1, 0)[0].tolist()
-    variables = dict(zip(study.problem().names, x, strict=True))
-    point = study.evaluate(variables)
-    numbers = {
-        name: getattr(point, name) for name in ("objective", "neutral_condition_number", "characteristic_length")
-    }
-    lists = {"conditions": list(point.conditions), "active": [], "prices": {}}
-    candidate = {"variables": variables, **numbers, **lists, "optimality_residual": 0.0, "constraint_violation": 0.0}
-    found = {"status": "optimal", "reason": "", "causes": [], "evaluations": 1, "starts_done": 1, "seconds": 0.0}
-    found["candidates"] = [candidate | {"reached": 1}]
-    write_record(Record("optimization", study, {"optimization": found}), tmp_path)
-    design = named_design(str(tmp_path)).design
-    assert design[:3] == (point.geometry, point.configuration, point.characteristic_length)
-    assert load_record(tmp_path).study == study
 
 
 def test_a_record_keeps_the_command_line_and_python_has_none(tmp_path):

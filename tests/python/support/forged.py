@@ -19,6 +19,18 @@ def sealed(lines):
     return f"{FIRST}{zlib.crc32(body):x}\n".encode() + body
 
 
+def tree_parts(data):
+    """The lines below the checksum of a certificate of an optimum, and the bytes of its tree."""
+    head, _, tree = data.partition(b"\ntree ")
+    return head.decode().splitlines()[2:], tree.partition(b"\n")[2]
+
+
+def sealed_tree(lines, tree):
+    """The bytes of a certificate of an optimum."""
+    body = "".join(f"{line}\n" for line in lines).encode() + f"tree {len(tree)}\n".encode() + tree
+    return f"ninedof certificate 1\nchecksum {zlib.crc32(body):x}\n".encode() + body
+
+
 def verdict_of(data, folder):
     """What the checker says of the bytes of a file."""
     path = folder / "forged.certificate"

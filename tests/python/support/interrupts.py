@@ -69,13 +69,16 @@ def interrupted_on_entry(name):
 
 
 class InterruptedPhase:
-    """A progress callback that sends SIGINT where a phase begins whose words begin in this way, for the nth time."""
+    """A progress callback that keeps what it is told; it sends SIGINT where a phase begins in these words, if any.
 
-    def __init__(self, words, nth=1):
-        self.phases, self._words, self._left = [], words, nth
+    The nth time that one does.
+    """
 
-    def __call__(self, *_):
-        pass
+    def __init__(self, words="no words", nth=1):
+        self.phases, self.reports, self._words, self._left = [], [], words, nth
+
+    def __call__(self, *report):
+        self.reports.append(report)
 
     def phase(self, words):
         self.phases.append(words)

@@ -111,13 +111,3 @@ def test_a_study_without_a_design_has_one_row():
     none = replace(STUDY, constraints={"leg_ratio": (None, 0.5)})
     found = nd.pareto(none, "tolerance")
     assert [(row["limit"], row["status"]) for row in found.table()] == [(0.0, "infeasible")]
-
-
-def test_an_interrupted_front_continues_in_its_folder(tmp_path):
-    def stop(done, total, value):
-        raise KeyboardInterrupt
-
-    options = {"against": "tolerance", "values": [0.0, 0.01]}
-    assert nd.pareto(STUDY, **options, out=tmp_path / "kept", progress=stop).interrupted
-    again = nd.pareto(STUDY, **options, out=tmp_path / "kept")
-    assert again.table() == nd.pareto(STUDY, **options).table()
