@@ -47,14 +47,6 @@ def test_positional_arguments_are_in_the_order_of_the_paper():
         assert_array_equal(getattr(nd.Geometry(*four), name), given_triple)
 
 
-def test_hexagonal_is_one_case_of_symmetric():
-    h = nd.Geometry.hexagonal(a1=0.3, a2=2.0, b1=1.5, b2=0.2)
-    firsts = {name: getattr(h, name)[0] for name in TRIPLES}
-    g = nd.Geometry.symmetric(**{n: (math.hypot(*v[:2]), math.atan2(v[1], v[0]), v[2]) for n, v in firsts.items()})
-    for name in TRIPLES:
-        assert_allclose(getattr(g, name), getattr(h, name), rtol=0.0, atol=1e-14)
-
-
 # --- Value semantics --------------------------------------------------------------------------------------------------
 
 
