@@ -1,8 +1,6 @@
 """The pages in headless Chromium: nothing on the console, nothing wider than the screen or the paper, scripts run."""
 
 import re
-import shutil
-import subprocess
 from dataclasses import replace
 
 import chromium
@@ -31,7 +29,6 @@ WIDE = """[...document.querySelectorAll("table, pre, img, #view, dl")].filter((e
   const box = e.getBoundingClientRect();
   return e.scrollWidth > e.clientWidth + 1 || box.left < -1 || box.right > document.documentElement.clientWidth + 1;
 }).map((e) => e.innerText || e.tagName)"""
-ROWS = "[...document.querySelectorAll('main tr')].filter((r) => r.offsetHeight).map((r) => r.innerText)"
 BROKEN = "[...document.querySelectorAll('tr')].filter((r) => getComputedStyle(r).breakInside !== 'avoid').length"
 
 
@@ -232,18 +229,3 @@ def test_no_third_of_the_page_is_empty(browser, pages):
         f"[{right}(e) => e.getBoundingClientRect().right)), document.body.getBoundingClientRect().right]"
     )
     assert ends[0] > ends[1] - 40.0
-
-
-@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs the program pdftotext (Debian: poppler-utils)")
-def test_no_row_is_broken_over_pages_of_a_pdf(browser, pages, tmp_path):
-    browser.open(pages["optimization"], PAPER, 1000, media="print")
-    rows = browser.run(ROWS)
-    browser.pdf(tmp_path / "it.pdf")
-    done = subprocess.run(
-        ["pdftotext", "-layout", tmp_path / "it.pdf", "-"], capture_output=True, text=True, check=True
-    )
-    sheets = [set(text.split()) for text in done.stdout.split("\f") if text.strip()]
-    assert len(sheets) > 2
-    assert len(rows) > 40
-    for row in rows:
-        assert any(set(row.split()) <= words for words in sheets), row

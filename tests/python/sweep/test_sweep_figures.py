@@ -191,11 +191,6 @@ def test_no_line_of_a_map_is_a_bead_of_its_grid(count):
     assert count > 4
 
 
-def test_an_unknown_index_is_not_drawn():
-    with pytest.raises(ValueError, match="name: got 'kappa', expected one of condition_number"):
-        plot.sweep(nd.sweep(G, HOME, {"x_p": [0.0]}), "kappa")
-
-
 def test_the_atlas_is_drawn():
     result = nd.atlas(20_000)
     figure = plot.atlas(result, (2.0, 3.762659))

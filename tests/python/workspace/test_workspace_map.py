@@ -1,13 +1,10 @@
 """Maps of workspaces: cells, limits, sections, files, figures, and arguments."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 import ninedof as nd
-from ninedof import plot
 
 BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])
 LEGS = {"leg_limits": (2.5, 6.5)}
@@ -75,18 +72,6 @@ def test_the_number_of_evaluations_is_limited(published):
     assert limited.status == "limited"
     assert limited.evaluations <= 60_000
     assert limited.error > 1e-6 * limited.volume
-
-
-def test_the_figure_has_the_given_sections_and_limits(found):
-    sections = [plot.Section(found.slice("y", 0.0)), plot.Section(found.slice("z", 4.8), ((0.0, 0.0), 0.8))]
-    figure = plot.workspace(replace(found, unit="m"), sections)
-    titles = [axes.get_title(loc="left") for axes in figure.axes]
-    assert titles[:2] == ["y = 0 m", "z = 4.8 m"]
-    assert figure.axes[0].get_xlabel() == "x (m)"
-    words = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert set(words) == {"external legs", "upper internal legs", "condition number", "largest ball"}
-    with pytest.raises(ValueError, match="sections: got 0"):
-        plot.workspace(found, [])
 
 
 def test_a_section_shows_no_cell_without_an_allowed_part(published):
