@@ -110,17 +110,6 @@ def test_reference_cases(case):
         assert min(errors) < proof.radius[k] + case["tol"]
 
 
-@pytest.mark.parametrize("power", [-280, -60, 60, 280])
-def test_the_unit_does_not_matter(published, power):
-    lengths = nd.leg_lengths(published, nd.Configuration.neutral(3.9828, 2.4435))
-    unit = 2.0**power
-    sides = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0}
-    g = nd.Geometry.hexagonal(**{name: side * unit for name, side in sides.items()})
-    _, proof = certified(g, lengths * unit)
-    assert (proof.complete, proof.proved) == (True, 32)
-    assert proof.radius.max() < 1e-12
-
-
 # --- Where nothing can be decided -------------------------------------------------------------------------------------
 
 

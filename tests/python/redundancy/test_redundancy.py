@@ -4,11 +4,8 @@ import numpy as np
 import numpy_model
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
-from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 from sizes import size
-from workspace_oracle import robots
-from workspace_oracle import signs as signs_of
 
 import ninedof as nd
 
@@ -23,62 +20,6 @@ def random_case(rng, hexagonal):
         g = numpy_model.random_robots(rng, 1).at(0).geometry()
     p = np.array([0.0, 0.0, 3.5]) + 0.4 * rng.normal(size=3)
     return g, p, Rotation.from_rotvec(0.2 * rng.normal(size=3)).as_matrix()
-
-
-def signs_and_values(g, p, q, s):
-    """Signs of det N, det B and det C, and the condition number, by plain numpy for points s, shape (n, 3)."""
-    m = robots(g, np.broadcast_to(p, s.shape), q, s)
-    with np.errstate(all="ignore"):
-        return signs_of(m), numpy_model.condition_number(m)
-
-
-def penalised(x, g, p, q, signs):
-    """Return the condition number, infinite in other chambers."""
-    sign, value = signs_and_values(g, p, q, x[None])
-    return value[0] if (sign[0] == signs).all() else np.inf
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("hexagonal", [True, False])
-def test_no_better_point_in_the_chamber(hexagonal):
-    rng = np.random.default_rng(5)
-    compared = 0
-    for _ in range(size(4, 12)):
-        g, p, q = random_case(rng, hexagonal)
-        best = nd.best_internal_point(g, p, q)
-        if best.status == "unbounded":
-            continue
-        assert best.status == "found"
-        s = best.configuration.internal_point
-        assert_allclose(best.value, nd.condition_number(g, best.configuration), rtol=1e-12)
-        around = np.concatenate([s + 3.0 * rng.normal(size=(4000, 3)), s + 0.3 * rng.normal(size=(4000, 3)), s[None]])
-        signs, values = signs_and_values(g, p, q, around)
-        inside = (signs == signs[-1]).all(axis=-1)
-        near = size(1e-5, 1e-7)
-        for k in np.argsort(np.where(inside, values, np.inf))[: size(2, 3)]:
-            end = minimize(
-                penalised, around[k], (g, p, q, signs[-1]), "Nelder-Mead", options={"xatol": near, "fatol": 0.01 * near}
-            )
-            way = s + np.linspace(0.0, 1.0, 400)[:, None] * (end.x - s)
-            if (signs_and_values(g, p, q, way)[0] == signs[-1]).all():  # else: the same signs, another chamber
-                compared += 1
-                assert end.fun >= best.value * (1.0 - 1e-6)
-    assert compared >= size(4, 16)
-
-
-def test_o_moves_while_the_platform_stays(published):
-    """External legs and pose are the same, the condition number is less."""
-    rng = np.random.default_rng(6)
-    p = np.array([0.0, 0.0, 3.98]) + 0.5 * rng.uniform(-1.0, 1.0, size=(60, 3))
-    q = Rotation.from_rotvec(0.2 * rng.normal(size=(60, 3)))
-    best = nd.best_internal_point(published, p, q)
-    middle = nd.Configuration(p, q, 0.5 * p)
-    assert set(best.status) == {"found"}
-    assert_array_equal(best.configuration.position, p)
-    assert_allclose(nd.leg_lengths(published, best.configuration)[:, :3], nd.leg_lengths(published, middle)[:, :3])
-    gain = nd.condition_number(published, middle) / best.value
-    assert gain.min() >= 1.0 - 1e-9
-    assert np.median(gain) > 1.03
 
 
 def test_leg_centring_keeps_the_clearance_and_names_it(published):

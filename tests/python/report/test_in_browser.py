@@ -210,22 +210,3 @@ def test_a_report_has_at_most_four_pages_and_no_table_is_torn_or_cut(browser, tm
         browser.open(made, PAPER, 1000, media="print")
     browser.run(THREE_DESIGNS)
     assert browser.run(OVERLAP) == 0
-
-
-@pytest.mark.parametrize("kind", ["optimization", "workspace"])
-def test_what_was_asked_is_in_columns_on_paper(browser, pages, kind):
-    """In one column the record of a path or a workspace filled pages; commands are lines."""
-    browser.open(pages[kind], PAPER, 1000, media="print")
-    listings = "[...document.querySelectorAll('#again pre')].map((e) => [e.innerText, getComputedStyle(e).columnCount])"
-    counts = {columns for text, columns in browser.run(listings) if text.startswith("ninedof ")}
-    assert counts == ({"auto"} if kind == "optimization" else set()), "commands"
-    assert browser.run(listings)[-1][1] == "4"
-
-
-def test_no_third_of_the_page_is_empty(browser, pages):
-    browser.open(pages["optimization"], 1280, 800)
-    right = "Math.max(...[...document.querySelectorAll('section .table, section figure, section p')].map("
-    ends = browser.run(
-        f"[{right}(e) => e.getBoundingClientRect().right)), document.body.getBoundingClientRect().right]"
-    )
-    assert ends[0] > ends[1] - 40.0

@@ -405,20 +405,6 @@ def test_the_page_of_an_interrupted_run_does_not_outlive_it(tmp_path, monkeypatc
     assert not (tmp_path / "report.html").exists()
 
 
-def test_the_command_names_its_option(run, folder):
-    status, _, err = run(f"report {folder} --out {folder / 'none' / 'it.html'}")
-    assert status == 2
-    assert "--out: got" in err
-
-
-@pytest.mark.slow(sanitized=True)
-def test_the_command_says_what_it_does_before_it_is_done(run, folder, tmp_path):
-    status, out, err = run(f"report {folder} --out {tmp_path / 'page.html'} --json")
-    assert status == 0
-    assert list(json.loads(out)) == ["report"]
-    assert err.splitlines()[0].strip().startswith("writing the report")
-
-
 @pytest.mark.parametrize(
     ("value", "among", "text"),
     [

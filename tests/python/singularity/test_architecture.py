@@ -224,14 +224,6 @@ def test_the_distance_is_the_least_largest_move_of_a_joint(kind):
     assert nearest.relative == pytest.approx(nearest.distance / longest)
 
 
-def test_distances_scale_with_the_unit_of_lengths():
-    g = nd.Geometry.hexagonal(a1=0.3, a2=5.0, b1=3.0, b2=0.2)
-    far = nd.Geometry.hexagonal(a1=300.0, a2=5000.0, b1=3000.0, b2=200.0)
-    near, at_scale = nd.architecture_singularity(g), nd.architecture_singularity(far)
-    assert (near.kind, near.relative) == (at_scale.kind, pytest.approx(at_scale.relative))
-    assert at_scale.distance == pytest.approx(1000.0 * near.distance)
-
-
 def test_the_dissimilarity_is_the_least_residual_of_all_orientations():
     rng = np.random.default_rng(8)
     g = nd.Geometry(*rng.normal(size=(4, 3, 3)))

@@ -81,18 +81,6 @@ def test_covariance_of_independent_errors(seed):
     assert_allclose(result, expected, atol=1e-13 * np.linalg.cond(robots.rates(m)) * np.abs(expected).max())
 
 
-@given(SEEDS, st.floats(1e-6, 1e6))
-def test_bounds_in_another_length_unit(seed, unit):
-    m, _ = robots.regular(seed)
-    result, expected = bounds(robots.scaled(m, unit), 1e-3 * unit, 2e-3 * unit), bounds(m, 1e-3, 2e-3)
-    rtol = 1e-13 * np.linalg.cond(robots.rates(m))
-    change = np.repeat([1.0, unit, unit], 3)
-    assert_allclose(result.components, expected.components * change, rtol=rtol)
-    assert_allclose([result.rotation, result.position], [expected.rotation, expected.position * unit], rtol=rtol)
-    size = np.abs(expected.covariance).max()
-    assert_allclose(result.covariance / np.outer(change, change), expected.covariance, atol=rtol * size)
-
-
 def test_leg_of_zero_length_has_no_bound(published):
     for s, regular in ((published.base_internal[1], False), ([0.0, 1.6778953523188904, 4.0], True)):
         result = nd.error_bounds(published, nd.Configuration([0, 0, 4.0], np.eye(3), s), 1e-3)
@@ -162,14 +150,6 @@ def test_same_bits_for_any_threads_and_run_length(published, neutral):
     assert len(np.unique(one[:, 0])) == COUNT
     other = nd.error_samples(published, neutral, 1e-3, 1e-3, samples=COUNT, seed=8)
     assert not np.intersect1d(one[:, 0], other[:, 0]).size
-
-
-@pytest.mark.parametrize("unit", [1e-6, 1e-3, 1e6])
-def test_samples_in_another_length_unit(unit):
-    m, _ = robots.regular(18)
-    expected = samples(m, 1e-2, 1e-2, samples=200) * np.repeat([1.0, unit, unit], 3)
-    result = samples(robots.scaled(m, unit), 1e-2 * unit, 1e-2 * unit, samples=200)
-    assert_allclose(result, expected, atol=0, rtol=1e-9)
 
 
 def test_samples_do_not_depend_on_the_distance_from_the_origin():

@@ -1,9 +1,8 @@
-"""Inverse dynamics: held against MuJoCo's mass matrix, against energies written in numpy, and against statics."""
+"""Inverse dynamics: held against energies written in numpy and against statics; against MuJoCo in export."""
 
 from dataclasses import asdict
 from types import SimpleNamespace
 
-import mujoco_models as models
 import numpy as np
 import pytest
 import robots
@@ -120,42 +119,6 @@ def test_powers_of_the_actuators_are_the_rate_of_the_energy(seed):
     assert motion.power.sum() == pytest.approx(expected, abs=1e-7 * scale)
     assert_allclose(motion.rates, nd.inverse_velocity(g, path(t), *velocity.reshape(3, 3)))
     assert_allclose(motion.power, motion.forces * motion.rates)
-
-
-# --- MuJoCo -----------------------------------------------------------------------------------------------------------
-
-
-def mujoco_text(g, c, masses):
-    """The struts of mujoco_models with given masses; legs are thin: MuJoCo takes no inertia below 1e-15."""
-    text = models.closed_loop_model(g, c)
-    nine = of_legs(masses)
-
-    def with_inertia(body, at, mass, inertia):
-        begin = text.index("<inertial", text.index(f'<body name="{body}"'))
-        end = text.index("/>", begin) + 2
-        return f'{text[:begin]}<inertial pos="{models.numbers(at)}" mass="{float(mass)!r}" {inertia}/>{text[end:]}'
-
-    for k, leg in enumerate(models.LEGS):
-        for part, sign in (("cylinder", 1.0), ("rod", -1.0)):
-            across = nine[f"{part}_inertia"][k]
-            inertia = f'diaginertia="{models.numbers([across, across, 1e-14])}"'
-            text = with_inertia(f"{part} {leg}", [0, 0, sign * nine[f"{part}_centre"][k]], nine[part][k], inertia)
-    text = with_inertia("O", np.zeros(3), masses.internal_point, 'diaginertia="1 1 1"')
-    tensor = f'fullinertia="{models.numbers(masses.inertia)}"'
-    return with_inertia("platform", masses.centre, masses.platform, tensor)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_forces_are_those_of_mujoco(seed):
-    mujoco = pytest.importorskip("mujoco")
-    m, rng = robots.regular(seed)
-    g, c, masses, load = m.geometry(), m.configuration(), some_masses(rng), rng.normal(size=6)
-    velocity, acceleration = rng.normal(size=(2, 9))
-    engine = mujoco.MjModel.from_xml_string(mujoco_text(g, c, masses))
-    engine.opt.gravity[:] = GRAVITY
-    expected = models.leg_forces(engine, c, velocity, acceleration, load)
-    motion = nd.inverse_dynamics(g, c, (velocity, acceleration), masses, GRAVITY, load)
-    assert_allclose(motion.forces, expected, rtol=0.0, atol=1e-9 * np.abs(expected).max())
 
 
 # --- statics, units, arguments ----------------------------------------------------------------------------------------

@@ -1,9 +1,9 @@
-"""The robot as two MuJoCo models: MJCF text from the coordinates of its joints and a pose.
+"""The robot as a MuJoCo model with legs as tendons, and what the engine says of the model that is exported.
 
 Shares with the package the twelve joints, the pose and the order of the legs, nothing else: no leg vector, length or
 matrix of the package. The text says what hangs on what; lengths, rates, forces and motion are the engine's.
 
-In both models O is a small body on three slides and the platform a free body, so that the first ten coordinates of a
+O is a small body on three slides and the platform a free body, so that the first ten coordinates of a
 state are s, p and the quaternion (w, x, y, z) of Q; the first nine velocities are sdot and pdot in the axes of the base
 and omega in the axes of the platform.
 """
@@ -15,7 +15,6 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 LEGS = [f"{kind}{i}" for kind in "lqr" for i in (1, 2, 3)]  # the order of eq. (35b)
-ROD_MASS = 1.0
 
 
 def numbers(values: Iterable[float]) -> str:
@@ -29,10 +28,9 @@ def quaternion(rotation) -> str:
 
 
 class Leg(NamedTuple):
-    """One leg: the body and point it starts from, the body and point it ends at, as sites of those bodies."""
+    """One leg: the points it starts from and ends at, as sites of bodies."""
 
     name: str
-    root: str
     root_site: str
     tip_site: str
 
@@ -40,11 +38,11 @@ class Leg(NamedTuple):
 def legs() -> Iterator[Leg]:
     """External legs go from base to platform; both kinds of internal legs end in O (paper, Section 3)."""
     for i in (1, 2, 3):
-        yield Leg(f"l{i}", "base", f"base_external{i}", f"platform_external{i}")
+        yield Leg(f"l{i}", f"base_external{i}", f"platform_external{i}")
     for i in (1, 2, 3):
-        yield Leg(f"q{i}", "platform", f"platform_internal{i}", "O")
+        yield Leg(f"q{i}", f"platform_internal{i}", "O")
     for i in (1, 2, 3):
-        yield Leg(f"r{i}", "base", f"base_internal{i}", "O")
+        yield Leg(f"r{i}", f"base_internal{i}", "O")
 
 
 def joints(g) -> dict[str, np.ndarray]:
@@ -57,8 +55,8 @@ def sites(g, body: str) -> str:
     return "".join(f'<site name="{n}" pos="{numbers(at)}"/>' for n, at in joints(g).items() if n.startswith(body))
 
 
-def world(g, c, on_base: str = "", on_platform: str = "") -> str:
-    """Base, platform and O with their joints as sites; what else hangs on base and platform is handed in."""
+def world(g, c) -> str:
+    """Base, platform and O with their joints as sites."""
     slides = "".join(
         f'<joint name="s{axis}" type="slide" axis="{direction}" ref="{float(at)!r}"/>'
         for axis, direction, at in zip("xyz", ("1 0 0", "0 1 0", "0 0 1"), c.internal_point, strict=True)
@@ -73,9 +71,9 @@ def world(g, c, on_base: str = "", on_platform: str = "") -> str:
         <body name="platform" pos="{numbers(c.position)}" quat="{quaternion(c.rotation)}">
           <freejoint name="platform"/>
           <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
-          {sites(g, "platform")}{on_platform}
+          {sites(g, "platform")}
         </body>
-        {sites(g, "base")}{on_base}
+        {sites(g, "base")}
       </worldbody>"""
 
 
@@ -100,58 +98,6 @@ def tendon_model(g, c, kp: float = 1e4, kv: float = 400.0, timestep: float = 1e-
       {world(g, c)}
       <tendon>{tendons}</tendon>
       {actuators("tendon", kp, kv)}
-    </mujoco>"""
-
-
-def strut(leg: Leg, start, end) -> str:
-    """A cylinder on a ball joint and a rod that slides in it, pointing from `start` to `end` in the root's frame.
-
-    The slide reads the length of the leg. The ball joint lets the leg spin about itself, which moves nothing; the
-    small damping stops the spin.
-    """
-    span = np.subtract(end, start)
-    length = float(np.linalg.norm(span))
-    towards, _ = Rotation.align_vectors(span / length, [0.0, 0.0, 1.0])
-    body = '<inertial pos="0 0 0" mass="{}" diaginertia="{} {} {}"/>'.format
-    return f"""
-      <body name="cylinder {leg.name}" pos="{numbers(start)}" quat="{quaternion(towards.as_matrix())}">
-        <joint type="ball" damping="0.1"/>{body(1.0, 0.1, 0.1, 0.01)}
-        <body name="rod {leg.name}" pos="0 0 {length!r}">
-          <joint name="{leg.name}" type="slide" axis="0 0 1" ref="{length!r}"/>{body(ROD_MASS, 0.1, 0.1, 0.01)}
-          <site name="tip {leg.name}"/>
-        </body>
-      </body>"""
-
-
-def closed_loop_model(g, c, gravity: float = 0.0, timestep: float = 1e-3) -> str:
-    """The whole mechanism: nine struts, their tips held at platform joints and at O by 27 scalar constraints.
-
-    45 degrees of freedom less 27 leave the nine of the robot and nine spins. With h the time step and m the mass of a
-    rod, the actuators have a stiffness of 0.1 m / h^2, which an integrator explicit in positions bears, and a damping
-    of 3 m / h, half of what makes the loops shake. Constraints have the shortest time constant that MuJoCo takes, two
-    steps, and an impedance of 0.9999: under load they give way by a ten-thousandth of what they would do free.
-    """
-    position = joints(g) | {"O": c.internal_point}
-    hung: dict[str, list[str]] = {"base": [], "platform": []}
-    for leg in legs():
-        end = position[leg.tip_site]
-        if leg.tip_site.startswith("platform"):
-            end = c.position + c.rotation @ end
-        if leg.root == "platform":
-            end = (end - c.position) @ c.rotation
-        hung[leg.root].append(strut(leg, position[leg.root_site], end))
-    held = "".join(
-        f'<connect site1="tip {leg.name}" site2="{leg.tip_site}" solref="{2 * timestep} 1" solimp="0.9999 0.9999"/>'
-        for leg in legs()
-    )
-    return f"""
-    <mujoco model="ninedof, legs as struts">
-      <compiler angle="radian"/>
-      <option timestep="{timestep}" integrator="implicitfast" solver="Newton" tolerance="1e-14" jacobian="dense"
-        gravity="0 0 {-gravity}"/>
-      {world(g, c, "".join(hung["base"]), "".join(hung["platform"]))}
-      <equality>{held}</equality>
-      {actuators("joint", kp=0.1 * ROD_MASS / timestep**2, kv=3.0 * ROD_MASS / timestep)}
     </mujoco>"""
 
 

@@ -90,6 +90,7 @@ def test_a_section_shows_no_cell_without_an_allowed_part(published):
     assert undecided.size > 0
     for n in undecided[:: max(1, undecided.size // 10)]:
         section = found.slice("y", float(cells.centre[n, 1]))
+        assert section.axes == ("x", "z")
         h = np.abs(section.horizontal - cells.centre[n, 0]).argmin()
         v = np.abs(section.vertical - cells.centre[n, 2]).argmin()
         assert section.state[v, h] == 0
