@@ -26,22 +26,6 @@ def stiffness(m, k, **options):
     return nd.stiffness(m.geometry(), m.configuration(), k, **options)
 
 
-# --- Leg forces -------------------------------------------------------------------------------------------------------
-
-
-def test_a_weight_on_the_platform_is_pushed_up(published, neutral):
-    """By hand: without a moment about O the external legs carry nothing, and the six others share the weight evenly."""
-    result, _ = nd.leg_forces(published, neutral, [0, 0, 0], [0, 0, -12.0])
-    lengths = nd.leg_lengths(published, neutral)
-    assert_allclose(result[:3], 0.0, atol=1e-14)
-    assert_allclose(result[3:6], 4.0 * lengths[3:6] / (3.9828 - 2.3745), rtol=1e-14)
-    assert_allclose(result[6:], 4.0 * lengths[6:] / 2.3745, rtol=1e-14)
-    assert (result[3:] > 0.0).all()
-    only_at_o, _ = nd.leg_forces(published, neutral, [0, 0, 0], [0, 0, 0], [0, 0, -12.0])
-    assert_allclose(only_at_o[:6], 0.0, atol=1e-14)
-    assert_allclose(only_at_o[6:], result[6:], rtol=1e-14)
-
-
 # --- Singular configurations ------------------------------------------------------------------------------------------
 
 
@@ -88,14 +72,3 @@ def test_deflection_under_load_gives_the_leg_forces(seed):
     K9 = stiffness(m, k, internal=True)
     pushed = -k * (robots.rates(m) @ np.linalg.solve(K9, load))
     assert_allclose(pushed, forces(m, load).forces, atol=1e-14 * np.linalg.cond(K9) * np.abs(pushed).max())
-
-
-def test_all_internal_legs_in_a_plane():
-    """O itself is loose there; the platform is held within the plane and not against leaving it."""
-    g = nd.Geometry.hexagonal(a1=0.5, a2=4.0, b1=2.5, b2=0.25)
-    m = model.robot(g, nd.Configuration([0.25, 0.125, 0.0], np.eye(3), [0.5, -0.25, 0.0]))
-    k = np.arange(1.0, 10.0)
-    K9 = robots.rates(m).T @ (k[:, None] * robots.rates(m))
-    schur = K9[:6, :6] - K9[:6, 6:] @ np.linalg.pinv(K9[6:, 6:], rcond=1e-13) @ K9[6:, :6]
-    assert_allclose(stiffness(m, k), schur, atol=1e-13 * np.abs(K9).max())
-    assert np.linalg.matrix_rank(schur, tol=1e-12) == 3
