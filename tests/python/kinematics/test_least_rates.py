@@ -8,7 +8,7 @@ import numpy as np
 import numpy_model as model
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_allclose
 from robots import regular
 
 import ninedof as nd
@@ -49,40 +49,3 @@ def test_leg_rates_of_a_platform_velocity_differ_by_null_motions(published, neut
         nd.inverse_velocity(published, neutral, omega, pdot) + nd.null_motion(published, neutral) @ shift,
         atol=1e-14,
     )
-
-
-def test_stack_equals_one_by_one(published, stack):
-    rng = np.random.default_rng(3)
-    omega, pdot, weights = rng.normal(size=(5, 3)), rng.normal(size=(5, 3)), rng.uniform(0.1, 10.0, size=(5, 9))
-    singles = list(stack)
-    assert_array_equal(nd.null_motion(published, stack), [nd.null_motion(published, c) for c in singles])
-    rows = list(zip(singles, omega, pdot, weights, strict=True))
-    assert_array_equal(
-        nd.internal_velocity(published, stack, omega, pdot, weights),
-        [nd.internal_velocity(published, *row) for row in rows],
-    )
-    assert_array_equal(
-        nd.inverse_velocity(published, stack, omega, pdot, weights=weights),
-        [nd.inverse_velocity(published, c, o, p, weights=w) for c, o, p, w in rows],
-    )
-
-
-def test_shapes(published, stack, neutral):
-    assert nd.internal_velocity(published, neutral, np.ones((2, 1, 3)), np.zeros((6, 3))).shape == (2, 6, 3)
-    assert nd.inverse_velocity(published, neutral, [0, 0, 1], [0, 0, 0], weights=np.ones((4, 9))).shape == (4, 9)
-    assert nd.inverse_velocity(published, stack[:0], [0, 0, 1], [0, 0, 0]).shape == (0, 9)
-    grid = nd.Configuration.neutral([[3.0], [4.0]], [1.0, 1.5, 2.0])
-    assert nd.null_motion(published, grid).shape == (2, 3, 9, 3)
-
-
-def test_missing_pose_stays_alone(published):
-    c = nd.Configuration([[0, 0, 4], [np.nan, 0, 4], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
-    for result in (
-        nd.internal_velocity(published, c, [1, 0, 0], [0, 1, 0]),
-        nd.inverse_velocity(published, c, [1, 0, 0], [0, 1, 0])[..., 3:],
-    ):
-        assert np.isfinite(result[[0, 2]]).all()
-        assert np.isnan(result[1]).all()
-    one = nd.internal_velocity(published, c[0], [[1, 0, 0], [np.nan, 0, 0]], [0, 1, 0])
-    assert np.isfinite(one[0]).all()
-    assert np.isnan(one[1]).all()

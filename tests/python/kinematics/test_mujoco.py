@@ -121,19 +121,6 @@ def test_lengths_and_rates_are_those_of_tendons(robot, scale):
         assert_allclose(nd.inverse_velocity(g, c, *motion), data.ten_velocity, rtol=0.0, atol=ROUNDING * scale)
 
 
-def test_lengths_and_rates_with_the_internal_point_in_a_plate(published):
-    """J' does not exist there; lengths and rates do."""
-    rng = np.random.default_rng(2)
-    in_base = nd.Configuration([0.3, -0.2, 3.0], Rotation.from_rotvec([0.2, 0.1, 0.3]), [0.4, 0.7, 0.0])
-    in_platform = nd.Configuration([0.3, -0.2, 3.0], Rotation.from_rotvec([0.0, 0.0, 0.3]), [0.4, 0.7, 3.0])
-    for c in (in_base, in_platform):
-        engine, data = loaded(models.tendon_model(published, c))
-        motion = rng.normal(size=(3, 3))
-        put(engine, data, c, motion)
-        assert_allclose(nd.leg_lengths(published, c), data.ten_length, rtol=ROUNDING)
-        assert_allclose(nd.inverse_velocity(published, c, *motion), data.ten_velocity, rtol=0.0, atol=ROUNDING)
-
-
 @EVERY_ROBOT
 def test_jacobian_and_forward_velocity_undo_tendon_rates(robot):
     """Poses of any orientation, the nearly singular ones left out: there the rounding of any inverse grows."""

@@ -85,15 +85,3 @@ def test_and_so_has_a_tracked_one(robot):
     assert found.status == "tracked"
     assert error(found, c) < 4e-15
     np.testing.assert_allclose(found.separation, separation(g, c), rtol=1e-9)
-
-
-@pytest.mark.parametrize("size", [2.0**-200, 2.0**200])
-def test_in_any_unit(size):
-    g, _, lengths = near_the_base()
-    triples = (g.base_external, g.base_internal, g.platform_external, g.platform_internal)
-    one, other = (
-        nd.forward_position(g, lengths),
-        nd.forward_position(nd.Geometry(*(size * t for t in triples)), size * lengths),
-    )
-    np.testing.assert_array_equal(other.rotation, one.rotation)
-    np.testing.assert_array_equal(other.internal_point, size * one.internal_point)

@@ -10,14 +10,6 @@ from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors,
 HOME = nd.Configuration.neutral(3.9828, 2.4432)
 
 
-def test_angular_velocity_of_a_constant_spin(published):
-    time, spin = np.linspace(0.0, 20.0, 2001), np.array([0.3, -0.5, 0.8])
-    turning = Rotation.from_rotvec(np.outer(time, spin))
-    result = nd.follow(published, nd.Trajectory(time, np.tile(HOME.position, (2001, 1)), turning), HOME)
-    assert result.velocity[:, :3] == pytest.approx(np.tile(spin, (2001, 1)), abs=1e-10)
-    assert np.abs(result.acceleration[:, :3]).max() < 1e-8
-
-
 def test_rotations_agree_with_scipy():
     rng = np.random.default_rng(2)
     r = Rotation.random(200, random_state=3)

@@ -153,6 +153,38 @@ def test_a_part_of_a_figure_is_drawn_in(name):
     assert seen.x0 * whole.dpi >= right.bbox.x0 - 1.0
 
 
+EYE = np.eye(3)
+BAD = [
+    (lambda: plot.condition_curves([]), "designs: got 0"),
+    (lambda: plot.convergence([], [[3.0]], best=3.0), "minimax SQP: got 0"),
+    (lambda: plot.motion(followed(), {"cone": [0.1]}), "margins.cone: got shape"),
+    (lambda: plot.poses({}), "designs: got 0, expected 1 to 4"),
+    (
+        lambda: plot.poses({"a": [1.0, 2.0], "b": [1.0, 2.0, 3.0]}),
+        r"designs: got conditions of shapes \[\(2,\), \(3,\)\]",
+    ),
+    (lambda: plot.poses({"a": [1.0, 2.0]}, ["neutral"]), "names: got 1, expected 2, one a pose"),
+    (lambda: plot.front(front([row(np.inf, "infeasible")])), "front: got 1 limits, none of them finite"),
+    (
+        lambda: plot.mechanisms([plot.Robot("", G, nd.Configuration.neutral(4.0, [2.0, 2.5]))]),
+        "configuration: got a stack",
+    ),
+    (lambda: plot.mechanisms([]), "robots: got 0"),
+    *((lambda n=n: plot.ellipsoids({str(k): (EYE, EYE[0]) for k in range(n)}), f"panels: got {n}") for n in (0, 5)),
+    (lambda: plot.ellipsoids({"bad": (np.eye(2), [1.0, 1.0])}), "panels: got"),
+    *((lambda x=x: plot.ellipsoids({"bad": (EYE, [1.0, 1.0, x])}), "panels: got") for x in (np.nan, -1.0)),
+    *((lambda n=n: plot.workspace(found(), sections()[:1] * n), f"sections: got {n}, expected 1 to 3") for n in (0, 4)),
+    (lambda: plot.certified_workspace([]), "sections: got 0, expected 1 to 3"),
+    (lambda: plot.sweep(swept("its name"), "kappa"), "name: got 'kappa', expected one of its name"),
+]
+
+
+@pytest.mark.parametrize(("draw", "words"), BAD, ids=[words for _, words in BAD])
+def test_what_cannot_be_drawn_is_named(draw, words):
+    with pytest.raises(ValueError, match=f"^{words}"):
+        draw()
+
+
 # --- Files ------------------------------------------------------------------------------------------------------------
 
 

@@ -122,8 +122,3 @@ def test_a_front_of_tolerances_rises_to_where_no_design_is():
     assert "no better than a larger tolerance" in [text.get_text() for text in upper.get_legend().get_texts()]
     same = plot.front(front(ACCURACY, "tolerance", "mm", tolerances=nd.Tolerances()), sketches=0)
     assert same.axes[1].get_xlabel() == "tolerance of joints and legs (mm)"
-
-
-def test_a_front_without_a_finite_limit_is_refused():
-    with pytest.raises(ValueError, match=r"^front: got 1 limits, none of them finite"):
-        plot.front(front([row(math.inf, "infeasible")]))

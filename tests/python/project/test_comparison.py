@@ -38,23 +38,6 @@ def test_a_method_agrees_with_extended_precision(poses, module):
     assert exact.worst_error(*poses, importlib.import_module(f"compare.{module}").prepare(*poses)()) < 1e-11
 
 
-def test_extended_precision_knows_a_matrix_of_known_singular_values(compare):
-    from compare import exact
-
-    rng = np.random.default_rng(3)
-    left, right = np.linalg.qr(rng.normal(size=(6, 6)))[0], np.linalg.qr(rng.normal(size=(9, 6)))[0]
-    rows = (left * np.logspace(0, 5, 6)) @ right.T
-    assert np.allclose(np.sort(exact.singular_values(rows.astype(np.longdouble))), np.logspace(0, 5, 6), rtol=1e-10)
-
-
-def test_the_poses_are_general_and_the_rotations_are_rotations(poses):
-    robot, configurations = poses
-    q = configurations.rotation
-    assert np.allclose(q @ q.swapaxes(1, 2), np.eye(3), atol=1e-14)
-    assert np.allclose(np.linalg.det(q), 1.0)
-    assert len({tuple(joint.round(6)) for triple in robot[:4] for joint in triple}) == 12
-
-
 def test_a_wrong_number_ends_the_program(compare):
     from compare.runner import require_agreement
 

@@ -107,18 +107,7 @@ def test_the_citation_is_complete_and_of_this_version():
     (version,) = re.findall(
         r"project\(\s*ninedof\s+VERSION\s+([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
     )
-    keys = (
-        "cff-version",
-        "message",
-        "type",
-        "title",
-        "version",
-        "abstract",
-        "license",
-        "authors",
-        "keywords",
-        "references",
-    )
+    keys = "cff-version message type title version abstract license authors keywords references".split()
     assert [key for key in keys if not re.search(rf"^{key}:", cff, flags=re.MULTILINE)] == []
     assert re.search(rf"^version: {re.escape(version)}$", cff, flags=re.MULTILINE)
     (title,) = re.findall(r'title: "(The Optimum .*)"', cff)

@@ -10,32 +10,12 @@ import ninedof as nd
 ROOT = Path(nd.__file__).parent
 SYSTEM = "support/kept/store.py"
 MODULES = {"fcntl", "msvcrt", "resource", "termios", "tty", "pty", "pwd", "grp", "syslog", "posix", "nt", "winreg"}
-OF_OS = {
-    "fork",
-    "forkpty",
-    "register_at_fork",
-    "kill",
-    "killpg",
-    "getuid",
-    "geteuid",
-    "getgid",
-    "setsid",
-    "mkfifo",
-    "nice",
-}
-OF_OS |= {"O_CLOEXEC", "O_NONBLOCK", "O_NOFOLLOW", "O_DIRECTORY", "O_TMPFILE", "uname", "chown", "sched_getaffinity"}
-OF_OS |= {
-    "sysconf",
-    "statvfs",
-    "pread",
-    "pwrite",
-    "posix_fallocate",
-    "sendfile",
-    "wait",
-    "waitpid",
-    "getpgid",
-    "chroot",
-}
+OF_OS = set(
+    """fork forkpty register_at_fork kill killpg getuid geteuid getgid setsid mkfifo nice O_CLOEXEC O_NONBLOCK
+    O_NOFOLLOW O_DIRECTORY O_TMPFILE uname chown sched_getaffinity sysconf statvfs pread pwrite posix_fallocate sendfile
+    wait waitpid getpgid chroot""".split()
+)
+OF_SIGNAL = set("alarm setitimer pause sigwait pthread_kill pthread_sigmask siginterrupt".split())
 EVERYWHERE = {"SIGINT", "SIGTERM", "SIGABRT", "SIGFPE", "SIGILL", "SIGSEGV"}  # the signals of every system
 
 
@@ -58,15 +38,7 @@ def posix_only(text):
 
 def _foreign(name):
     signals = name.startswith("SIG") and not name.startswith("SIG_") and name not in EVERYWHERE
-    return signals or name in (
-        "alarm",
-        "setitimer",
-        "pause",
-        "sigwait",
-        "pthread_kill",
-        "pthread_sigmask",
-        "siginterrupt",
-    )
+    return signals or name in OF_SIGNAL
 
 
 @pytest.mark.parametrize(

@@ -163,12 +163,3 @@ def test_tables_are_escaped(shown):
     assert "a&amp;b = 0" in named._repr_html_()
     hostile = replace(shown["Result"], reason="<script>")
     assert "<script>" not in hostile._repr_html_()
-
-
-def test_reprs_do_not_change_what_an_object_is():
-    pose = nd.Pose(position=(1, 0, 0))
-    assert pose == nd.Pose(position=(1, 0, 0))
-    assert hash(pose) == hash(nd.Pose(position=(1, 0, 0)))
-    margins = nd.SingularityMargins(1.0, 2.0, 3.0)
-    assert tuple(margins) == (1.0, 2.0, 3.0)
-    assert margins._fields == ("det_n", "det_b", "det_c")

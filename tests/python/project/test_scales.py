@@ -21,6 +21,10 @@ def measured(g, c, unit):
     margins = nd.singularity_margins(g, c)
     modes = nd.forward_position(g, nd.leg_lengths(g, c[0]))
     lengths = nd.leg_lengths(g, c)
+    errors = nd.error_bounds(g, c, 1e-3 * unit, 2e-3 * unit)
+    sample = nd.error_samples(g, c[0], 1e-3 * unit, 2e-3 * unit, samples=20)
+    architecture = nd.architecture_singularity(g)
+    proof = nd.forward_position(g, lengths[0], certify=True).certificate
     return {
         "leg_lengths": (lengths, 1),
         "condition_number": (nd.condition_number(g, c, unit), 0),
@@ -36,6 +40,13 @@ def measured(g, c, unit):
         "tracked": (nd.track(g, lengths[1], c[0]).internal_point, 1),
         "nearest": (nd.nearest_singularity(g, c[0]).distance, 1),
         "inverse_velocity": (nd.inverse_velocity(g, c, DIRECTION, DIRECTION * unit, DIRECTION * unit), 1),
+        "errors": (errors.position, 1),
+        "errors of turns": (errors.rotation, 0),
+        "samples": (sample[..., 3:], 1),
+        "samples of turns": (sample[..., :3], 0),
+        "architecture": (architecture.distance, 1),
+        "relative": (architecture.relative, 0),
+        "certified": ([proof.complete, proof.proved], 0),
         "best": (nd.best_internal_point(g, c.position, c.rotation, characteristic_length=unit).value, 0),
         "bounds": (np.stack(nd.condition_number_bounds(g, c, unit)), 0),
         "length_bounds": (np.stack(nd.leg_length_bounds(g, c)), 1),

@@ -65,42 +65,6 @@ def test_every_header_is_in_the_reference(builder):
     assert "base_external_" not in text  # private members too
 
 
-def test_a_header_becomes_comments_and_declarations(builder):
-    header = """#pragma once
-/// What it is for: a < b.
-
-namespace ninedof {
-
-/// A number.
-struct A {
-  /// Throws.
-  explicit A(int n, const std::vector<int>& of = {}) : n_(n), of_{of} {
-    if (n < 0) { throw n; }
-  }
-  int n() const { return n_; }  ///< the number
-
- private:
-  int n_;
-};
-
-namespace detail {
-int hidden();
-}  // namespace detail
-
-// a note for who reads the source
-constexpr int twice(int n) {
-  return 2 * n;
-}
-
-}  // namespace ninedof
-"""
-    introduction, ((first, a), (second, twice)) = builder.headers.read(header)
-    assert (introduction, first, second) == ("/// What it is for: a < b.", "/// A number.", "")
-    assert "explicit A(int n, const std::vector<int>& of = {});\n  int n() const;  ///< the number\n};" in a
-    assert twice == "constexpr int twice(int n);"
-    assert builder.headers.markdown(introduction) == "What it is for: a \\< b.\n"
-
-
 def test_every_page_has_its_place(builder):
     listed = {"index"}
     for page, lists in builder.contents.TREE.items():

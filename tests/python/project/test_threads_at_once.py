@@ -58,18 +58,3 @@ def test_four_threads_at_once_have_the_results_of_one():
         assert found is not None  # the thread has not failed
         assert found.keys() == alone.keys()
         assert [name for name in alone if found[name] != alone[name]] == []
-
-
-def test_four_threads_share_one_stack():
-    """The same arrays, Geometry and Configuration in every thread."""
-    alone, found = main_results.batches(1), [None] * THREADS
-
-    def call(k):
-        found[k] = main_results.digests(main_results.batches(k % 3 + 1))
-
-    threads = [threading.Thread(target=call, args=(k,)) for k in range(THREADS)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert found == [main_results.digests(alone)] * THREADS

@@ -1,7 +1,5 @@
 """Maps of best internal points: compared with single searches and all O in plain numpy; symmetry and the audit."""
 
-import itertools
-
 import numpy as np
 import numpy_model
 import pytest
@@ -9,12 +7,10 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.spatial.transform import Rotation
 from sizes import size
 from workspace_oracle import robots as robots_at
-from workspace_oracle import signs
 
 import ninedof as nd
 
 LIMITS = (np.r_[np.full(3, 1.0), np.full(6, 2.2)], np.r_[np.full(3, 9.0), np.full(6, 4.4)])
-TURN = Rotation.from_rotvec([0.0, 0.0, 2.0 * np.pi / 3.0])
 
 
 def plane(n, reach=1.6, height=3.9828):
@@ -53,59 +49,6 @@ def test_general_robots_and_axes_of_orientation():
         assert both.mean() > 0.3
         lost = gain("condition_number", best.value.ravel()[some][both], single.value[both])
         assert (lost > 1e-6).sum() <= 1 + 0.1 * best.audit.missed * len(some) / best.audit.poses
-
-
-@pytest.mark.slow
-def test_no_point_of_a_fine_grid_is_better(published):
-    """All O in a box around the robot that a straight line without singularity reaches, by plain numpy."""
-    best = nd.best_internal_map(published, plane(12))
-    n = size(22, 26)
-    ticks = [np.linspace(-2.5, 2.5, n), np.linspace(-2.5, 2.5, n), np.linspace(0.1, 3.9, n)]
-    box = np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1).reshape(-1, 3)
-    for k in ((0, 0), (3, 7), (6, 6), (11, 4))[:: size(3, 1)]:
-        s = best.configuration.internal_point[k]
-        where = nd.Configuration(
-            np.broadcast_to(best.configuration.position[k], box.shape),
-            np.broadcast_to(best.configuration.rotation[k], (*box.shape, 3)),
-            np.zeros(box.shape),
-        )
-        way = [signs(robots(published, where, s + t * (box - s))) for t in np.linspace(0.0, 1.0, size(20, 30))]
-        same_chamber = np.all([x == way[0] for x in way], axis=(0, 2))
-        with np.errstate(all="ignore"):
-            values = numpy_model.condition_number(robots(published, where, box))
-        assert same_chamber.sum() > 1000
-        assert values[same_chamber].min() >= best.value[k] * (1.0 - 1e-9)
-        assert values[same_chamber].min() <= best.value[k] * 1.05  # the box is about O
-
-
-def test_value_is_that_of_the_configuration(published):
-    best = nd.best_internal_map(published, plane(15), limits=LIMITS, characteristic_length=1.3)
-    c = nd.Configuration(
-        best.configuration.position.reshape(-1, 3), None, best.configuration.internal_point.reshape(-1, 3)
-    )
-    assert_allclose(best.value.ravel(), numpy_model.condition_number(robots(published, c), 1.3), rtol=1e-9)
-
-
-def test_no_point_of_a_neighbour_is_better(published):
-    """The lower envelope within one chamber: no pose would be better with the O of its neighbour."""
-    best = nd.best_internal_map(published, plane(30))
-    p, s, value = best.configuration.position, best.configuration.internal_point, best.value
-    for axis, there in itertools.product((0, 1), (1, -1)):
-        here = tuple(slice(1, -1) if a == axis else slice(None) for a in (0, 1))
-        moved = np.roll(s, there, axis=axis)[here]
-        of_neighbour = nd.condition_number(published, nd.Configuration(p[here], internal_point=moved))
-        assert (of_neighbour >= value[here] * (1.0 - 1e-9)).all()
-
-
-def test_a_turn_by_a_third_gives_the_same_values(published):
-    """The robot has three-fold symmetry but the grid has not, so that the two maps are computed differently."""
-    grid = plane(25)
-    one = nd.best_internal_map(published, grid)
-    two = nd.best_internal_map(published, TURN.apply(grid.reshape(-1, 3)).reshape(grid.shape)[::-1])
-    assert_allclose(two.value[::-1], one.value, rtol=1e-7)
-    turned = one.configuration.internal_point @ TURN.as_matrix().T
-    apart = np.linalg.norm(two.configuration.internal_point[::-1] - turned, axis=-1)
-    assert np.quantile(apart, 0.95) < 1e-5  # elsewhere two points may be equally good
 
 
 # --- Branches and the audit -------------------------------------------------------------------------------------------
@@ -183,17 +126,6 @@ def test_limits_hold_and_are_named(published):
     assert (best.status.ravel()[out] == "infeasible").all()
     assert np.isnan(c.internal_point[~with_o]).all()
     assert np.isnan(best.value.ravel()[~with_o]).all()
-
-
-@pytest.mark.slow
-def test_infeasible_for_internal_legs_as_in_a_search(published):
-    limits = (np.full(9, 1.0), np.r_[np.full(3, 20.0), np.full(6, 4.6)])
-    grid = plane(24, 3.0)
-    best = nd.best_internal_map(published, grid, limits=limits)
-    single = nd.best_internal_point(published, grid, limits=limits)
-    assert {"found", "infeasible"} <= set(best.status.ravel())
-    assert (best.status == single.status).mean() > 0.995
-    assert all(best.active[best.status == "infeasible"])
 
 
 @pytest.mark.slow

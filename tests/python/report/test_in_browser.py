@@ -1,8 +1,6 @@
 """The pages in headless Chromium: nothing on the console, nothing wider than the screen or the paper, scripts run."""
 
 import re
-import shutil
-import subprocess
 from dataclasses import replace
 
 import chromium
@@ -31,7 +29,6 @@ WIDE = """[...document.querySelectorAll("table, pre, img, #view, dl")].filter((e
   const box = e.getBoundingClientRect();
   return e.scrollWidth > e.clientWidth + 1 || box.left < -1 || box.right > document.documentElement.clientWidth + 1;
 }).map((e) => e.innerText || e.tagName)"""
-ROWS = "[...document.querySelectorAll('main tr')].filter((r) => r.offsetHeight).map((r) => r.innerText)"
 BROKEN = "[...document.querySelectorAll('tr')].filter((r) => getComputedStyle(r).breakInside !== 'avoid').length"
 
 
@@ -213,37 +210,3 @@ def test_a_report_has_at_most_four_pages_and_no_table_is_torn_or_cut(browser, tm
         browser.open(made, PAPER, 1000, media="print")
     browser.run(THREE_DESIGNS)
     assert browser.run(OVERLAP) == 0
-
-
-@pytest.mark.parametrize("kind", ["optimization", "workspace"])
-def test_what_was_asked_is_in_columns_on_paper(browser, pages, kind):
-    """In one column the record of a path or a workspace filled pages; commands are lines."""
-    browser.open(pages[kind], PAPER, 1000, media="print")
-    listings = "[...document.querySelectorAll('#again pre')].map((e) => [e.innerText, getComputedStyle(e).columnCount])"
-    counts = {columns for text, columns in browser.run(listings) if text.startswith("ninedof ")}
-    assert counts == ({"auto"} if kind == "optimization" else set()), "commands"
-    assert browser.run(listings)[-1][1] == "4"
-
-
-def test_no_third_of_the_page_is_empty(browser, pages):
-    browser.open(pages["optimization"], 1280, 800)
-    right = "Math.max(...[...document.querySelectorAll('section .table, section figure, section p')].map("
-    ends = browser.run(
-        f"[{right}(e) => e.getBoundingClientRect().right)), document.body.getBoundingClientRect().right]"
-    )
-    assert ends[0] > ends[1] - 40.0
-
-
-@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs the program pdftotext (Debian: poppler-utils)")
-def test_no_row_is_broken_over_pages_of_a_pdf(browser, pages, tmp_path):
-    browser.open(pages["optimization"], PAPER, 1000, media="print")
-    rows = browser.run(ROWS)
-    browser.pdf(tmp_path / "it.pdf")
-    done = subprocess.run(
-        ["pdftotext", "-layout", tmp_path / "it.pdf", "-"], capture_output=True, text=True, check=True
-    )
-    sheets = [set(text.split()) for text in done.stdout.split("\f") if text.strip()]
-    assert len(sheets) > 2
-    assert len(rows) > 40
-    for row in rows:
-        assert any(set(row.split()) <= words for words in sheets), row

@@ -28,8 +28,6 @@ from ninedof.records.record import Record
 from ninedof.report import origin
 from ninedof.report.optimization import FAMILIES, question
 from ninedof.report.page import BLANK, title_block
-from ninedof.tables import Column, Table
-from ninedof.tables.html import Html, html_of, tag
 from ninedof.tables.numbers import short
 
 IMPOSSIBLE = {"height": (None, 1.0), "leg_length": (3.0, None), "footprint": (None, 1.0)}
@@ -407,20 +405,6 @@ def test_the_page_of_an_interrupted_run_does_not_outlive_it(tmp_path, monkeypatc
     assert not (tmp_path / "report.html").exists()
 
 
-def test_the_command_names_its_option(run, folder):
-    status, _, err = run(f"report {folder} --out {folder / 'none' / 'it.html'}")
-    assert status == 2
-    assert "--out: got" in err
-
-
-@pytest.mark.slow(sanitized=True)
-def test_the_command_says_what_it_does_before_it_is_done(run, folder, tmp_path):
-    status, out, err = run(f"report {folder} --out {tmp_path / 'page.html'} --json")
-    assert status == 0
-    assert list(json.loads(out)) == ["report"]
-    assert err.splitlines()[0].strip().startswith("writing the report")
-
-
 @pytest.mark.parametrize(
     ("value", "among", "text"),
     [
@@ -441,30 +425,6 @@ def test_the_command_says_what_it_does_before_it_is_done(run, folder, tmp_path):
 )
 def test_numbers_keep_six_digits_in_any_unit(value, among, text):
     assert short(value, among) == text
-
-
-@pytest.mark.slow(sanitized=True)
-def test_a_machine_in_metres_keeps_its_digits(tmp_path):
-    study = nd.Study(
-        variables={"a1": 0.0, "a2": 0.058124, "b1": 0.029062, "b2": 0.0, "theta_z": 0.0, "zp": 0.039828},
-        characteristic_length=0.01,
-        unit="m",
-        starts=1,
-    )
-    found = nd.optimize(study)
-    _, _, words = read(nd.report(found, tmp_path / "it.html"))
-    words = " ".join(words.split())
-    assert "a2 (m) 0.0581240 b1 (m) 0.0290620" in words
-    assert f"zs (m) {found.best.variables['zs']:.7f}" in words
-    for leg in found.sheet().legs:
-        assert f"{leg.longest:.7f}" in words
-
-
-def test_text_is_escaped_wherever_it_is_put():
-    nasty = '<script>alert("x")</script>'
-    assert "<script>" not in html_of(Table(nasty, [Column(nasty, nasty), Column("b")], [(nasty, nasty)], [nasty]))
-    assert tag("p", nasty, title=nasty).count("<") == 2
-    assert tag("p", Html("<i>x</i>")) == "<p><i>x</i></p>"
 
 
 def test_every_family_of_designs_has_its_words():

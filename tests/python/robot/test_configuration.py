@@ -19,14 +19,6 @@ def message(argument):
     return rf"(?s)^{argument}: got .+, expected .+"
 
 
-def test_neutral_is_equation_6():
-    c = nd.Configuration.neutral(zp=3.0, zs=1.5)
-    assert_array_equal(c.position, [0.0, 0.0, 3.0])
-    assert_array_equal(c.internal_point, [0.0, 0.0, 1.5])
-    assert_array_equal(c.rotation, ONE)
-    assert c.shape == ()
-
-
 def test_neutral_twist_turns_x_towards_y():
     twisted = nd.Configuration.neutral(zp=3.0, zs=1.5, theta_z=math.pi / 6)
     assert_allclose(twisted.rotation @ [1.0, 0.0, 0.0], [math.sqrt(0.75), 0.5, 0.0], atol=1e-15)

@@ -22,16 +22,6 @@ def machine():
 
 
 @pytest.fixture(scope="module")
-def changed(machine):
-    return machine.with_changes(b1="+10%")
-
-
-@pytest.fixture(scope="module")
-def compared(machine, changed):
-    return nd.compare(machine, changed)
-
-
-@pytest.fixture(scope="module")
 def neutral():
     return nd.optimize(nd.Study(constraints=LIMITS, unit="mm", starts=2, characteristic_length=1.0))
 
@@ -55,31 +45,11 @@ def test_variables_that_differ_by_the_rounding_of_a_unit_are_equal(machine):
 
 
 @pytest.mark.slow(sanitized=True)
-def test_the_worst_of_a_change_is_never_passed_at_sampled_poses_and_is_attained(machine, changed, compared):
-    worst = compared.numbers["worst condition number"][1]
-    # An evaluation of its own: p in the box, tilts about horizontal axes, O shifted with p.
-    rng = np.random.default_rng(5)
-    home, g = (
-        changed.configuration,
-        nd.Geometry.hexagonal(0.0, changed.variables["a2"], 1.1 * machine.variables["b1"], 0.0),
-    )
-    corners = np.array(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3)).reshape(3, -1).T
-    shifts = np.vstack([rng.uniform(-1.0, 1.0, (4000, 3)), np.repeat(corners, 200, axis=0)]) * [0.3, 0.3, 0.2]
-    angle, about = np.radians(5.0) * np.sqrt(rng.random(len(shifts))), rng.uniform(0.0, 2.0 * np.pi, len(shifts))
-    angle[4000:] = np.radians(5.0)
-    x, y, sin, cos = np.cos(about), np.sin(about), np.sin(angle), np.cos(angle)
-    q = np.array([[cos + x * x * (1 - cos), x * y * (1 - cos), y * sin],
-                  [x * y * (1 - cos), cos + y * y * (1 - cos), -x * sin],
-                  [-y * sin, x * sin, cos]])  # fmt: skip
-    c = nd.Configuration(home.position + shifts, np.moveaxis(q, 2, 0) @ home.rotation, home.internal_point + shifts)
-    sampled = nd.condition_number(g, c, 1.0)
-    assert sampled.max() <= worst * (1.0 + 1e-9)
-    assert sampled.max() >= worst * (1.0 - 2e-3)
-
-
-@pytest.mark.slow(sanitized=True)
 def test_the_limits_that_a_change_breaks_are_named(machine):
-    both = nd.compare(machine, machine.with_changes(a2="+10%"), names=("run", "changed"))
+    changed = machine.with_changes(a2="+10%")
+    both = nd.compare(machine, changed, names=("run", "changed"))
+    worst = nd.sheet(changed).condition_number.value
+    assert both.numbers["worst condition number"][1] == pytest.approx(worst, rel=1e-9)
     assert both.broken[0] == ()
     assert "leg_ratio max" in both.broken[1]
     assert "changed breaks" in str(both)

@@ -8,7 +8,6 @@ from itertools import combinations
 import numpy as np
 import numpy_model as model
 import pytest
-from limit_oracle import limits_of, measured, robot_of
 from robots import rates, robots_at_poses
 from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
@@ -20,7 +19,6 @@ from ninedof.cli.posed import PoseOptions, named_design
 from ninedof.design.limit_numbers import PARTS, apart
 from ninedof.report.optimization import sheet_html
 from ninedof.sheet.pose_words import outside_words, pose_words
-from ninedof.sheet.rows import limit_rows
 from ninedof.sheet.sheet import Extreme
 from ninedof.sheet.tables import sheet_parts
 
@@ -174,58 +172,6 @@ def test_a_crossed_singularity_is_said():
     without_length = nd.sheet(g, nd.Configuration.neutral(3.0, [0.0, 1.0]), characteristic_length="optimal")
     assert without_length.condition_number == Extreme(np.inf, 0)
     assert singular.stiffness.translation.value == pytest.approx(0.0, abs=1e-9)
-
-
-EVERY = {
-    "radius_ratio": {"min": 0.1, "max": 2.5},
-    "leg_ratio": (None, 3.0),
-    "stroke_ratio": (None, 1.6),
-    "zs_fraction": (0.1, 0.9),
-    "stroke": {"max": 0.5, "of": "zp"},
-    "leg_length": (0.5, 9.0),
-    "external_length": {"max": 2.0, "of": "zp"},
-    "upper_length": (None, 8.0),
-    "lower_length": (None, 8.0),
-    "height": (None, 9.0),
-    "footprint": (None, 9.0),
-    "joint_height": {"max": 2.0, "of": "radius"},
-    "joint_spacing": {"min": 0.1},
-    "leg_clearance": {"radius": 0.05},
-    "base_cone": [{"max_deg": 60, "axis": [0, 0, 1]}, {"max_deg": 50, "axis": [0, 0, 1], "at": "neutral"}],
-    "platform_cone": {"max_deg": 40},
-    "singularity_free": {},
-}
-
-
-@pytest.mark.parametrize("seed", range(size(3, 50)))
-def test_limits_stand_beside_their_values(seed):
-    study = nd.Study(
-        family="symmetric_nonplanar",
-        constraints=EVERY,
-        objective={"poses": nd.poses.box(half=(0.1, 0.1, 0.1))},
-        characteristic_length=1.0,
-    )
-    problem = study.problem()
-    x = problem.starts(1, seed)[0]
-    variables = dict(zip(problem.names, x.tolist(), strict=True))
-    rows, point = limit_rows(study, variables), study.evaluate(variables)
-    margins = point.margins
-    assert {row.name for row in rows} == set(margins)
-    for name, margin in margins.items():
-        assert min(row.margin for row in rows if row.name == name) == pytest.approx(margin, abs=1e-12)
-    robot = robot_of(study, variables)
-    by_side = {(row.name, row.side): row for row in rows}
-    for limit in limits_of(study):
-        if np.isfinite(limit.high):
-            row = by_side[limit.label, "max"]
-            assert (row.limit, row.value) == (limit.high, pytest.approx(measured(limit, robot), rel=1e-9, abs=1e-12))
-    clearance = nd.sheet(point).clearance
-    assert by_side["leg_clearance", "min"].value == pytest.approx(clearance.value, rel=1e-9)
-    spacing = by_side["joint_spacing", "min"]
-    assert spacing.value == pytest.approx(spacing.limit * (1.0 + spacing.margin))
-    assert by_side["leg_length", "min"].value == pytest.approx(
-        nd.leg_lengths(point.geometry, point.configurations).min()
-    )
 
 
 def test_the_sheet_of_a_result_has_the_limits():

@@ -36,23 +36,6 @@ def test_a_given_twist_against_differences_of_lengths(seed, internal):
     assert found.to_dict()["legs"][0]["twist_speed_max"] == found.legs[0].twist_speed[1]
 
 
-@pytest.mark.parametrize("seed", range(size(3, 50)))
-def test_least_squares_of_accelerations(seed):
-    g, c, rng = robots_at_poses(seed, poses=1)
-    twist, rate = rng.normal(size=(2, 6))
-    found = nd.sheet(g, c, internal="least", twist=twist, twist_rate=rate)
-    got = np.array([leg.twist_acceleration[0] for leg in found.legs])
-    sdot = nd.internal_velocity(g, c[0], twist[:3], twist[3:])
-    given = (twist[:3], twist[3:], sdot, rate[:3], rate[3:])
-    for _ in range(50):  # no other acceleration of O has smaller squares
-        other = nd.inverse_acceleration(g, c[0], *given, 3.0 * rng.normal(size=3))
-        assert np.sum(got**2) <= np.sum(other**2) + 1e-9
-    zero = nd.inverse_acceleration(g, c[0], *given, np.zeros(3))
-    along = np.stack([nd.inverse_acceleration(g, c[0], *given, axis) - zero for axis in np.eye(3)], axis=1)
-    best = np.linalg.lstsq(along, -zero, rcond=None)[0]
-    assert got == pytest.approx(zero + along @ best, abs=1e-9)
-
-
 @pytest.mark.parametrize("internal", ["least", "held", "shifted", "carried"])
 @pytest.mark.parametrize("seed", range(size(2, 30)))
 def test_no_direction_accelerates_a_leg_more(seed, internal):
@@ -110,29 +93,3 @@ def test_the_weight_does_the_work_of_its_centre(seed):
         assert leg.forces[1] == leg.forces[0] == pytest.approx((at_poses[:, k].min(), at_poses[:, k].max()), abs=1e-9)
     assert alone.weight is None
     assert nd.sheet(g, c, mass=mass).weight.gravity == (0.0, 0.0, -9.81)
-
-
-@pytest.mark.parametrize("seed", range(size(4, 50)))
-def test_no_way_meets_a_singularity_before_the_nearest(seed):
-    g, c, rng = robots_at_poses(seed, poses=3)
-    found = nd.sheet(g, c, internal="shifted").singularities
-    tangents = {
-        "shift": lambda d: [0 * d, d, d],
-        "turn": lambda d: [d, 0 * d, 0 * d],
-        "internal": lambda d: [0 * d, 0 * d, d],
-    }
-    for name, near in found.items():
-        there = nd.Configuration(near.position, near.rotation, near.internal_point)
-        margins = nd.singularity_margins(g, there)._asdict()
-        assert abs(margins[f"det_{near.mechanism}"]) < 1e-7
-        ways = rng.normal(size=(300, 3))
-        ways /= np.linalg.norm(ways, axis=1, keepdims=True)
-        ways = np.concatenate([ways, [near.direction]])
-        direction = np.concatenate(tangents[name](ways), axis=1)
-        far = nd.distance_to_singularity(g, c[:, None], direction, most=2.0 * near.distance).distance
-        assert far.min() >= near.distance * (1.0 - 1e-6)
-        assert far[near.pose, -1] == pytest.approx(near.distance, rel=1e-9)
-    high = nd.Configuration.neutral(4.0, [3.5])
-    plane = nd.sheet(nd.Geometry.hexagonal(0.0, 5.0, 2.0, 0.0), high, internal="held").singularities["internal"]
-    assert plane.distance == pytest.approx(0.5)  # from O to the plane of the upper joints
-    assert plane.mechanism == "c"

@@ -15,47 +15,6 @@ def robot(rng):
     return nd.Geometry(base[:3], base[3:], platform[:3], platform[3:])
 
 
-def test_distance_to_the_plane_of_the_lower_joints():
-    """O close to that plane, far from the others: the distance is that to the plane, along its normal."""
-    rng, planes = np.random.default_rng(5), 0
-    for _ in range(size(10, 300)):
-        g = robot(rng)
-        lower = g.base_internal
-        normal = np.cross(lower[1] - lower[0], lower[2] - lower[0])
-        normal /= np.linalg.norm(normal)
-        height = 10.0 ** rng.uniform(-3, -1)
-        o = lower.mean(axis=0) + height * normal
-        c = nd.Configuration([0.0, 0.0, 30.0], internal_point=o)
-        result = nearest_singularity(g, c, "internal_point", most=1.0, directions=300)
-        if result.mechanism != "b":  # a line through O met the turning axis of the platform first
-            assert result.distance < height
-            continue
-        planes += 1
-        assert result.distance == pytest.approx(height, rel=1e-9)
-        assert abs(result.direction @ normal) == pytest.approx(1.0, abs=1e-6)
-        assert abs(nd.singularity_margins(g, result.configuration).det_b) < 1e-9
-    assert planes > size(5, 150)
-
-
-@pytest.mark.parametrize("part", ["position", "rotation", "internal_point"])
-def test_no_random_direction_is_nearer_and_the_pose_is_singular(published, part):
-    rng = np.random.default_rng(7)
-    first = {"rotation": 0, "position": 3, "internal_point": 6}[part]
-    for g in (published, robot(rng), robot(rng)):
-        c = nd.Configuration(rng.normal([0, 0, 4.0], 0.2), internal_point=rng.normal([0, 0, 2.0], 0.2))
-        result = nearest_singularity(g, c, part)
-        motions = np.zeros((size(3000, 100_000), 9))
-        motions[:, first : first + 3] = rng.normal(size=(len(motions), 3))
-        motions /= np.linalg.norm(motions, axis=1, keepdims=True)
-        others = nd.distance_to_singularity(g, c, motions, most=2.0 * result.distance).distance
-        assert others.min() >= result.distance * (1.0 - 1e-9)
-        margins = nd.singularity_margins(g, result.configuration)
-        assert abs(getattr(margins, f"det_{result.mechanism}")) < 1e-7
-        moved = np.zeros(9)
-        moved[first : first + 3] = result.distance * result.direction
-        assert result.configuration == c.moved(moved)
-
-
 def refined(g, c, tangents, most, rng):
     """The least distance over 4000 random directions, the best 400 of them each turned to where it is least."""
 

@@ -7,7 +7,7 @@ change of sign solved by Brent's method; where the answer is known, geometry.
 import numpy as np
 import numpy_model as model
 import pytest
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 from singular_robots import unit_rows
@@ -112,48 +112,3 @@ def test_a_short_excursion_through_a_singularity_is_not_stepped_over(gap):
             assert_allclose(result, 0.5, rtol=0.0, atol=1e-13 / gap)
             crossings += 1
     assert crossings >= 10
-
-
-def test_default_is_the_displacement_itself(published, neutral):
-    exactly = [0, 0, 0, 0, 0, 0, 0, 0, -2.3745]
-    assert abs(nd.distance_to_singularity(published, neutral, exactly).distance - 1.0) <= 2.3e-16
-    short = nd.distance_to_singularity(published, neutral, np.multiply(exactly, 1.0 - 1e-12))
-    assert (short.distance, short.mechanism, short.resolved) == (np.inf, nd.Mechanism.NONE, True)
-
-
-def test_a_twist_of_the_neutral_pose(published):
-    """Coupled triangles are lost at a twist of 120 degrees; the closed form on the axis says so, and not before."""
-    result = nd.distance_to_singularity(
-        published, nd.Configuration.neutral(3.9828, 2.3745), [0, 0, 1.0] + [0] * 6, most=7.0
-    )
-    assert result.mechanism == "n"
-    assert_allclose(result.distance, 2.0 * np.pi / 3.0, rtol=1e-14)
-    twists = result.distance * np.array([0.0, 0.3, 0.6, 0.9, 0.99, 1.0, 1.01])
-    largest = nd.axis_singular_values(published, nd.Configuration.neutral(3.9828, 2.3745, twists))[:, 0]
-    assert largest[5] > 1e12
-    assert np.delete(largest, 5).max() < 1e3
-
-
-def test_broadcasting_missing_rows_threads(published, stack):
-    rng = np.random.default_rng(14)
-    tangents = rng.normal(size=(4, 1, 9))
-    tangents[2, 0, 3] = np.nan
-    result = nd.distance_to_singularity(published, stack, tangents, most=2.0, threads=2)
-    assert result.distance.shape == result.mechanism.shape == result.resolved.shape == (4, 5)
-    assert result.each.shape == (4, 5, 3)
-    for i in range(4):
-        for k in range(5):
-            alone = nd.distance_to_singularity(published, stack[k], tangents[i, 0], most=2.0)
-            assert_array_equal(result.each[i, k], alone.each)
-            assert_array_equal(result.distance[i, k], alone.distance)
-            assert result.mechanism[i, k] == alone.mechanism
-            assert result.resolved[i, k] == alone.resolved
-    assert np.isnan(result.distance[2]).all()
-    assert np.isnan(result.each[2]).all()
-    assert not result.resolved[2].any()
-    assert_array_equal(result.mechanism[2], "")
-    assert np.isfinite(np.delete(result.each, 2, axis=0)).any()
-    many = rng.normal(size=(3000, 9))
-    one, two = (nd.distance_to_singularity(published, stack[0], many, threads=k) for k in (1, 2))
-    assert_array_equal(one.each, two.each)
-    assert nd.distance_to_singularity(published, stack[:0], np.zeros(9)).each.shape == (0, 3)

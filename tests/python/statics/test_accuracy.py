@@ -3,8 +3,6 @@
 Oracles: numpy's inverse of a matrix built elsewhere; all 512 corners one by one; scipy's root finder on leg lengths of
 robots whose joints have really been moved; the leg lengths that samples have, which no first order enters."""
 
-from itertools import product
-
 import numpy as np
 import numpy_model as model
 import pytest
@@ -18,8 +16,6 @@ from scipy.optimize import fsolve
 import ninedof as nd
 
 SEEDS = st.integers(0, 2**32 - 1)
-KINDS = pytest.mark.parametrize("kind", robots.SINGULAR)
-CORNERS = np.array(list(product([-1.0, 1.0], repeat=9)))
 TRIPLES = ("r", "rh", "u", "ut")
 LEG_OF_JOINT = [0, 1, 2, 6, 7, 8, 0, 1, 2, 3, 4, 5]
 """In the order of `joint_errors`: base external and internal, platform external and internal."""
@@ -71,13 +67,6 @@ def test_a_joint_error_acts_like_a_leg_error(joint):
     assert_allclose(result, expected, atol=3e-4 * np.abs(expected).max())
 
 
-def test_map_of_legs_against_a_root_finder():
-    m, rng = robots.regular(12)
-    d = 1e-5 * rng.normal(size=9)
-    expected = nd.error_map(m.geometry(), m.configuration()) @ d
-    assert_allclose(solved(m, model.lengths(m) + d), expected, atol=3e-4 * np.abs(expected).max())
-
-
 # --- Bounds -----------------------------------------------------------------------------------------------------------
 
 
@@ -92,62 +81,11 @@ def test_covariance_of_independent_errors(seed):
     assert_allclose(result, expected, atol=1e-13 * np.linalg.cond(robots.rates(m)) * np.abs(expected).max())
 
 
-def test_worst_corner_is_reached_by_a_real_robot():
-    """Legs set to the worst corner, solved without linearization: halving the error halves the gap."""
-    m, _ = robots.regular(13)
-    motions = CORNERS @ inverse(m).T
-    for block, name in ((slice(0, 3), "rotation"), (slice(3, 6), "position"), (slice(6, 9), "internal_point")):
-        corner = CORNERS[np.linalg.norm(motions[:, block], axis=1).argmax()]
-        gaps = []
-        for size in (1e-4, 0.5e-4):
-            largest_shift = np.linalg.norm(solved(m, model.lengths(m) + size * corner)[block])
-            gaps.append(abs(largest_shift / getattr(bounds(m, size), name) - 1.0))
-        assert gaps[1] < 0.6 * gaps[0] < 1e-2
-
-
-@given(SEEDS, st.floats(1e-6, 1e6))
-def test_bounds_in_another_length_unit(seed, unit):
-    m, _ = robots.regular(seed)
-    result, expected = bounds(robots.scaled(m, unit), 1e-3 * unit, 2e-3 * unit), bounds(m, 1e-3, 2e-3)
-    rtol = 1e-13 * np.linalg.cond(robots.rates(m))
-    change = np.repeat([1.0, unit, unit], 3)
-    assert_allclose(result.components, expected.components * change, rtol=rtol)
-    assert_allclose([result.rotation, result.position], [expected.rotation, expected.position * unit], rtol=rtol)
-    size = np.abs(expected.covariance).max()
-    assert_allclose(result.covariance / np.outer(change, change), expected.covariance, atol=rtol * size)
-
-
 def test_leg_of_zero_length_has_no_bound(published):
     for s, regular in ((published.base_internal[1], False), ([0.0, 1.6778953523188904, 4.0], True)):
         result = nd.error_bounds(published, nd.Configuration([0, 0, 4.0], np.eye(3), s), 1e-3)
         assert np.isinf(result.rotation)
         assert np.isfinite(result.internal_point) == regular
-
-
-def test_rows_are_independent_and_broadcast(published, stack):
-    rng = np.random.default_rng(4)
-    legs, joints = rng.uniform(size=(3, 1, 9)), rng.uniform(size=(5, 12))
-    result = nd.error_bounds(published, stack, legs, joints)
-    assert result.components.shape == (3, 5, 9)
-    assert result.rotation.shape == result.position.shape == result.internal_point.shape == (3, 5)
-    assert result.covariance.shape == (3, 5, 9, 9)
-    for i in range(3):
-        for k in range(5):
-            alone = nd.error_bounds(published, stack[k], legs[i, 0], joints[k])
-            for part, whole in zip(alone, result, strict=True):
-                assert_array_equal(part, whole[i, k])
-    assert nd.error_map(published, stack).shape == (5, 9, 9)
-    assert nd.error_bounds(published, stack[:0], 1.0).covariance.shape == (0, 9, 9)
-    assert isinstance(nd.error_bounds(published, stack[0], 1.0).rotation, float)
-
-
-def test_missing_rows_stay_alone(published):
-    c = nd.Configuration([[0, 0, 4], [np.nan, 0, 4], [0, 0, 4], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
-    legs = np.array([[1.0], [1.0], [np.nan], [1.0]]) * np.ones(9)
-    for part in nd.error_bounds(published, c, legs):
-        assert np.isnan(part[1:3]).all()
-        assert np.isfinite(part[[0, 3]]).all()
-    assert np.isnan(nd.error_map(published, c)[1]).all()
 
 
 # --- Samples ----------------------------------------------------------------------------------------------------------
@@ -184,17 +122,6 @@ def test_normal_errors_have_their_own_covariance():
     assert (normal.covariance.diagonal() < uniform.covariance.diagonal()).all()
 
 
-def test_one_error_alone_comes_close_to_its_bound():
-    m, _ = robots.regular(15)
-    for k in range(21):
-        legs, joints = np.split(1e-5 * np.eye(21)[k], [9])
-        result, limit = samples(m, legs, joints, samples=2000), bounds(m, legs, joints)
-        moves = limit.components > 0.0  # O depends on the lower legs only
-        assert_allclose(result[:, ~moves], 0.0, atol=1e-13)
-        share = np.abs(result).max(axis=0)[moves] / limit.components[moves]
-        assert ((share > (0.99 if k < 9 else 0.8)) & (share < 1.001)).all()
-
-
 def test_no_error_no_motion(published, neutral):
     assert np.abs(nd.error_samples(published, neutral, samples=5)).max() < 1e-14
     assert nd.error_samples(published, neutral, 1e-3, samples=0).shape == (0, 9)
@@ -212,14 +139,6 @@ def test_same_bits_for_any_threads_and_run_length(published, neutral):
     assert len(np.unique(one[:, 0])) == COUNT
     other = nd.error_samples(published, neutral, 1e-3, 1e-3, samples=COUNT, seed=8)
     assert not np.intersect1d(one[:, 0], other[:, 0]).size
-
-
-@pytest.mark.parametrize("unit", [1e-6, 1e-3, 1e6])
-def test_samples_in_another_length_unit(unit):
-    m, _ = robots.regular(18)
-    expected = samples(m, 1e-2, 1e-2, samples=200) * np.repeat([1.0, unit, unit], 3)
-    result = samples(robots.scaled(m, unit), 1e-2 * unit, 1e-2 * unit, samples=200)
-    assert_allclose(result, expected, atol=0, rtol=1e-9)
 
 
 def test_samples_do_not_depend_on_the_distance_from_the_origin():
@@ -241,13 +160,6 @@ def test_large_errors_give_nan(published, neutral):
     assert (np.abs(off) <= 0.25 * rest * (1.0 + 1e-12)).all()
     assert (c.internal_point[:, 2] > 0.0).all()
     assert (np.einsum("ni,ni->n", c.position - c.internal_point, c.rotation[:, :, 2]) > 0.0).all()
-
-
-@KINDS
-@pytest.mark.parametrize("where", ["flat", "tilted"])
-def test_no_samples_from_a_singular_configuration(kind, where):
-    m = robots.flat(kind) if where == "flat" else robots.singular(kind, 4)[0]
-    assert np.isnan(samples(m, 1e-4, 1e-4, samples=50)).all()
 
 
 def test_collinear_joints_give_nan():

@@ -195,16 +195,6 @@ def test_a_machine_in_another_unit_has_the_same_forces(unit):
     assert_allclose(other.power, one.power, rtol=1e-9, atol=1e-9 * np.abs(one.power).max())
 
 
-def test_rows_of_a_stack_are_independent(published, stack):
-    rng = np.random.default_rng(2)
-    velocity, acceleration, load = rng.normal(size=(5, 9)), rng.normal(size=9), rng.normal(size=(4, 1, 6))
-    masses = some_masses(rng)
-    motion = nd.inverse_dynamics(published, stack, (velocity, acceleration), masses, load=load)
-    assert motion.forces.shape == motion.power.shape == (4, 5, 9)
-    one = nd.inverse_dynamics(published, stack[2], (velocity[2], acceleration), masses, load=load[1, 0])
-    assert_allclose(motion.forces[1, 2], one.forces, rtol=0.0, atol=0.0)
-
-
 def test_bad_masses_are_named(published, neutral):
     for masses in (3.0, {"platform": 3.0}):
         with pytest.raises(ValueError, match="masses: got"):

@@ -1,17 +1,13 @@
 """Indices for the tests of sweeps, in a module of their own: other processes must be able to import them."""
 
 import faulthandler
-import multiprocessing
 import os
 import signal
 import stat
 import time
-from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
-from functools import partial
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 import ninedof as nd
 
@@ -83,25 +79,11 @@ def killed_in_a_write():
 
 
 def main(folder, notes, errors, before):
-    """The sweep that is killed again and again, with index `noted`, in a process whose errors go to a file."""
+    """A sweep that is killed, with index `noted`, in a process whose errors go to a file."""
     errors_to(errors)
     os.environ["NINEDOF_TEST_NOTES"] = str(notes)
     before()
     nd.sweep(G, HOME, GRID, noted, out=folder, chunk=20)
-
-
-def broken_pools(folder):
-    """A sweep by a pool whose process is killed, twice, then by another pool, which leaves its values in a file."""
-    errors_to(folder / "stderr")
-    run = partial(nd.sweep, G, HOME, GRID, FatalOnce(folder), out=folder / "out", chunk=20)
-    forks = multiprocessing.get_context("forkserver")
-    with ProcessPoolExecutor(1, mp_context=forks) as pool:
-        with pytest.raises(BrokenExecutor, match="terminated abruptly"):
-            run(executor=pool)
-        with pytest.raises(BrokenExecutor):
-            run(executor=pool)
-    with ProcessPoolExecutor(1, mp_context=forks) as pool:
-        (folder / "values").write_bytes(run(executor=pool)["FatalOnce"].tobytes())
 
 
 def errors_to(file):

@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sweep_work as work
-from interrupts import until
 from sweep_work import GRID, HOME, G, finished
 
 import ninedof as nd
@@ -53,22 +52,6 @@ def test_killed_in_the_middle_of_a_write(child, tmp_path, expected, monkeypatch)
     monkeypatch.setenv("NINEDOF_TEST_NOTES", str(later))
     assert nd.sweep(G, HOME, GRID, work.noted, out=out)["noted"].tobytes() == expected.tobytes()
     assert len(list(later.iterdir())) == 18
-
-
-def test_control_c_ends_a_run_at_the_next_chunk(child, tmp_path):
-    notes = tmp_path / "notes"
-    notes.mkdir()
-    process = child(tmp_path / "out", notes)
-    try:
-        until(lambda: finished(tmp_path / "out"), 60.0)
-        os.kill(process.pid, signal.SIGINT)
-        process.join(30)
-        assert process.exitcode == 1
-    finally:
-        process.kill()
-    assert "KeyboardInterrupt" in child.errors.read_text()
-    assert 1 <= len(finished(tmp_path / "out")) < 20
-    assert not list((tmp_path / "out").glob(".part-*"))
 
 
 # --- Folders ---------------------------------------------------------------------------------------------------------

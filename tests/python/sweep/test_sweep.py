@@ -186,21 +186,14 @@ def test_singular_poses_are_infinite():
 
 
 @pytest.mark.parametrize("chunk", [1, 7, 100, 4096])
-@pytest.mark.parametrize("threads", [None, 1, 3])
-def test_chunks_and_threads_change_nothing(chunk, threads):
+@pytest.mark.parametrize(("threads", "rule"), [(None, "held"), (1, "held"), (3, "held"), (None, "carried")])
+def test_chunks_and_threads_change_nothing(chunk, threads, rule):
     over = {"x_p": (-1.0, 1.0, 11), "theta_z": (-0.5, 0.5, 7), "z_s": (-0.3, 0.2, 5)}
-    whole = nd.sweep(G, HOME, over, ["condition_number", "leg_lengths"])
-    result = nd.sweep(G, HOME, over, ["condition_number", "leg_lengths"], chunk=chunk, threads=threads)
+    asked = {"index": ["condition_number", "leg_lengths"], "internal_point": rule}
+    whole = nd.sweep(G, TURNED, over, **asked)
+    result = nd.sweep(G, TURNED, over, **asked, chunk=chunk, threads=threads)
     for name in whole:
         assert result[name].tobytes() == whole[name].tobytes()
-
-
-def test_chunks_change_nothing_where_o_is_carried():
-    over = {"x_p": (-1.0, 1.0, 7), "theta_x": (-0.5, 0.5, 5)}
-    whole = nd.sweep(G, TURNED, over, internal_point="carried")["condition_number"]
-    for chunk in (1, 4, 13):
-        result = nd.sweep(G, TURNED, over, internal_point="carried", chunk=chunk)["condition_number"]
-        assert result.tobytes() == whole.tobytes()
 
 
 # Blocks of 18 rows of x_p, or two in a quick run: three of them, the last one short.

@@ -133,20 +133,6 @@ def test_the_volume_of_a_shell(published, low, high):
     assert proved.end == "gap" or low > 2.5
 
 
-@pytest.mark.slow(sanitized=True)
-def test_bounds_of_more_boxes_lie_within_those_of_fewer(published):
-    criteria, before = LEGS | {"condition_number": 5.0}, (0.0, np.inf)
-    for gap in (0.5, 0.2, 0.1, size(0.06, 0.005)):
-        volume = nd.certified_workspace(published, BOX, criteria=criteria, gap=gap).volume
-        assert before[0] * (1.0 - 1e-12) <= volume[1]
-        assert volume[0] <= before[1]
-        assert volume[1] - volume[0] <= gap * volume[1] * (1.0 + 1e-12)
-        before = volume
-    estimate = nd.workspace(published, BOX, criteria=criteria)
-    assert volume[0] <= estimate.volume + estimate.error
-    assert volume[1] >= estimate.volume - estimate.error
-
-
 def test_a_tiny_forbidden_ball_is_never_proved_to_be_allowed(published):
     """O may not be nearer than 1e-4 to a joint of the base: where it is, nothing else is violated."""
     low = np.zeros(9)

@@ -57,24 +57,6 @@ def test_leg_limits_give_balls(published, rotation):
     assert found.unseen < 1e-3 * found.volume
 
 
-def test_internal_legs_with_o_half_way_give_balls_of_twice_the_radius(published):
-    found = nd.workspace(published, BOX, criteria={"leg_limits": ([0.0] * 6 + [3.4] * 3, [np.inf] * 6 + [4.4] * 3)})
-    middle = published.platform_internal.mean(axis=0)
-    centres = [2.0 * r - middle - published.base_internal.mean(axis=0) for r in published.base_internal]
-    exact = oracle.volume_of_balls([(c, 8.8) for c in centres], [(c, 6.8) for c in centres], *BOX, size(200, 600))
-    assert abs(found.volume - exact) <= found.error < 1e-3 * found.volume
-
-
-@pytest.mark.slow
-def test_the_error_estimate_bounds_the_error(published):
-    criteria = {"leg_limits": (2.5, 6.5), "condition_number": 5.0, "singularity_free": True}
-    best = nd.workspace(published, BOX, criteria=criteria, home=HOME, tolerance=size(6e-4, 1e-4), resolution=20)
-    for tolerance in (3e-2, 1e-2, 1e-3):
-        found = nd.workspace(published, BOX, criteria=criteria, home=HOME, tolerance=tolerance)
-        assert found.error <= tolerance * found.volume
-        assert abs(found.volume - best.volume) <= found.error + best.error
-
-
 def test_all_criteria_against_numpy(published):
     rng = np.random.default_rng(1)
     criteria = {
@@ -134,25 +116,6 @@ def test_indices_against_numpy(published):
     assert_allclose(nd.condition_number(published, worst), found.worst_condition_number, rtol=1e-12)
 
 
-def test_ball_and_box_are_inside_and_nearly_maximal(published):
-    rng = np.random.default_rng(3)
-    found = nd.workspace(published, BOX, criteria={"leg_limits": (2.5, 6.5), "condition_number": 5.0})
-
-    def share(p):
-        m = oracle.robots(published, p, np.eye(3), oracle.half_way(published, p, np.eye(3)))
-        return np.mean(oracle.legs_allowed(m, 2.5, 6.5) & (model.condition_number(m) <= 5.0))
-
-    u = rng.normal(size=(4000, 3))
-    u /= np.linalg.norm(u, axis=1, keepdims=True)
-    assert share(found.ball_centre + found.ball_radius * u) == 1.0
-    assert share(found.ball_centre + 1.02 * found.ball_radius * u) < 1.0
-    inside = sampled(rng, 20_000, found.box_low, found.box_high)
-    assert share(inside) == 1.0
-    side = found.box_high - found.box_low
-    assert share(sampled(rng, 20_000, found.box_low - 0.05 * side, found.box_high + 0.05 * side)) < 1.0
-    assert np.prod(side) > np.prod(2.0 * found.ball_radius / np.sqrt(3.0) * np.ones(3))
-
-
 # --- Connected with home ----------------------------------------------------------------------------------------------
 
 
@@ -173,22 +136,6 @@ def test_singularity_free_keeps_the_signs_and_the_piece_of_home(published):
     assert (c.piece[c.state == 0] == -1).all()
     home_cell = np.argmin(np.linalg.norm(c.centre - HOME.position, axis=1))
     assert c.piece[home_cell] == 0
-
-
-@pytest.mark.slow
-def test_pieces_below_and_above_the_base(published):
-    """The robot is its own mirror image: two pieces of equal volume."""
-    criteria = {"leg_limits": (3.0, 6.5)}
-    box = ([-4.0, -4.0, -8.0], [4.0, 4.0, 8.0])
-    tolerance = size(1e-2, 1e-3)
-    both = nd.workspace(published, box, criteria=criteria, tolerance=tolerance)
-    assert_allclose(both.pieces[0], both.pieces[1], rtol=1e-3)
-    assert_allclose(both.pieces[:2].sum(), both.volume, rtol=1e-3)
-    home = nd.Configuration.neutral(zp=5.4, zs=2.7)
-    criteria["singularity_free"] = True
-    above = nd.workspace(published, box, criteria=criteria, home=home, tolerance=tolerance)
-    assert above.volume <= both.pieces[0] + both.error + above.error
-    assert above.cells.centre[above.cells.piece == 0][:, 2].min() > 0.0
 
 
 def test_a_home_outside_names_the_limit(published):

@@ -207,14 +207,6 @@ def test_every_limit_of_a_run_is_replaced_by_its_option(run, tmp_path, a_run):
     assert "expected at least one" in err
 
 
-def test_the_centres_of_the_ball_and_the_box_are_printed(run, tmp_path):
-    code, out, _ = run(f"workspace --legs 2.5 6.5 --no-figures --tolerance 0.05 --out {tmp_path / 'a'}")
-    found = nd.WorkspaceMap.load(tmp_path / "a" / "map.npz")
-    assert code == 0
-    for centre in (found.ball_centre, 0.5 * (found.box_low + found.box_high)):
-        assert "  ".join(f"{value:.4g}" for value in centre) in out
-
-
 def test_ranges_by_kind_and_the_own_fraction():
     """A range of all nine legs stays two numbers; O beside the line of the centroids has no fraction."""
     assert leg_ranges({}) is None

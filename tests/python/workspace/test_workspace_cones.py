@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 import workspace_oracle as oracle
-from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 from sizes import size
 
@@ -68,17 +67,3 @@ def test_cones_alone_are_decided_by_bounds(published, kind):
     state = oracle.states_at(found.cells, found.low, p)
     assert not (allowed & (state == 0)).any()
     assert not (~allowed & (state == 2)).any()
-
-
-@pytest.mark.parametrize("kind", ["base", "platform", "both, one axis"])
-def test_the_largest_ball_reaches_a_cone(published, kind):
-    """Its radius is the distance of its centre from the nearest cone, over the share of the leg that moves."""
-    criteria = CRITERIA[kind]
-    home = nd.Configuration(HOME.position, TILTED, oracle.half_way(published, HOME.position[None], TILTED)[0])
-    found = nd.workspace(published, BOX, criteria=criteria, rotation=TILTED, home=home)
-    share = np.r_[np.ones(3), np.full(3, 0.5)]  # O half way moves half as far
-    clear = [
-        np.min(length * np.sin(np.clip(margin, None, 0.5 * np.pi)) / share)
-        for margin, length in margins(published, found.ball_centre[None], TILTED, criteria)
-    ]
-    assert_allclose(found.ball_radius, min(clear), rtol=1e-9)

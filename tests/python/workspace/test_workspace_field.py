@@ -43,18 +43,6 @@ def test_a_smooth_section_is_the_field_of_the_robot(found):
     assert np.isnan(s.condition_number[s.fraction == 0.0]).all()
 
 
-def test_the_boundary_has_the_limit_that_is_reached_there(found):
-    s = found.slice("y", 0.2, smooth=True)
-    lengths = nd.leg_lengths(G, places(s))
-    worst = np.concatenate([lengths - LOW, HIGH - lengths], axis=1).argmin(axis=1).reshape(s.fraction.shape)
-    legs = [f"{kind}{k}" for kind in "lqr" for k in (1, 2, 3)]
-    expected = [f"{leg} {side}" for side in ("low", "high") for leg in legs]
-    middle = (s.fraction > 0.4) & (s.fraction < 0.6)
-    middle[:2] = False  # the face of the box
-    names = [found.limit_names[n] == expected[k] for n, k in zip(s.limit[middle], worst[middle], strict=True)]
-    assert np.mean(names) > 0.9
-
-
 def test_a_map_is_copied_without_the_field_it_has_computed(found):
     fraction = found.field.fraction
     assert np.array_equal(pickle.loads(pickle.dumps(found)).field.fraction, fraction)
