@@ -143,24 +143,23 @@ REGION = nd.Region(box=(0.3, 0.3, 0.3), tilt=0.3, internal_point="best")
 LEVEL = 1.0  # logarithm of the index
 
 
-def placed(known, samples=1, threads=1):
-    """Search the region for a design within ranges of lengths."""
+def placed(at):
+    """Return shifts of O in zp at poses of the region, for a design within ranges of lengths; and these."""
     plain = nd.Study(variables=SIDES | {"theta_z": 0.0}).problem()
     lengths = np.asarray(nd.leg_lengths(G, nd.Configuration.neutral(2.0, 1.0))).reshape(1, 9)
-    ranges = _core.leg_ranges(nd.Study(constraints={"stroke_ratio": (None, 1.3)}).problem(), 2.0, lengths)
+    legs = _core.permitted_range(nd.Study(constraints={"stroke_ratio": (None, 1.3)}).problem(), 2.0, lengths)
     x = [SIDES.get(name, 0.0) for name in plain.names]
-    design = _core.PlacedDesign(problem=plain, variables=x, log_index=LEVEL, ranges=ranges)
-    found = _core.search_region_placed(design, REGION.for_core(), known, samples, 3, threads)
-    return found, ranges
+    design = _core.PlacedDesign(problem=plain, variables=x, log_index=LEVEL, leg_ranges=legs)
+    return _core.place_in_region(design, REGION.for_core(), np.array(at), 1)[1], legs.low, legs.high
 
 
 def test_o_is_placed_where_the_worst_is_least():
     """Against a direct search (Nelder and Mead) of the definition."""
     rng = np.random.default_rng(5)
     at = [tuple((np.array(REGION.reach) * rng.uniform(-1.0, 1.0, 6)).tolist()) for _ in range(size(2, 40))]
-    found, ((_, low, high, _),) = placed([(pose, (0.0,) * 3) for pose in at])
+    shifts, low, high = placed(at)
     above = []
-    for pose, excess in zip(at, found["at_known"], strict=True):
+    for pose, shift in zip(at, shifts, strict=True):
         position, rotation = _core.region_poses(REGION.for_core(), [pose])[0, 6:12].reshape(2, 3)
         p, q = np.add(position, [0.0, 0.0, 2.0]), Rotation.from_rotvec(rotation).as_matrix()
 
@@ -176,6 +175,7 @@ def test_o_is_placed_where_the_worst_is_least():
             for _ in range(3):
                 end = minimize(worst, end, method="Nelder-Mead", options={"xatol": 1e-8, "fatol": 1e-9}).x
             ends.append(worst(end))
+        excess = worst(shift)
         above.append(excess - ends[0])
         assert excess >= min(ends) - 0.15  # a direct search may end at a kink
     assert np.median(above) <= 1e-7
@@ -184,11 +184,13 @@ def test_o_is_placed_where_the_worst_is_least():
 
 def test_ranges_of_lengths_divide_what_a_limit_leaves():
     lengths = np.array([[1.0] * 9, [1.2] * 9])
-    both = nd.Study(constraints={"stroke": {"max": 0.4}, "stroke_ratio": (None, 1.5), "leg_ratio": (None, 3.0)})
-    found = {name: (low[0], high[0]) for name, low, high, _ in _core.leg_ranges(both.problem(), 1.0, lengths)}
-    assert found["stroke"] == pytest.approx((0.9, 1.3))
-    assert found["stroke_ratio"][1] / found["stroke_ratio"][0] == pytest.approx(1.5)
-    assert np.prod(found["leg_ratio"]) == pytest.approx(1.2)
+    stroke, ratio, legs = (
+        _core.permitted_range(nd.Study(constraints=one).problem(), 1.0, lengths)
+        for one in ({"stroke": {"max": 0.4}}, {"stroke_ratio": (None, 1.5)}, {"leg_ratio": (None, 3.0)})
+    )
+    assert (stroke.low[0], stroke.high[0]) == pytest.approx((0.9, 1.3))
+    assert ratio.high[0] / ratio.low[0] == pytest.approx(1.5)
+    assert legs.low[0] * legs.high[0] == pytest.approx(1.2)
 
 
 def test_poses_that_exclude_a_design_are_named_with_their_turns():
