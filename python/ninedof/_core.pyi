@@ -4,7 +4,7 @@ A stack of configurations comes whole (`Configuration`), or as its three arrays:
 internal point (n, 3), C-contiguous float64 (`Flat`); characteristic lengths as one value or n.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from numpy import float64, int8, int16, int32, int64, intc, uint8, uint32
@@ -16,8 +16,6 @@ _Floats = NDArray[float64]
 _Out = _Floats | None
 _Poses = Configuration | Flat
 _Triple = tuple[float, float, float]
-_LimitBreak = tuple[str, float, float, float, float]
-_Range = tuple[str, Sequence[float], Sequence[float], float]
 _Progress = Callable[[int, int, float | None], object]
 
 class _Struct:
@@ -71,18 +69,26 @@ idle_share: float
 def jacobian(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
 def velocity_matrices(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
 def forward_velocity(g: Geometry, c: _Poses, rates: _Floats, threads: int, /) -> _Floats: ...
-def forward_position(
-    g: Geometry, leg_lengths: _Floats, certify: bool, threads: int, /
-) -> tuple[
-    NDArray[intc],
-    list[str],
-    list[str],
-    NDArray[uint8],
-    _Floats,
-    _Floats,
-    NDArray[intc],
-    tuple[NDArray[intc], NDArray[intc], NDArray[int64], _Floats, _Floats, _Floats] | None,
-]: ...
+
+class CertificateColumns:
+    proved: NDArray[intc]
+    undecided: NDArray[intc]
+    boxes: NDArray[int64]
+    radius: _Floats
+    places: _Floats
+    place_radius: _Floats
+
+class ModeColumns:
+    count: NDArray[intc]
+    status: list[str]
+    obstacle: list[str]
+    certain: NDArray[uint8]
+    configuration: _Floats
+    separation: _Floats
+    side: NDArray[intc]
+    certificate: CertificateColumns | None
+
+def forward_position(g: Geometry, leg_lengths: _Floats, certify: bool, threads: int, /) -> ModeColumns: ...
 def track(
     g: Geometry, leg_lengths: _Floats, path: int, c: _Poses, threads: int, /
 ) -> tuple[_Floats, NDArray[uint8]]: ...
@@ -173,15 +179,29 @@ def follow(
     /,
 ) -> Followed: ...
 
-# Each (9,); times (n,), forces and rates (n, 9).
-def drive_figures(time: _Floats, forces: _Floats, rates: _Floats, /) -> dict[str, _Floats]: ...
+class DriveFigures:
+    push: _Floats
+    pull: _Floats
+    rms: _Floats
+    power: _Floats
+    braking: _Floats
+    work: _Floats
+    returned: _Floats
+
+class LimitBreak:
+    limit: str
+    begin: float
+    end: float
+    worst: float
+    at: float
+
+# Times (n,), forces and rates (n, 9).
+def drive_figures(time: _Floats, forces: _Floats, rates: _Floats, /) -> DriveFigures: ...
 def leg_margins(leg_lengths: _Floats, low: _Floats, high: _Floats, /) -> _Floats: ...
-def stretches(
-    limit: str, time: _Floats, values: _Floats, margin: _Floats, tolerance: float, /
-) -> list[_LimitBreak]: ...
+def stretches(limit: str, time: _Floats, values: _Floats, margin: _Floats, tolerance: float, /) -> list[LimitBreak]: ...
 def limit_breaks(
     time: _Floats, leg_lengths: _Floats, low: _Floats, high: _Floats, determinants: _Floats, /
-) -> list[_LimitBreak]: ...
+) -> list[LimitBreak]: ...
 def inverse_velocity(g: Geometry, c: _Poses, velocity: _Floats, threads: int, /) -> _Floats: ...
 
 # (n, 3), (n, 27)
@@ -221,9 +241,19 @@ def manipulability(g: Geometry, c: _Poses, length: _Floats, threads: int, out: _
 def isotropy_residual(g: Geometry, c: _Poses, length: _Floats, threads: int, out: _Out, /) -> _Floats: ...
 def characteristic_length(g: Geometry, c: _Poses, kind: str, threads: int, /) -> _Floats: ...
 
-# Class, two legs, length, relative; residual, (2, 3, 3); residual
-def nearest_architecture_singularity(g: Geometry, /) -> tuple[int, int, int, float, float]: ...
-def similar_triangles(g: Geometry, /) -> tuple[float, _Floats]: ...
+class ArchitectureSingularity:
+    kind: str
+    leg: int
+    other: int
+    distance: float
+    relative: float
+
+class SimilarTriangles:
+    dissimilarity: float
+    rotations: _Floats
+
+def nearest_architecture_singularity(g: Geometry, /) -> ArchitectureSingularity: ...
+def similar_triangles(g: Geometry, /) -> SimilarTriangles: ...
 def homothety_residual(g: Geometry, c: _Poses, /) -> float: ...
 
 # (n, 3), (n, 16), (k, 9), (n, 6)
@@ -285,12 +315,28 @@ def force_ellipsoid_rotation(g: Geometry, c: _Poses, length: _Floats, threads: i
 def force_ellipsoid_translation(g: Geometry, c: _Poses, length: _Floats, threads: int, /) -> _Floats: ...
 def design_family_names() -> list[str]: ...
 
-_Row = tuple[str, str, tuple[str, ...], tuple[str, ...], tuple[str, ...], float | None, tuple[str, ...]]
-constraint_table: tuple[_Row, ...]
-criterion_table: tuple[_Row, ...]
+class ConstraintInfo:
+    name: str
+    kind: str
+    sides: tuple[str, ...]
+    units: tuple[str, ...]
+    options: tuple[str, ...]
+    default_low: float | None
+    needs: tuple[str, ...]
+    is_angle: bool
+    body: str
+
+constraint_table: list[ConstraintInfo]
+criterion_table: list[ConstraintInfo]
 singularity_free_steps: tuple[int, int]
 
-def family_variables(family: str, /) -> list[tuple[str, str, float, float]]: ...
+class VariableInfo:
+    name: str
+    kind: str
+    low: float
+    high: float
+
+def family_variables(family: str, /) -> list[VariableInfo]: ...
 
 class Duty(_Struct):
     loads: Any
@@ -380,7 +426,6 @@ class Evaluation:
 
 limit_parts: dict[str, tuple[str, ...]]
 limits_over_lengths: dict[str, tuple[str, ...]]
-cone_bodies: dict[str, str]
 margin_tolerance: float
 
 def limit_numbers(
@@ -493,6 +538,41 @@ class DesignQuestion(_Struct):
     high: Sequence[float]
     condition: float
 
+class DesignSet:
+    low: _Floats
+    high: _Floats
+    state: NDArray[int8]
+    demand: NDArray[int32]
+    poses: _Floats
+    demands: tuple[tuple[str, str], ...]
+    inside: float
+    outside: float
+    undecided: float
+    looked_at: int
+    boxes: int
+    interrupted: bool
+
+class DesignExistence:
+    state: str
+    design: list[float]
+    looked_at: int
+    open: int
+    interrupted: bool
+    def certificate(self, question: DesignQuestion, /) -> bytes: ...
+
+class BeyondSide:
+    demand: int
+    at: MetAt
+
+class DesignRoom:
+    found: bool
+    low: list[float]
+    high: list[float]
+    demand: int
+    beyond: list[list[BeyondSide]]
+    boxes: int
+
+# Earlier pieces are those of what has the columns of a DesignSet.
 def admissible_designs(
     question: DesignQuestion,
     *,
@@ -500,24 +580,21 @@ def admissible_designs(
     seconds: float,
     resolution: float,
     undecided: float,
-    earlier: Mapping[str, Any] | None = ...,
+    earlier: Any = ...,
     progress: _Progress | None = ...,
-) -> dict[str, Any]: ...
+) -> DesignSet: ...
 def any_admissible(
     question: DesignQuestion,
     *,
-    threads: int,
-    seconds: float,
-    resolution: float,
-    certificate: bool,
+    threads: int = ...,
+    seconds: float = ...,
+    resolution: float = ...,
+    certificate: bool = ...,
     progress: _Progress | None = ...,
-) -> tuple[str, list[float], int, int, bool, bytes]: ...
-def design_certificate(
-    question: DesignQuestion,
-    pieces: Mapping[str, Any],
-    demands: Sequence[tuple[str, str]],
-    shares: Sequence[float],
-) -> bytes: ...
+) -> DesignExistence: ...
+
+# The set is a ninedof.AdmissibleSet.
+def design_certificate(question: DesignQuestion, set: Any) -> bytes: ...
 def machine_certificate(question: DesignQuestion, *, slack: float) -> bytes: ...
 def room_around(
     question: DesignQuestion,
@@ -526,27 +603,15 @@ def room_around(
     *,
     boxes: int,
     progress: _Progress | None = ...,
-) -> tuple[bool, list[float], list[float], int, list[tuple[int, MetAt]], int]: ...
+) -> DesignRoom: ...
 def region_poses(region: Region, at: _Floats, /) -> _Floats: ...
-def search_region(
-    problem: Problem, region: Region, variables: Sequence[float], samples: int, seed: int, threads: int, /
-) -> dict[str, Any]: ...
-def leg_ranges(problem: Problem, zp: float, lengths: _Floats, /) -> list[_Range]: ...
-def search_region_placed(
-    design: PlacedDesign,
-    region: Region,
-    known: Sequence[tuple[Sequence[float], Sequence[float]]],
-    samples: int,
-    seed: int,
-    threads: int,
-    /,
-) -> dict[str, Any]: ...
+def permitted_range(problem: Problem, zp: float, lengths: _Floats, /) -> LegLimits: ...
 
 class PlacedDesign(_Struct):
     problem: Problem
     variables: Sequence[float] | _Floats
     log_index: float
-    ranges: Sequence[_Range]
+    leg_ranges: LegLimits | None
     known: Sequence[Sequence[float]]
 
 class OptimumCheck:
@@ -615,6 +680,10 @@ class RegionReport:
     mean: RegionMean | None
     leg_ranges: LegLimits | None
 
+class RegionResult:
+    result: Result
+    region: RegionReport
+
 class Trace:
     best: tuple[float, ...]
     end: Candidate
@@ -627,7 +696,7 @@ def optimize_region(
     progress: _Progress | None,
     phase: Callable[[str], object] | None,
     /,
-) -> tuple[Result, RegionReport]: ...
+) -> RegionResult: ...
 def trace(problem: Problem, start: Sequence[float], formulation: str, /) -> Trace: ...
 
 class OptimumSettings(_Struct):

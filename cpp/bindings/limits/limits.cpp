@@ -38,10 +38,6 @@ void bind_limits(py::module_& m) {
   };
   m.attr("limit_parts") = with_parts(limits_of_poses());
   m.attr("limits_over_lengths") = with_parts(limits_over_lengths());
-  py::dict bodies;
-  for (const std::string& name : limits_of_poses())
-    if (const std::string body = limit_body(name); !body.empty()) bodies[py::str(name)] = body;
-  m.attr("cone_bodies") = bodies;
   m.attr("margin_tolerance") = margin_tolerance;
   m.def("margin", [](const std::string& kind, const std::string& side, const Array& bound, const Array& value) {
     const auto of = [k = limit_kind_from(kind), s = side == "min" ? Side::low : Side::high](double l, double v) {

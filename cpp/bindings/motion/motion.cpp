@@ -51,13 +51,6 @@ Array rows_from(const std::vector<PerMechanism>& determinants) {
   return array_from(out);
 }
 
-/// (limit, begin, end, worst, at)
-py::list tuples_of(const std::vector<LimitBreak>& breaks) {
-  py::list out;
-  for (const LimitBreak& b : breaks) out.append(py::make_tuple(b.limit, b.begin, b.end, b.worst, b.at));
-  return out;
-}
-
 Followed followed(const Geometry& g, const Configuration& home, const Array& time, const Array& position,
                   const Array& rotation, const py::object& rule, const std::pair<Array, Array>& limits,
                   double characteristic_length) {
@@ -93,6 +86,20 @@ void bind_followed(py::module_& m) {
           "det N, det B and det C, shape (3, n).")
       .def_readonly("tracked", &Followed::tracked, "Poses from the first on that `track` returns.")
       .def_readonly("tracking_error", &Followed::tracking_error, "Of Q, and of p and O over the longest leg.");
+  py::class_<LimitBreak>(m, "LimitBreak", "A stretch of time in which a limit is not kept.")
+      .def_readonly("limit", &LimitBreak::limit, "Its name, with the leg and the side.")
+      .def_readonly("begin", &LimitBreak::begin, "Time.")
+      .def_readonly("end", &LimitBreak::end, "Time.")
+      .def_readonly("worst", &LimitBreak::worst, "What is limited.")
+      .def_readonly("at", &LimitBreak::at, "The time of the worst.");
+  py::class_<DriveFigures>(m, "DriveFigures", "Greatest forces and powers of the legs over a motion, and their work.")
+      .def_readonly("push", &DriveFigures::push, "Shape (9,).")
+      .def_readonly("pull", &DriveFigures::pull, "Shape (9,).")
+      .def_readonly("rms", &DriveFigures::rms, "Of the force over time, shape (9,).")
+      .def_readonly("power", &DriveFigures::power, "Greatest, shape (9,).")
+      .def_readonly("braking", &DriveFigures::braking, "Greatest power back, shape (9,).")
+      .def_readonly("work", &DriveFigures::work, "Shape (9,).")
+      .def_readonly("returned", &DriveFigures::returned, "Work back, shape (9,).");
 }
 
 }  // namespace
@@ -101,13 +108,7 @@ void bind_motion(py::module_& m) {
   bind_followed(m);
   m.def("follow", &followed);
   m.def("drive_figures", [](const Array& time, const Array& forces, const Array& rates) {
-    const DriveFigures f = drive_figures(span_of(time), lengths_from(forces), lengths_from(rates));
-    py::dict out;
-    for (const auto& [name, values] : {std::pair("push", &f.push), std::pair("pull", &f.pull), std::pair("rms", &f.rms),
-                                       std::pair("power", &f.power), std::pair("braking", &f.braking),
-                                       std::pair("work", &f.work), std::pair("returned", &f.returned)})
-      out[name] = array_from(*values);
-    return out;
+    return drive_figures(span_of(time), lengths_from(forces), lengths_from(rates));
   });
   m.def("leg_margins", [](const Array& lengths, const Array& low, const Array& high) {
     const LegLimits limits = limits_from(low, high);
@@ -120,14 +121,14 @@ void bind_motion(py::module_& m) {
   });
   m.def("stretches",
         [](const std::string& limit, const Array& time, const Array& values, const Array& margin, double tolerance) {
-          return tuples_of(stretches(limit, span_of(time), span_of(values), span_of(margin), tolerance));
+          return stretches(limit, span_of(time), span_of(values), span_of(margin), tolerance);
         });
   m.def("limit_breaks",
         [](const Array& time, const Array& lengths, const Array& low, const Array& high, const Array& determinants) {
           std::vector<PerMechanism> margins;
           for (py::ssize_t k = 0; k < determinants.shape(1); ++k)
             margins.push_back({determinants.at(0, k), determinants.at(1, k), determinants.at(2, k)});
-          return tuples_of(limit_breaks(span_of(time), lengths_from(lengths), limits_from(low, high), margins));
+          return limit_breaks(span_of(time), lengths_from(lengths), limits_from(low, high), margins);
         });
 }
 

@@ -22,12 +22,6 @@ Formulation formulation_from(const std::string& word) {
   throw InvalidArgument("formulation", "\"" + word + "\"", "\"minimax\" or \"plain\"");
 }
 
-/// A getter of a list as a tuple.
-template <class T, class U>
-auto tuple_of(U T::* member) {
-  return [member](const T& from) { return py::tuple(py::cast(from.*member)); };
-}
-
 void bind_results(py::module_& m) {
   py::class_<Candidate>(m, "Candidate", "A local optimum and the results of its checks.")
       .def_readonly("variables", &Candidate::variables, "A full set, in the order of the names of the problem.")
@@ -69,15 +63,12 @@ void bind_results(py::module_& m) {
       .def_readonly("gain", &RegionReport::gain, "By how much the objective could still fall near this design.")
       .def_readonly("mean", &RegionReport::mean, "Where the objective is a mean.")
       .def_readonly("leg_ranges", &RegionReport::leg_ranges, "Lengths that O, placed at every pose, keeps.");
+  py::class_<RegionResult>(m, "RegionResult", "The search of a study over a region.")
+      .def_readonly("result", &RegionResult::result, "Its one candidate has variables of the poses of the report too.")
+      .def_readonly("region", &RegionResult::region, "What is known of it over the region.");
   py::class_<Trace>(m, "Trace", "One run from one start.")
       .def_property_readonly("best", tuple_of(&Trace::best), "Least objective of a feasible design so far.")
       .def_readonly("end", &Trace::end, "The design at the end.");
-}
-
-std::array<double, 6> numbers(const Vec6& at) {
-  std::array<double, 6> out;
-  Vec6::Map(out.data()) = at;
-  return out;
 }
 
 /// For rows of coordinates: those of the nearest poses of the region, then shift of p, rotation vector and shift of s.
@@ -90,40 +81,6 @@ Array region_poses(const Region& r, const py::object& at) {
     const Pose pose = r.pose(near);
     Eigen::Map<Eigen::Matrix<double, 15, 1>>(out.mutable_data(n, 0)) << near, pose.position, pose.rotation,
         pose.internal;
-  }
-  return out;
-}
-
-/// Margins as (name, row, margin, coordinates of the pose), logarithms of the index with theirs, and the coordinates
-/// where each leg is longest and shortest.
-py::dict worst_of_region(const Problem& problem, const Region& r, const std::vector<double>& x, long samples,
-                         std::uint64_t seed, int threads) {
-  const RegionWorst found = interruptible(py::none(), [&](const Control& control) {
-    return search_region(problem, r, vector_from(x), {samples, seed, threads, 1e-5}, control);
-  });
-  py::list limits, index, longest, shortest;
-  for (const RegionWorst::Index& end : found.index) index.append(py::make_tuple(end.logarithm, numbers(end.at)));
-  for (const RegionWorst::Limit& limit : found.limits)
-    limits.append(py::make_tuple(limit.name, limit.row, limit.margin, numbers(limit.at)));
-  for (const Vec6& at : found.longest_at) longest.append(numbers(at));
-  for (const Vec6& at : found.shortest_at) shortest.append(numbers(at));
-  py::dict out;
-  out["limits"] = limits;
-  out["index"] = index;
-  out["longest_at"] = longest;
-  out["shortest_at"] = shortest;
-  out["poses"] = found.poses;
-  return out;
-}
-
-/// The ranges of a design about leg lengths at some poses.
-std::vector<RangeEntry> ranges_about(const Problem& problem, double zp, const Array& lengths) {
-  std::vector<RangeEntry> out;
-  for (const LegRange& range : leg_ranges(problem, zp, lengths_from(lengths))) {
-    std::array<double, 9> low{}, high{};
-    std::ranges::transform(range.low, low.begin(), [&](double measure) { return range.length(measure); });
-    std::ranges::transform(range.high, high.begin(), [&](double measure) { return range.length(measure); });
-    out.emplace_back(range.limit, low, high, range.spread.ratio ? 0.0 : range.size);
   }
   return out;
 }
@@ -143,32 +100,6 @@ py::tuple places_in_region(const PlacedDesign& design, const Region& r, const py
     Vec3::Map(moved.mutable_data(static_cast<py::ssize_t>(k), 0)) = found[k].placed.shift;
   }
   return py::make_tuple(near, moved);
-}
-
-/// Ends of the ascents as (coordinates of the pose, shift of s in zp, excess, logarithm of the index, least margin, its
-/// limit). `known`: (coordinates, shift).
-py::dict worst_with_placing(const PlacedDesign& design, const Region& r, const py::sequence& known, long samples,
-                            std::uint64_t seed, int threads) {
-  std::vector<Placed> places;
-  for (const py::handle& place : known) {
-    const auto [at, shift] = place.cast<std::tuple<std::array<double, 6>, std::array<double, 3>>>();
-    places.push_back({Vec6::Map(at.data()), Vec3::Map(shift.data())});
-  }
-  const PlacedWorst found = interruptible(py::none(), [&](const Control& control) {
-    return search_region_placed(design.problem, r, design.variables, design.goal(), places,
-                                {.samples = samples, .seed = seed, .threads = threads}, control);
-  });
-  py::list ends;
-  for (const PlacedEnd& end : found.ends) {
-    const Vec3& s = end.placed.shift;
-    ends.append(py::make_tuple(numbers(end.placed.at), py::make_tuple(s[0], s[1], s[2]), end.excess, end.log_index,
-                               end.margin, end.limit));
-  }
-  py::dict out;
-  out["ends"] = ends;
-  out["at_known"] = found.at_known;
-  out["poses"] = found.poses;
-  return out;
 }
 
 }  // namespace
@@ -195,14 +126,14 @@ void bind_optimize(py::module_& m) {
            py::arg("explain") = defaults.explain);
   bind_results(m);
   m.def("region_poses", &region_poses);
-  m.def("search_region", &worst_of_region);
-  m.def("leg_ranges", &ranges_about);
-  m.def("search_region_placed", &worst_with_placing);
+  m.def("permitted_range", [](const Problem& problem, double zp, const Array& lengths) {
+    return common_range(leg_ranges(problem, zp, lengths_from(lengths)), {});
+  });
   request<PlacedDesign>(m, "PlacedDesign", "A design of a problem without poses, with O placed anew at every pose.")
       .def_readwrite("problem", &PlacedDesign::problem, "Without poses.")
       .def_property("variables", copy_of(&PlacedDesign::variables), setter_of(&PlacedDesign::variables), "A full set.")
       .def_readwrite("log_index", &PlacedDesign::log_index, "Logarithm of the index that placing is to reach.")
-      .def_readwrite("ranges", &PlacedDesign::ranges, "(limit, low, high, size) of the lengths of the nine legs.")
+      .def_readwrite("leg_ranges", &PlacedDesign::leg_ranges, "Lengths that the legs keep at every pose, or None.")
       .def_property("known", copy_of(&PlacedDesign::known), setter_of(&PlacedDesign::known),
                     "Places of O to begin at: shifts of s in zp.");
   m.def("place_in_region", &places_in_region);
@@ -214,7 +145,7 @@ void bind_optimize(py::module_& m) {
   m.def("optimize_region", [](const Problem& problem, const Region& r, const Settings& settings,
                               const py::object& progress, const py::object& phase) {
     RegionStudySettings s{settings};
-    RegionResult out = interruptible(
+    return interruptible(
         progress,
         [&](const WorkControl& control) {
           if (!phase.is_none())
@@ -222,7 +153,6 @@ void bind_optimize(py::module_& m) {
           return optimize_region(problem, r, s, control);
         },
         [](RegionResult& f) { return f.result.interrupted = true; });
-    return std::pair(std::move(out.result), std::move(out.region));
   });
   m.def("trace", [](const Problem& problem, const std::vector<double>& start, const std::string& formulation) {
     const Formulation f = formulation_from(formulation);

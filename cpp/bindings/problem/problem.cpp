@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "ninedof/domains/region.hpp"
+#include "ninedof/limits/numbers.hpp"
 #include "ninedof/optimize/evaluate.hpp"
 #include "ninedof/optimize/optimize.hpp"
 #include "support/module.hpp"
@@ -9,21 +10,58 @@
 namespace ninedof::python {
 namespace {
 
-/// The rows of a table as (name, kind, sides, units, options, default low side, what of a duty it needs).
-py::tuple rows_of(const std::vector<ConstraintInfo>& table) {
+/// The words that are not empty.
+py::tuple words(std::initializer_list<const char*> all) {
   py::list out;
-  for (const ConstraintInfo& row : table) {
-    py::list sides, units, options;
-    if (row.sides != LimitSides::only_high) sides.append("min");
-    if (row.sides != LimitSides::only_low) sides.append("max");
-    units.append(to_string(Unit::length));
-    if (row.of != Unit::length) units.append(to_string(row.of));
-    if (*row.option != '\0') options.append(row.option);
-    const py::object low = row.default_low > 0.0 ? py::object(py::float_(row.default_low)) : py::none();
-    out.append(py::make_tuple(row.name, to_string(row.kind), py::tuple(sides), py::tuple(units), py::tuple(options),
-                              low, py::tuple(py::str(row.needs).attr("split")())));
-  }
+  for (const char* word : all)
+    if (*word != '\0') out.append(word);
   return py::tuple(out);
+}
+
+void bind_tables(py::module_& m) {
+  using Row = ConstraintInfo;
+  py::class_<Row>(m, "ConstraintInfo", "A row of the table of constraints, or of criteria of workspaces.")
+      .def_readonly("name", &Row::name, "Of the limit.")
+      .def_property_readonly(
+          "kind", [](const Row& row) { return to_string(row.kind); },
+          "ratio, length, angle, sign, number, rate or power.")
+      .def_property_readonly(
+          "sides",
+          [](const Row& row) {
+            return words(
+                {row.sides == LimitSides::only_high ? "" : "min", row.sides == LimitSides::only_low ? "" : "max"});
+          },
+          "min, max or both.")
+      .def_property_readonly(
+          "units",
+          [](const Row& row) {
+            return words({to_string(Unit::length), row.of == Unit::length ? "" : to_string(row.of)});
+          },
+          "Values of the option `of`, the default first.")
+      .def_property_readonly(
+          "options", [](const Row& row) { return words({row.option}); }, "radius, axis or steps.")
+      .def_property_readonly(
+          "default_low",
+          [](const Row& row) { return row.default_low > 0.0 ? std::optional(row.default_low) : std::nullopt; },
+          "min where none is given, or None.")
+      .def_property_readonly(
+          "needs", [](const Row& row) { return py::tuple(py::str(row.needs).attr("split")()); },
+          "Tables that a study must have for it: loads, speeds.")
+      .def_property_readonly(
+          "is_angle", [](const Row& row) { return row.kind == LimitKind::angle; },
+          "Whether it is of angles, in radians.")
+      .def_property_readonly(
+          "body", [](const Row& row) { return row.kind == LimitKind::angle ? limit_body(row.name) : ""; },
+          "Of the joints whose angles are limited, base or platform; empty for other limits.");
+  m.attr("constraint_table") = constraint_table();
+  m.attr("criterion_table") = criterion_table();
+  py::class_<VariableInfo>(m, "VariableInfo", "A variable of a design family.")
+      .def_readonly("name", &VariableInfo::name, "Of the variable.")
+      .def_property_readonly(
+          "kind", [](const VariableInfo& v) { return to_string(v.kind); }, "length, coordinate or angle.")
+      .def_readonly("low", &VariableInfo::low, "Default bound, in characteristic lengths or radians.")
+      .def_readonly("high", &VariableInfo::high, "Default bound; the same where the variable is fixed.");
+  m.def("family_variables", [](const std::string& family) { return design_family(family).variables(); });
 }
 
 StudyLength length_from(const py::object& value) {
@@ -104,17 +142,9 @@ py::tuple configurations_at(const Problem& problem, const std::vector<double>& x
 void bind_problem(py::module_& m) {
   bind_requests(m);
   bind_evaluation(m);
+  bind_tables(m);
   m.def("design_family_names", &design_family_names);
-  m.attr("constraint_table") = rows_of(constraint_table());
-  m.attr("criterion_table") = rows_of(criterion_table());
   m.attr("singularity_free_steps") = py::make_tuple(Limit{}.steps, Limit::most_steps);
-  m.def("family_variables", [](const std::string& family) {
-    py::list out;
-    for (const VariableInfo& v : design_family(family).variables())
-      out.append(py::make_tuple(v.name, to_string(v.kind), v.low, v.high));
-    return out;
-  });
-
   py::class_<Problem>(m, "Problem", "A design problem as the core takes it; made by `Study`.")
       .def(py::init([](std::string family, const std::vector<std::pair<double, double>>& bounds,
                        std::vector<Limit> limits, const py::object& characteristic_length, const Objective& objective,

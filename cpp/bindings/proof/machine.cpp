@@ -61,13 +61,8 @@ void bind_structs(py::module_& m) {
       .def_property_readonly(
           "value", [](const Proof& one) { return std::pair(one.value.lo, one.value.hi); },
           "Lower and upper bound of the worst value.")
-      .def_property_readonly(
-          "answer",
-          [](const Proof& one) {
-            constexpr std::array words{"proved", "violated", "undecided"};
-            return words[static_cast<std::size_t>(one.answer)];
-          },
-          "proved, violated or undecided.")
+      .def_property_readonly("answer", word_of(&Proof::answer, std::array{"proved", "violated", "undecided"}),
+                             "proved, violated or undecided.")
       .def_readonly("which", &Proof::part, "The leg, pair of legs or determinant that is worst.")
       .def_readonly("at", &Proof::at, "Where; of a stroke where the leg is longest and shortest.")
       .def_readonly("at_neutral", &Proof::at_neutral, "Whether it is of the neutral pose alone.")

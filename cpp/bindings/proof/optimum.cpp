@@ -56,9 +56,8 @@ void bind_optimum(py::module_& m) {
       .def_readonly("words", &checker::Verdict::words, "What is proved, or why the certificate is refused.")
       .def_readonly("boxes", &checker::Verdict::leaves, "Looked at.")
       .def_readonly("recut", &checker::Verdict::recut, "Of them, those that were divided further.")
-      .def_property_readonly(
-          "study", [](const checker::Verdict& v) { return py::tuple(py::cast(v.study)); },
-          "The designs or the robot that the proof is about, lines of text.");
+      .def_property_readonly("study", tuple_of(&checker::Verdict::study),
+                             "The designs or the robot that the proof is about, lines of text.");
   m.def(
       "check_certificate",
       [](std::string_view certificate, const py::object& progress, double seconds) {

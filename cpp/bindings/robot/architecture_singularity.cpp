@@ -2,22 +2,29 @@
 
 #include "support/configurations.hpp"
 #include "support/module.hpp"
+#include "support/struct.hpp"
 
 namespace ninedof::python {
 
 void bind_architecture_singularity(py::module_& m) {
-  m.def("nearest_architecture_singularity", [](const Geometry& g) {
-    const ArchitectureSingularity nearest = nearest_architecture_singularity(g);
-    return py::make_tuple(static_cast<int>(nearest.kind), nearest.leg, nearest.other, nearest.distance,
-                          nearest.relative);
-  });
-  m.def("similar_triangles", [](const Geometry& g) {
-    const SimilarTriangles found = similar_triangles(g);
-    Array rotations(std::vector<py::ssize_t>{2, 3, 3});
-    using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-    for (std::size_t k = 0; k < 2; ++k) Eigen::Map<RowMajor>(rotations.mutable_data() + 9 * k) = found.rotations[k];
-    return py::make_tuple(found.dissimilarity, rotations);
-  });
+  py::class_<ArchitectureSingularity> nearest(m, "ArchitectureSingularity", "A design that is singular at every pose.");
+  word_attribute(nearest, "kind", &ArchitectureSingularity::kind,
+                 std::array{"lower_on_line", "upper_on_line", "base_in_point", "platform_in_point", "legs_coincide"},
+                 "Its class.");
+  nearest.def_readonly("leg", &ArchitectureSingularity::leg, "Of legs_coincide, from 0.")
+      .def_readonly("other", &ArchitectureSingularity::other, "The other one.")
+      .def_readonly("distance", &ArchitectureSingularity::distance, "Length by which a joint must move.")
+      .def_readonly("relative", &ArchitectureSingularity::relative, "Over the longest side of a triangle of joints.");
+  py::class_<SimilarTriangles>(m, "SimilarTriangles", "How far the external triangles are from similar ones.")
+      .def_readonly("dissimilarity", &SimilarTriangles::dissimilarity, "0 to 1.")
+      .def_property_readonly(
+          "rotations",
+          [](const SimilarTriangles& t) {
+            return array_from(std::vector<Mat3>(t.rotations.begin(), t.rotations.end()));
+          },
+          "At which they are as parallel as they can be, shape (2, 3, 3).");
+  m.def("nearest_architecture_singularity", &nearest_architecture_singularity);
+  m.def("similar_triangles", &similar_triangles);
   m.def("homothety_residual",
         [](const Geometry& g, const ConfigurationStack& c) { return homothety_residual(g, c[0].rotation); });
 }

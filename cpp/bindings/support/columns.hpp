@@ -35,6 +35,14 @@ inline Array array_from(const std::vector<Vec3>& points) {
   return out;
 }
 
+/// Rotations as an array (n, 3, 3).
+inline Array array_from(const std::vector<Mat3>& rotations) {
+  Array out(std::vector<py::ssize_t>{std::ssize(rotations), 3, 3});
+  double* to = out.mutable_data();
+  for (const Mat3& q : rotations) to = write(q, to);
+  return out;
+}
+
 /// An array (n, 3) as points, or InvalidArgument naming the argument.
 inline std::vector<Vec3> points_from(const char* name, const py::object& value) {
   const auto a = value.cast<Array>();

@@ -27,12 +27,18 @@ py::class_<T> request(py::module_& m, const char* name, const char* doc) {
   return py::class_<T>(m, name, doc).def(py::init([](const py::kwargs& given) { return with_keywords(T{}, given); }));
 }
 
+/// A getter of an enumeration as one of `words`, in its order.
+template <class T, class E, std::size_t N>
+auto word_of(E T::* member, const std::array<const char*, N>& words) {
+  return [=](const T& from) { return words[static_cast<std::size_t>(from.*member)]; };
+}
+
 /// An attribute of an enumeration as one of `words`, in its order.
 template <class T, class E, std::size_t N>
 void word_attribute(py::class_<T>& owner, const char* name, E T::* member, const std::array<const char*, N>& words,
                     const char* doc) {
   owner.def_property(
-      name, [=](const T& from) { return words[static_cast<std::size_t>(from.*member)]; },
+      name, word_of(member, words),
       [=](T& to, const std::string& word) {
         std::string all;
         for (std::size_t k = 0; k < N; ++k) {
@@ -57,6 +63,12 @@ auto copy_of(U T::* member) {
 template <class T, class U>
 auto setter_of(U T::* member) {
   return [member](T& to, U value) { to.*member = std::move(value); };
+}
+
+/// A getter of a list as a tuple.
+template <class T, class U>
+auto tuple_of(U T::* member) {
+  return [member](const T& from) { return py::tuple(py::cast(from.*member)); };
 }
 
 /// A getter of a list as an array of numbers.

@@ -62,13 +62,8 @@ void bind_certified_workspace(py::module_& m) {
       .def_readwrite("boxes", &CertifySettings::boxes, "Looked at, at most.");
   using C = CertifiedWorkspace;
   py::class_<C>(m, "CertifiedWorkspace", "A workspace between proved bounds; the public class says what each means.")
-      .def_property_readonly(
-          "end",
-          [](const C& c) {
-            constexpr std::array ends{"gap", "time", "boxes", "stopped", "smallest"};
-            return ends[static_cast<std::size_t>(c.end)];
-          },
-          "Why the search ended: gap, time, boxes, stopped or smallest.")
+      .def_property_readonly("end", word_of(&C::end, std::array{"gap", "time", "boxes", "stopped", "smallest"}),
+                             "Why the search ended: gap, time, boxes, stopped or smallest.")
       .def_property_readonly(
           "volume", [](const C& c) { return ends_of(c.volume); },
           "Lower and upper bound of all that is allowed in the box, lengths cubed or radians cubed.")
@@ -81,18 +76,13 @@ void bind_certified_workspace(py::module_& m) {
             return c.home_outside ? "forbidden" : "unknown";
           },
           "allowed, forbidden or unknown.")
-      .def_property_readonly(
-          "beyond", [](const C& c) { return beyond[static_cast<std::size_t>(c.beyond)]; },
-          "What is allowed outside the box: nothing, something or unknown.")
-      .def_property_readonly(
-          "box_low", [](const C& c) { return array_from(c.box_low); }, "Of the box asked for, shape (3,).")
-      .def_property_readonly(
-          "box_high", [](const C& c) { return array_from(c.box_high); }, "Shape (3,).")
-      .def_property_readonly(
-          "low", [](const C& c) { return array_from(c.low); },
-          "Of the box that was divided, outside which nothing is allowed, shape (3,).")
-      .def_property_readonly(
-          "high", [](const C& c) { return array_from(c.high); }, "Shape (3,).")
+      .def_property_readonly("beyond", word_of(&C::beyond, beyond),
+                             "What is allowed outside the box: nothing, something or unknown.")
+      .def_property_readonly("box_low", copy_of(&C::box_low), "Of the box asked for, shape (3,).")
+      .def_property_readonly("box_high", copy_of(&C::box_high), "Shape (3,).")
+      .def_property_readonly("low", copy_of(&C::low),
+                             "Of the box that was divided, outside which nothing is allowed, shape (3,).")
+      .def_property_readonly("high", copy_of(&C::high), "Shape (3,).")
       .def_property_readonly("inner_low", points_of(&C::inner_low),
                              "Of boxes in which every pose is allowed, shape (n, 3).")
       .def_property_readonly("inner_high", points_of(&C::inner_high), "Shape (n, 3).")

@@ -7,13 +7,6 @@
 namespace ninedof::python {
 namespace {
 
-Array rotations_of(const WorkspaceDomain& d) {
-  Array out(std::vector<py::ssize_t>{std::ssize(d.rotations), 3, 3});
-  double* to = out.mutable_data();
-  for (const Mat3& q : d.rotations) to = python::write(q, to);
-  return out;
-}
-
 void set_rotations(WorkspaceDomain& d, const Array& rows) {
   d.rotations.clear();
   for (py::ssize_t k = 0; k < rows.size() / 9; ++k)
@@ -33,7 +26,9 @@ void bind_domain(py::module_& m) {
   domain.def_readwrite("low", &WorkspaceDomain::low, "Corner of the box of positions.")
       .def_readwrite("high", &WorkspaceDomain::high, "The opposite corner.")
       .def_readwrite("position", &WorkspaceDomain::position, "Of orientations.")
-      .def_property("rotations", &rotations_of, &set_rotations, "The one, the centre of the region, or the set.")
+      .def_property(
+          "rotations", [](const WorkspaceDomain& d) { return array_from(d.rotations); }, &set_rotations,
+          "The one, the centre of the region, or the set.")
       .def_readwrite("region", &WorkspaceDomain::region, "Of orientations.");
 }
 

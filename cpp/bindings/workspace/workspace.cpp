@@ -77,8 +77,7 @@ void bind_map(py::module_& m) {
       .def_readonly("conditioning_index", &WorkspaceMap::conditioning_index, "Mean of 1 / condition number.")
       .def_readonly("conditioning_index_error", &WorkspaceMap::conditioning_index_error, "Estimate of its error.")
       .def_readonly("worst_condition_number", &WorkspaceMap::worst_condition_number, "The greatest over the workspace.")
-      .def_property_readonly(
-          "worst_at", [](const WorkspaceMap& map) { return array_from(map.worst_at); }, "Where, shape (3,).")
+      .def_property_readonly("worst_at", copy_of(&WorkspaceMap::worst_at), "Where, shape (3,).")
       .def_property_readonly("percentiles", column_of<double>(&WorkspaceMap::percentiles),
                              "Of the condition number over the volume, at 0 to 100 %, shape (101,).")
       .def_readonly("boundary_area", &WorkspaceMap::boundary_area, "In coordinates of the map.")
@@ -87,10 +86,8 @@ void bind_map(py::module_& m) {
       .def_property_readonly("levels", &levels_of, "Cells, evaluations, volume and error of each level, shape (k, 4).")
       .def_readonly("cells", &WorkspaceMap::cells, "At the end of the search, those outside included.")
       .def_property_readonly("sides", &sides_of, "Of the cells, shape (n, 3); 0 for the points of a sample.")
-      .def_property_readonly(
-          "low", [](const WorkspaceMap& map) { return array_from(map.low); }, "Of the map, shape (3,).")
-      .def_property_readonly(
-          "high", [](const WorkspaceMap& map) { return array_from(map.high); }, "Shape (3,).")
+      .def_property_readonly("low", copy_of(&WorkspaceMap::low), "Of the map, shape (3,).")
+      .def_property_readonly("high", copy_of(&WorkspaceMap::high), "Shape (3,).")
       .def_readonly("evaluations", &WorkspaceMap::evaluations, "Poses.")
       .def_readonly("internal_point_audit", &WorkspaceMap::internal_points, "Of the best O.");
 }
@@ -122,21 +119,13 @@ void bind_workspace(py::module_& m) {
   py::class_<RegionShare>(m, "RegionShare", "How much of a region keeps the criteria of a workspace.")
       .def_readonly("share", &RegionShare::share, "Of even poses of the region that keep every criterion, 0 to 1.")
       .def_readonly("looked_at", &RegionShare::poses, "Poses.")
-      .def_property_readonly(
-          "passed", [](const RegionShare& found) { return py::tuple(py::cast(found.passed)); },
-          "Criteria that some pose violates.");
+      .def_property_readonly("passed", tuple_of(&RegionShare::passed), "Criteria that some pose violates.");
   m.def("region_share", [](const WorkspaceQuestion& q, const Region& region, long count) {
     return interruptible(py::none(), [&](const Control& control) {
       return region_share(q.geometry, q.home.value(), q.criteria, region, count, control);
     });
   });
-  m.def("spread_rotations", [](int count, double angle) {
-    const std::vector<Mat3> rotations = spread_rotations(count, angle);
-    Array out(std::vector<py::ssize_t>{static_cast<py::ssize_t>(rotations.size()), 3, 3});
-    double* to = out.mutable_data();
-    for (const Mat3& q : rotations) to = python::write(q, to);
-    return out;
-  });
+  m.def("spread_rotations", [](int count, double angle) { return array_from(spread_rotations(count, angle)); });
 }
 
 }  // namespace ninedof::python

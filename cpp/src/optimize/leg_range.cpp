@@ -19,6 +19,15 @@ void LegRange::surround(const Vec9& shortest, const Vec9& longest) {
   }
 }
 
+LegRange range_of(const LegLimits& lengths, double size) {
+  LegRange out;
+  out.size = size;
+  const auto measured = [&](double length) { return out.measured(length); };
+  out.low = lengths.low.unaryExpr(measured);
+  out.high = lengths.high.unaryExpr(measured);
+  return out;
+}
+
 std::vector<LegRange> leg_ranges(const Problem& problem) {
   std::vector<LegRange> out;
   for (const Limit& limit : problem.limits) {

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -17,36 +17,7 @@ from ninedof.support.arguments import Vector, choice, finite, items, known_keys,
 from ninedof.support.structs import Check, Fixed, plain, within
 from ninedof.support.units import angle_entry, degrees_of, half_turn, in_radians, kind_unit
 
-
-class Row(NamedTuple):
-    """A row of the core's table of constraints, or of criteria of workspaces."""
-
-    name: str
-    kind: str
-    """"ratio", "length", "angle", "sign", "number", "rate" or "power"."""
-    sides: tuple[str, ...]
-    """"min", "max" or both."""
-    units: tuple[str, ...]
-    """Values of the option `of`, the default first."""
-    options: tuple[str, ...]
-    """Further options: "radius", "axis", "steps"."""
-    default_low: float | None
-    """min where none is given."""
-    needs: tuple[str, ...]
-    """Tables that a study must have for it: "loads", "speeds"."""
-
-    @property
-    def is_angle(self) -> bool:
-        """Whether limits are angles, in radians."""
-        return self.kind == "angle"
-
-    @property
-    def body(self) -> str:
-        """The body of the joints whose angles are limited, "base" or "platform"; "" for other limits."""
-        return _core.cone_bodies.get(self.name, "")
-
-
-ROWS = {values[0]: Row(*values) for values in _core.constraint_table}
+ROWS = {row.name: row for row in _core.constraint_table}
 OF_LENGTHS = {
     name: [LEGS.index(part) for part in parts]
     for name, parts in _core.limit_parts.items()
@@ -74,7 +45,7 @@ class Limit:
     at: str = AT[0]
 
     @property
-    def row(self) -> Row:
+    def row(self) -> _core.ConstraintInfo:
         """Its row in the table of constraints."""
         return ROWS[self.name]
 
@@ -192,7 +163,7 @@ def require_stated(limits: Sequence[Limit], states: Mapping[str, bool]) -> None:
                 raise ValueError(f"constraints.{limit.name}: got a study without {table}, expected {expected[table]}")
 
 
-def _parse(where: str, row: Row, value: Any) -> Limit:
+def _parse(where: str, row: _core.ConstraintInfo, value: Any) -> Limit:
     if isinstance(value, Limit):
         value = value.entries
     if not isinstance(value, Mapping):
@@ -237,7 +208,7 @@ OPTIONS: dict[str, Check] = {
 }
 
 
-def _require_sensible(where: str, row: Row, low: float | None, high: float | None) -> None:
+def _require_sensible(where: str, row: _core.ConstraintInfo, low: float | None, high: float | None) -> None:
     """Raise for limits that no design can meet or that have no effect."""
     least, most = 0.0 if low is None else low, math.inf if high is None else high
     if not (0.0 <= least <= most and least < math.inf and most > 0.0):

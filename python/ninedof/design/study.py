@@ -77,7 +77,7 @@ FAMILIES = tuple(_core.design_family_names())
 
 def variable_kinds(family: str) -> dict[str, str]:
     """Return the variables of a family by name: "length", "coordinate" or "angle"."""
-    return {name: kind for name, kind, *_ in _core.family_variables(family)}
+    return {one.name: one.kind for one in _core.family_variables(family)}
 
 
 def in_radians_by_kind(where: str, values: Any, kinds: Mapping[str, str], check: Check) -> dict[str, Any]:
@@ -221,10 +221,10 @@ class Study(Named):
         bought.require_together(self.actuators, self.greatest_price, self.constraints)
         named = in_radians_by_kind("variables", self.variables, variable_kinds(self.family), bound)
         variables: dict[str, Bound] = {}
-        for name, kind, *ends in _core.family_variables(self.family):
+        for one in _core.family_variables(self.family):
             length = self.characteristic_length
-            unit = length if isinstance(length, float) and kind in ("length", "coordinate") else 1.0
-            low, high = (end * unit for end in ends)
+            unit = length if isinstance(length, float) and one.kind in ("length", "coordinate") else 1.0
+            name, low, high = one.name, one.low * unit, one.high * unit
             variables[name] = bound(name, named[name]) if name in named else low if low == high else (low, high)
         region = self.objective.region
         if region is not None and region.tool_height != self.tool.position[2]:

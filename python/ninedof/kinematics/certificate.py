@@ -52,17 +52,22 @@ def each(shape: tuple[int, ...], values: NDArray[Any]) -> Any:
     return values.reshape(shape)[()] if shape else values.item()
 
 
+def column(chunks: list[Any], name: str) -> NDArray[Any]:
+    """Return a column of all chunks."""
+    return np.concatenate([getattr(one, name) for one in chunks])
+
+
 def certificate_of(shape: tuple[int, ...], counts: NDArray[Any], data: Any, chunks: list[Any]) -> ModesCertificate:
     """Build the certificate from what the core returns for chunks of rows; `data` says which rows have lengths."""
-    proved, undecided, boxes, radius, places, place_radius = (np.concatenate([c[k] for c in chunks]) for k in range(6))
-    rows = with_gaps(undecided, places, 15, np.nan)
+    undecided = column(chunks, "undecided")
+    rows = with_gaps(undecided, column(chunks, "places"), 15, np.nan)
     full = (*shape, rows.shape[1])
     return ModesCertificate(
         complete=each(shape, (undecided == 0) & data),
-        proved=each(shape, proved.astype(np.int64)),
+        proved=each(shape, column(chunks, "proved").astype(np.int64)),
         undecided=each(shape, undecided.astype(np.int64)),
-        boxes=each(shape, boxes),
-        radius=with_gaps(counts, radius, 1, np.nan).reshape(*shape, -1 if len(counts) else 0),
+        boxes=each(shape, column(chunks, "boxes")),
+        radius=with_gaps(counts, column(chunks, "radius"), 1, np.nan).reshape(*shape, -1 if len(counts) else 0),
         places=Configuration._shaped(full, rows[..., :3], rows[..., 3:12], rows[..., 12:]),
-        place_radius=with_gaps(undecided, place_radius, 1, np.nan).reshape(full),
+        place_radius=with_gaps(undecided, column(chunks, "place_radius"), 1, np.nan).reshape(full),
     )

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.kinematics.certificate import certificate_of, each, with_gaps
+from ninedof.kinematics.certificate import certificate_of, column, each, with_gaps
 from ninedof.robot.configuration import Configuration, broadcast_flat, operands
 from ninedof.robot.designs import takes_designs
 from ninedof.robot.geometry import Geometry
@@ -168,25 +168,23 @@ def forward_position(
         _core.forward_position(geometry, rows[k : k + CHUNK], flag("certify", certify), workers)
         for k in range(0, max(1, len(rows)), CHUNK)
     ]
-    counts, statuses, obstacles, certain, flat, separation, sides = (
-        np.concatenate([c[k] for c in chunks]) for k in range(7)
-    )
-    status = np.array([PositionStatus(word or "no_data") for word in statuses], dtype=object)
-    reason = np.array([OBSTACLES.get(word, "") for word in obstacles], dtype=object)
+    counts, flat, side = (column(chunks, name) for name in ("count", "configuration", "side"))
+    status = np.array([PositionStatus(word or "no_data") for one in chunks for word in one.status], dtype=object)
+    reason = np.array([OBSTACLES.get(word, "") for one in chunks for word in one.obstacle], dtype=object)
     shape = lengths.shape[:-1]
     full = (*shape, int(counts.max(initial=0)))
-    base_side, platform_side = np.moveaxis(with_gaps(counts, sides.astype(np.int64), 2, 0), -1, 0).reshape(2, *full)
+    base_side, platform_side = np.moveaxis(with_gaps(counts, side.astype(np.int64), 2, 0), -1, 0).reshape(2, *full)
     return AssemblyModes._with(
         full,
         with_gaps(counts, flat, 15, np.nan).reshape(-1, 15),
         status=each(shape, status),
         reason=each(shape, reason),
         count=each(shape, counts.astype(np.int64)),
-        certain=each(shape, certain.astype(bool)),
-        separation=with_gaps(counts, separation, 1, np.nan).reshape(full),
+        certain=each(shape, column(chunks, "certain").astype(bool)),
+        separation=with_gaps(counts, column(chunks, "separation"), 1, np.nan).reshape(full),
         base_side=base_side,
         platform_side=platform_side,
-        certificate=certificate_of(shape, counts, ~np.isnan(rows).any(axis=1), [c[7] for c in chunks])
+        certificate=certificate_of(shape, counts, ~np.isnan(rows).any(axis=1), [one.certificate for one in chunks])
         if certify
         else None,
     )

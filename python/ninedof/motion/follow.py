@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import length_at
-from ninedof.motion.tables import FORCES, motion_tables
+from ninedof.motion.tables import FORCES, POWERS, WORKS, motion_tables
 from ninedof.motion.trajectory import Trajectory
 from ninedof.redundancy.redundancy import leg_limits
 from ninedof.redundancy.rules import RULES
@@ -115,7 +115,7 @@ class Followed(Saved):
         """
         determinants = np.stack(self.singularity_margins)
         entries = _core.limit_breaks(self.time, self.leg_lengths, *self.limits, determinants)
-        breaks = [*(LimitBreak(*entry) for entry in entries), *(self.study_breaks or ())]
+        breaks = [*(from_core(LimitBreak, entry) for entry in entries), *(self.study_breaks or ())]
         return tuple(sorted(breaks, key=lambda one: (one.begin, one.limit)))
 
     @property
@@ -148,8 +148,8 @@ class Followed(Saved):
             return {}
         loads = self.leg_forces.reshape(-1, len(self.time), 9)
         each = [_core.drive_figures(self.time, forces, self.leg_rates) for forces in loads]
-        scales = {name: 1.0 if name in FORCES else self._watts for name in each[0]}
-        return {name: scale * np.max([figures[name] for figures in each], axis=0) for name, scale in scales.items()}
+        scales = dict.fromkeys(FORCES, 1.0) | dict.fromkeys(POWERS + WORKS, self._watts)
+        return {name: scale * np.max([getattr(one, name) for one in each], axis=0) for name, scale in scales.items()}
 
     @property
     def load_count(self) -> int:

@@ -16,6 +16,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.design_point import DesignPoint
+from ninedof.design.domains.region_poses import leg_limits_of
 from ninedof.design.objective import CONDITION_LIMIT
 from ninedof.design.study import LENGTH
 from ninedof.optimize.bounds import CERTIFICATE, applicable_bounds
@@ -211,11 +212,7 @@ def _of_claims(result: Result, steps: int, seed: int) -> Iterator[Finding]:
 def _region(result: Result, problem: _core.Problem, x: list[float], seed: int) -> Finding:
     report: Any = result.region
     region: Any = result.study.objective.region
-    legs = None
-    if report.leg_ranges:
-        low, high = np.transpose(report.leg_ranges)
-        legs = _core.LegLimits(low=low, high=high)
-    worst = _core.check_region(problem, region.for_core(), x, legs, seed)
+    worst = _core.check_region(problem, region.for_core(), x, leg_limits_of(report.leg_ranges), seed)
     where = "poses, O being placed at each," if region.internal_point == "best" else "poses"
     sentence = f"at {worst.poses} {where} the index is at most {worst.index:.9g}, the least margin {worst.margin:.1e}"
     holds = worst.excess <= BETWEEN

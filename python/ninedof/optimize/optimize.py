@@ -226,8 +226,9 @@ def _anew(study: Study, settings: _core.Settings, progress: Progress | None) -> 
     if region is None:
         end = _core.optimize(problem, settings, progress)
     else:
-        end, over = _core.optimize_region(problem, region.for_core(), settings, progress, partial(phase, progress))
-        report = RegionReport.from_core(over) if end.candidates else None
+        over = _core.optimize_region(problem, region.for_core(), settings, progress, partial(phase, progress))
+        end = over.result
+        report = RegionReport.from_core(over.region) if end.candidates else None
         problem = (study if report is None else posed(study, report.poses)).problem()
     reason = end.reason
     if end.status == Status.INFEASIBLE:

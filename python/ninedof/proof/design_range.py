@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import finite, items, shown, table, text
 from ninedof.support.arrays import Floats
 from ninedof.support.kept.files import sha256
-from ninedof.support.running import Progress
 from ninedof.support.structs import Fixed
 from ninedof.support.units import amount, plain_name
 
@@ -203,40 +202,3 @@ def _range(study: Study, name: str, ends: tuple[float, float] | None) -> tuple[f
         ends_too = f"its ends too, (low, high) or --vary {name}=LOW:HIGH"
         raise ValueError(f"vary.{name}: got a variable that is fixed in the study, expected {ends_too}")
     return _ends(name, bounds)
-
-
-class Existence(NamedTuple):
-    """An answer, proved but for "undecided"."""
-
-    state: str
-    design: dict[str, float] | None
-    """One that exists: the variables that vary."""
-    designs: int
-    """Boxes of designs that were looked at."""
-    left: int
-    """Boxes that are not decided."""
-    interrupted: bool
-    certificate: bytes
-    """Of "none", where it is asked for: a file that ninedof_check replays."""
-
-
-def existence(
-    of: DesignRange,
-    *,
-    seconds: float = LONGEST,
-    resolution: float = 0.0,
-    threads: int = 0,
-    certificate: bool = False,
-    progress: Progress | None = None,
-) -> Existence:
-    """Say whether any design of the range keeps every limit at every pose."""
-    state, x, designs, left, interrupted, written = _core.any_admissible(
-        of.for_core(),
-        threads=threads,
-        seconds=min(seconds, LONGEST),
-        resolution=resolution,
-        certificate=certificate,
-        progress=progress,
-    )
-    design = dict(zip(of.vary, x, strict=True)) if state == EXISTS else None
-    return Existence(state, design, designs, left, interrupted, written)

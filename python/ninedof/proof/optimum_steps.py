@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from time import perf_counter
-from typing import Any
 
 from ninedof import _core
 from ninedof.design.domains.poses import ZERO
 from ninedof.design.domains.region_poses import o_is_placed
 from ninedof.design.study import Study
-from ninedof.proof.design_range import EXISTS, NONE, DesignRange, design_range, existence
+from ninedof.proof.design_range import EXISTS, LONGEST, NONE, DesignRange, design_range
 from ninedof.proof.optimum_proof import OptimumProof
 from ninedof.support.running import Progress, phase
 
@@ -112,7 +111,9 @@ def ways_of(study: Study) -> Ways:
                 raise
             reason = str(error) if study.family in GAPS else ""
     try:
-        existence(range_to_prove(study), seconds=0.0)  # raises where a limit has no bounds over boxes of designs
+        _core.any_admissible(
+            range_to_prove(study).for_core(), seconds=0.0
+        )  # raises where a limit has no bounds over boxes of designs
     except ValueError:
         if home is None:
             raise
@@ -184,12 +185,14 @@ class StepByStep:
         """Whether boxes of designs prove the target."""
         if not self._ways.by_boxes or self._interrupted:
             return False
-        how: dict[str, Any] = {"seconds": max(self._end - perf_counter(), 0.0), "threads": self._threads}
-        question = range_to_prove(self._study, target)
-        answer = existence(question, certificate=True, progress=self._progress, **how)
-        self._count(answer.designs, answer.left, answer.interrupted)
+        seconds = min(max(self._end - perf_counter(), 0.0), LONGEST)
+        question = range_to_prove(self._study, target).for_core()
+        answer = _core.any_admissible(
+            question, seconds=seconds, threads=self._threads, certificate=True, progress=self._progress
+        )
+        self._count(answer.looked_at, answer.open, answer.interrupted)
         if answer.state == NONE:
-            self._bound, self._certificate, self._left_out = target, answer.certificate, ()
+            self._bound, self._certificate, self._left_out = target, answer.certificate(question), ()
         self._better = target if answer.state == EXISTS else None
         return answer.state == NONE
 

@@ -23,6 +23,7 @@ from ninedof.robot.geometry import LEGS, Geometry
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import margin_of, tolerance_of
+from ninedof.support.structs import from_core
 
 
 class PoseLimit(NamedTuple):
@@ -123,7 +124,7 @@ class PathLimits:
         for one in self.limits:
             tolerance = tolerance_of(kind_of(one.name), one.limit)
             stretches = _core.stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, tolerance)
-            breaks += [LimitBreak(*entry) for entry in stretches]
+            breaks += [from_core(LimitBreak, entry) for entry in stretches]
         return tuple(sorted(breaks, key=lambda stretch: (stretch.begin, stretch.limit)))
 
     @property

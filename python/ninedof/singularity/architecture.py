@@ -89,10 +89,12 @@ def architecture_singularity(geometry: Geometry) -> ArchitectureSingularity:
 
     """
     instance("geometry", geometry, Geometry)
-    kind, leg, other, distance, relative = _core.nearest_architecture_singularity(geometry)
-    nearest = list(ArchitectureClass)[kind]
-    legs = (leg + 1, other + 1) if nearest is ArchitectureClass.LEGS_COINCIDE else ()
-    return ArchitectureSingularity(nearest, legs, distance, relative, *_core.similar_triangles(geometry))
+    nearest, similar = _core.nearest_architecture_singularity(geometry), _core.similar_triangles(geometry)
+    kind = ArchitectureClass(nearest.kind)
+    legs = (nearest.leg + 1, nearest.other + 1) if kind is ArchitectureClass.LEGS_COINCIDE else ()
+    return ArchitectureSingularity(
+        kind, legs, nearest.distance, nearest.relative, similar.dissimilarity, similar.rotations
+    )
 
 
 def architecture_sentences(design: HasRobot, unit: str) -> list[str]:

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.design.duty import LegDuty, duty
 from ninedof.design.limit_numbers import PARTS
-from ninedof.design.limits import Row
 from ninedof.redundancy.redundancy import leg_limits
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import LEGS, Geometry
@@ -33,7 +32,7 @@ SETS = ("reachable", "inclusive", "dexterous")
 ARCHETYPES = ("constant_orientation", "orientation", *SETS)
 SPREAD = 60  # rotations of a set that is not given
 MOST_ROTATIONS = 100_000
-ROWS = {values[0]: Row(*values) for values in _core.criterion_table}
+ROWS = {row.name: row for row in _core.criterion_table}
 CRITERIA = tuple(ROWS)
 LEG_LIMITS = next(name for name, row in ROWS.items() if row.kind == "length" and name not in PARTS)
 """The criterion that gives every leg a range of lengths of its own."""
@@ -227,7 +226,7 @@ def criteria_of(criteria: Mapping[str, Any] | None, characteristic_length: float
     return out
 
 
-def _limit(row: Row, value: Any) -> list[_core.Limit]:
+def _limit(row: _core.ConstraintInfo, value: Any) -> list[_core.Limit]:
     """Return the limit of a row: a flag, a number for its only side, (low, high), or a mapping with options."""
     if row.kind == "sign":
         return [_core.Limit(name=row.name)] if flag(row.name, value) else []

@@ -244,10 +244,8 @@ def built_ranges(design: Any, actuators: str) -> tuple[Floats, Floats] | None:
 
 def permitted_ranges(study: Study, home: Configuration, lengths: Floats) -> tuple[Floats, Floats]:
     """Return the ranges about lengths at poses, shape (n, 9), that the limits of a study which compare them leave."""
-    low, high = np.zeros(9), np.full(9, math.inf)
-    for _, least, most, _ in _core.leg_ranges(study.problem(), study.zp(home), lengths):
-        low, high = np.maximum(low, least), np.minimum(high, most)
-    return low, high
+    permitted = _core.permitted_range(study.problem(), study.zp(home), lengths)
+    return permitted.low, permitted.high
 
 
 def _eased(low: Floats, high: Floats) -> tuple[Floats, Floats]:

@@ -69,6 +69,8 @@ TEST_SUITE("leg_range") {
       CHECK(common.high[leg] == doctest::Approx(std::min(0.5 * (shortest + longest) + 0.2, longest * ratio)));
     }
     CHECK((common_range({}, limits).low == limits.low && common_range({}, limits).high == limits.high));
+    const LegLimits again = common_range({range_of(common, 3.0)}, {});
+    CHECK((again.low.isApprox(common.low, 1e-14) && again.high.isApprox(common.high, 1e-14)));
   }
 
   TEST_CASE("limits that compare no poses, are open or hold at the neutral pose have no range") {

@@ -19,7 +19,7 @@ WIDER = {
 def test_random_designs_are_found_in_every_family_that_has_them(family):
     bounds = {}
     if family == "general":
-        names = [name for name, kind, *_ in _core.family_variables(family) if kind == "coordinate"]
+        names = [one.name for one in _core.family_variables(family) if one.kind == "coordinate"]
         bounds = dict.fromkeys(names, (-5.0, 5.0)) | {"theta_z": (-3.0, 3.0)}
     study = nd.Study(family, bounds)
     names = study.problem().names

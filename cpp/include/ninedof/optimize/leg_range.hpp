@@ -36,6 +36,9 @@ struct LegRange {
   void surround(const Vec9& shortest, const Vec9& longest);
 };
 
+/// The range of given lengths, by their logarithms in parts of a size.
+LegRange range_of(const LegLimits& lengths, double size = 1.0);
+
 /// A range for each limit of a problem on strokes and leg ratios at its poses, without ends and for zp = 1.
 std::vector<LegRange> leg_ranges(const Problem& problem);
 

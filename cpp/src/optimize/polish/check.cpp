@@ -105,11 +105,7 @@ RegionCheck check_placed(const Problem& problem, const Region& region, const Eig
   RegionCheck out;
   out.margin = infinity;
   if (lengths) {
-    LegRange range;
-    const auto measured = [&](double length) { return range.measured(length); };
-    range.low = lengths->low.unaryExpr(measured);
-    range.high = lengths->high.unaryExpr(measured);
-    goal.ranges.push_back(range);
+    goal.ranges.push_back(range_of(*lengths));
     out.margin = margin_of_ranges(alone, zp, *lengths);
   }
   std::vector<Placed> known;

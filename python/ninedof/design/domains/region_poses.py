@@ -47,14 +47,21 @@ class Placing:
         """Return the design as the core takes it, its problem without poses."""
         ruled = [name.removesuffix(".s_x") for name in self.variables if name.endswith(".s_x")]
         plain = replace(self.study, objective=replace(self.study.objective, poses=(), region=None)).problem()
-        low, high = np.transpose(self.leg_ranges) if self.leg_ranges else ((), ())
         return _core.PlacedDesign(
             problem=plain,
             variables=[self.variables[name] for name in plain.names],
             log_index=math.log(self.objective),
-            ranges=[("", low, high, 0.0)] if self.leg_ranges else [],
+            leg_ranges=leg_limits_of(self.leg_ranges),
             known=[[self.variables[f"{pose}.s_{axis}"] for axis in "xyz"] for pose in ruled],  # shifts of O in zp
         )
+
+
+def leg_limits_of(ranges: Ranges) -> _core.LegLimits | None:
+    """Return the ranges of the nine legs as the core takes them; None without any."""
+    if not ranges:
+        return None
+    low, high = np.transpose(ranges)
+    return _core.LegLimits(low=low, high=high)
 
 
 def placing_of(design: Any, neutral: Configuration | None) -> Placing | None:

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from contextlib import closing, suppress
 from functools import partial
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any, NamedTuple, TypedDict, Unpack
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ninedof import _core
 from ninedof.design.study import Study
-from ninedof.proof.admissible.result import PIECES, STATES, AdmissibleSet
+from ninedof.proof.admissible.result import STATES, AdmissibleSet
 from ninedof.proof.design_range import LONGEST, DesignRange, HasDesign, design_range
 from ninedof.support.arguments import executor_argument, finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS, Floats
 from ninedof.support.kept.chunks import results_at
-from ninedof.support.kept.files import Arrays
 from ninedof.support.running import Progress, progress_argument
-from ninedof.support.structs import Fixed, options_of
+from ninedof.support.structs import Fixed, from_core, options_of
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -107,46 +107,62 @@ def admissible(
     executor_argument(executor)
     if resume is not None and instance("resume", resume, AdmissibleSet).of.digest != question.digest:
         raise ValueError("resume: got the designs of another question, expected those of this one")
-    earlier, progress = None if resume is None else vars(resume), progress_argument(chosen["progress"])
+    progress = progress_argument(chosen["progress"])
     how: dict[str, Any] = {"seconds": min(seconds, LONGEST), "resolution": resolution, "progress": progress}
     if executor is None:
-        answer = _core.admissible_designs(
-            question.for_core(), threads=threads, undecided=ENOUGH, earlier=earlier, **how
-        )
+        answer = _core.admissible_designs(question.for_core(), threads=threads, undecided=ENOUGH, earlier=resume, **how)
     else:
-        answer = by_roots(question, executor, earlier, threads=threads or 1, **how)
-    return AdmissibleSet(
-        question,
-        **{name: answer[name] for name in (*PIECES, "demands")},
-        shares=Fixed({name: answer[name] for name in STATES}),
-        designs=answer["looked_at"] + (0 if resume is None else resume.designs),
-        boxes=answer["boxes"] + (0 if resume is None else resume.boxes),
+        answer = by_roots(question, executor, resume, threads=threads or 1, **how)
+    return from_core(
+        AdmissibleSet,
+        answer,
+        of=question,
+        shares=Fixed({name: getattr(answer, name) for name in STATES}),
+        designs=answer.looked_at + (0 if resume is None else resume.designs),
+        boxes=answer.boxes + (0 if resume is None else resume.boxes),
         seconds=perf_counter() - begin + (0.0 if resume is None else resume.seconds),
-        interrupted=answer["interrupted"],
     )
 
 
 ENOUGH = 1e-5  # of the volume: what is undecided below it is not looked at
 ROOTS = 64  # whatever the workers are: the answer does not depend on them
-COUNTS = ("looked_at", "boxes", "interrupted")
 
 
-def decided(root: Arrays, of: DesignRange, **how: Any) -> Arrays:
-    """Return the pieces of a root, decided as far as its time goes, and counts."""
+class Pieces(NamedTuple):
+    """Pieces of a box as `AdmissibleSet` has them."""
+
+    low: Floats
+    high: Floats
+    state: NDArray[np.int8]
+    demand: NDArray[np.int32]
+    poses: Floats
+
+    def chosen(self, rows: Any) -> Pieces:
+        """Return some of the pieces."""
+        return Pieces(*(column[rows] for column in self))
+
+
+def joined(parts: Iterable[Pieces]) -> Pieces:
+    """Return all pieces of some parts."""
+    return Pieces(*map(np.concatenate, zip(*parts, strict=True)))
+
+
+def decided(root: Pieces, of: DesignRange, **how: Any) -> tuple[Pieces, tuple[int, int, bool]]:
+    """Return the pieces of a root, decided as far as its time goes; boxes of designs and of poses, interrupted."""
     answer = _core.admissible_designs(of.for_core(), earlier=root, **how)
-    return {name: np.asarray(answer[name]) for name in PIECES + COUNTS}
+    return from_core(Pieces, answer), (answer.looked_at, answer.boxes, answer.interrupted)
 
 
 def by_roots(
     of: DesignRange,
     executor: Executor,
-    earlier: Mapping[str, Any] | None,
+    earlier: AdmissibleSet | None,
     *,
     seconds: float,
     resolution: float,
     threads: int,
     progress: Progress | None,
-) -> dict[str, Any]:
+) -> _core.DesignSet:
     """Return what `_core.admissible_designs` does, by an executor. Ctrl-C leaves the roots that run undecided.
 
     All roots are about the whole of the box: of the rest of it a root knows nothing.
@@ -155,10 +171,10 @@ def by_roots(
     without_time = partial(
         _core.admissible_designs, of.for_core(), threads=1, seconds=0.0, resolution=resolution, undecided=ENOUGH
     )
-    begin = without_time(earlier=earlier)
-    undecided = begin["state"] == 2
-    roots = roots_of(of, {name: begin[name][undecided] for name in PIECES}, resolution)
-    pieces, interrupted = dict(roots), True
+    begin = from_core(Pieces, without_time(earlier=earlier))
+    undecided = begin.state == 2
+    roots = roots_of(of, begin.chosen(undecided), resolution)
+    pieces, counts, interrupted = dict(roots), np.zeros(3, dtype=int), True
     how: dict[str, Any] = {
         "seconds": seconds,
         "resolution": resolution,
@@ -169,34 +185,33 @@ def by_roots(
     progress = progress or (lambda *_: None)
     with closing(results_at(executor, jobs)) as answers, suppress(KeyboardInterrupt):
         progress(0, len(roots), None)
-        for done, (k, answer) in enumerate(answers, start=1):
-            pieces[k] = answer
+        for done, (k, (root, more)) in enumerate(answers, start=1):
+            pieces[k] = root
+            counts += more
             progress(done, len(roots), None)
         interrupted = False
-    parts = [{name: begin[name][~undecided] for name in PIECES}, *pieces.values()]
-    out = without_time(earlier={name: np.concatenate([one[name] for one in parts]) for name in PIECES})
-    counts = {name: sum(int(one[name]) for one in pieces.values() if name in one) for name in COUNTS}
-    return out | counts | {"interrupted": interrupted or counts["interrupted"] > 0}
+    out = without_time(earlier=joined([begin.chosen(~undecided), *pieces.values()]))
+    out.looked_at, out.boxes, stopped = counts.tolist()
+    out.interrupted = interrupted or stopped > 0
+    return out
 
 
-def roots_of(of: DesignRange, pieces: Arrays, resolution: float) -> dict[int, Arrays]:
+def roots_of(of: DesignRange, pieces: Pieces, resolution: float) -> dict[int, Pieces]:
     """Deal undecided pieces out, the largest first; few ones are halved, where their halves are above the resolution.
 
     The core leaves pieces alone that are below it.
     """
     size = np.ptp(np.array(of.ranges), axis=1)
-    while 0 < len(pieces["low"]) < ROOTS:
-        parts: Floats = (pieces["high"] - pieces["low"]) / size
+    while 0 < len(pieces.low) < ROOTS:
+        parts: Floats = (pieces.high - pieces.low) / size
         wide = parts.max(axis=1) > 2.0 * max(resolution, 1e-9)
         if not wide.any():
             break
         row, column = np.flatnonzero(wide), parts.argmax(axis=1)[wide]
-        middle = 0.5 * (pieces["low"] + pieces["high"])[row, column]
-        upper = {name: values[wide] for name, values in pieces.items()}
-        upper["low"][np.arange(len(row)), column] = middle
-        lower = pieces | {"high": pieces["high"].copy()}
-        lower["high"][row, column] = middle
-        pieces = {name: np.concatenate([lower[name], upper[name]]) for name in pieces}
-    order = np.argsort(-np.prod(pieces["high"] - pieces["low"], axis=1), kind="stable")
-    count = min(len(order), ROOTS)
-    return {k: {name: values[order[k::ROOTS]] for name, values in pieces.items()} for k in range(count)}
+        middle = 0.5 * (pieces.low + pieces.high)[row, column]
+        upper, lower = pieces.chosen(wide), pieces._replace(high=pieces.high.copy())
+        upper.low[np.arange(len(row)), column] = middle
+        lower.high[row, column] = middle
+        pieces = joined([lower, upper])
+    order = np.argsort(-np.prod(pieces.high - pieces.low, axis=1), kind="stable")
+    return {k: pieces.chosen(order[k::ROOTS]) for k in range(min(len(order), ROOTS))}

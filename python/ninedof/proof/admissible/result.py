@@ -27,7 +27,6 @@ from ninedof.tables.html import Worded
 
 INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
 STATES = (INSIDE, OUTSIDE, UNDECIDED)
-PIECES = ("low", "high", "state", "demand", "poses")
 AROUND_BOXES = 1_000_000  # of poses: no time, so that the answer is the same on every machine
 ON_LIMIT, EASED_BOXES = 1e-6, AROUND_BOXES // 4  # of a limit: what the optimizer's designs on it may pass it by
 WIDER = 1e-3  # of each limit, where a design on one is asked how far it may go
@@ -196,20 +195,19 @@ class AdmissibleSet(Worded, Saved):
         progress_argument(progress)
 
         def room(of: DesignRange, boxes: int) -> tuple[Room, int]:
-            inside, low, high, broken, beyond, looked_at = _core.room_around(
-                of.for_core(), x, half, boxes=boxes, progress=progress
-            )
-            out = Room(zip(self.vary, zip(low, high, strict=True), strict=True)) if inside else Room()
+            found = _core.room_around(of.for_core(), x, half, boxes=boxes, progress=progress)
+            ends = list(zip(found.low, found.high, strict=True))
+            out = Room({name: ends[k] for k, name in enumerate(self.vary)} if found.found else {})
             last = "the other sides: the proportions are kept" if half else "what could be proved: more may be there"
-            if looked_at >= boxes:
+            if found.boxes >= boxes:
                 last = f"the search, after {boxes:,} boxes of poses: more may be there"
-            ends = [end for two in out.values() for end in two]
-            words = [
-                self._bound(k // 2, end) or (self._breaks(demand, at) if demand >= 0 else last)
-                for k, (end, (demand, at)) in enumerate(zip(ends, beyond if inside else (), strict=True))
-            ]
-            out.ended_by = dict(zip(out, zip(words[::2], words[1::2], strict=True), strict=True))
-            return out, broken
+
+            def words(k: int, side: int) -> str:
+                beyond = found.beyond[k][side]
+                return self._bound(k, ends[k][side]) or (self._breaks(beyond) if beyond.demand >= 0 else last)
+
+            out.ended_by = {name: (words(k, 0), words(k, 1)) for k, name in enumerate(out)}
+            return out, found.demand
 
         box, broken = room(self.of, AROUND_BOXES)
         if box:
@@ -251,18 +249,17 @@ class AdmissibleSet(Worded, Saved):
 
     def save_certificate(self, path: str | os.PathLike[str]) -> Path:
         """Write a file that `check_certificate` and the program ninedof_check replay: the question, boxes, reasons."""
-        shares = [self.shares[name] for name in STATES]
-        data = _core.design_certificate(self.of.for_core(), vars(self), self.demands, shares)
-        return write_whole(path_argument("path", path), data)
+        return write_whole(path_argument("path", path), _core.design_certificate(self.of.for_core(), self))
 
     def _bound(self, k: int, end: float) -> str:
         """Return the words for an end of a range; "" for another value."""
         own = self.of.ranges[k] == self.study.variables[self.vary[k]]
         return "" if end not in self.of.ranges[k] else "a bound of the study" if own else "an end of the range"
 
-    def _breaks(self, demand: int, at: _core.MetAt) -> str:
+    def _breaks(self, beyond: _core.BeyondSide) -> str:
+        at = beyond.at
         pose = _pose([at.pose, *at.shift, *at.tilt[:2], at.yaw])
-        return f"{self._limit(demand)}, at {pose.worded(self.study.unit)}"
+        return f"{self._limit(beyond.demand)}, at {pose.worded(self.study.unit)}"
 
     def _limit(self, demand: int) -> str:
         return " ".join(self.demands[demand]).strip().replace("_", " ")

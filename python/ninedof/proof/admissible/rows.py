@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
+from ninedof import _core
 from ninedof.design.actuators import LEG_KINDS, Actuator
 from ninedof.design.study import Study
-from ninedof.proof.design_range import LONGEST, UNDECIDED, design_range, existence
+from ninedof.proof.design_range import EXISTS, LONGEST, UNDECIDED, design_range
 from ninedof.support.arguments import finite, instance, whole
 from ninedof.support.arrays import MOST_THREADS
 from ninedof.support.running import Progress, part_of, progress_argument
@@ -91,8 +92,11 @@ def admissible_actuators(
         for n, ((kind, row), question) in enumerate(zip(rows, questions, strict=True)):
             seconds = max(end - perf_counter(), 0.0) / (len(rows) - n)
             words = part_of(progress, f"{row.name} for {kind} legs")
-            answer = existence(question, seconds=seconds, resolution=resolution, threads=threads, progress=words)
-            out.append(AdmissibleRow(kind, row, answer.state, answer.design))
+            answer = _core.any_admissible(
+                question.for_core(), seconds=seconds, resolution=resolution, threads=threads, progress=words
+            )
+            design = {name: answer.design[k] for k, name in enumerate(question.vary)}
+            out.append(AdmissibleRow(kind, row, answer.state, design if answer.state == EXISTS else None))
             if answer.interrupted:
                 break
         else:
