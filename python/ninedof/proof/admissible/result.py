@@ -195,19 +195,19 @@ class AdmissibleSet(Worded, Saved):
         progress_argument(progress)
 
         def room(of: DesignRange, boxes: int) -> tuple[Room, int]:
-            found = _core.room_around(of.for_core(), x, half, boxes=boxes, progress=progress)
-            ends = list(zip(found.low, found.high, strict=True))
-            out = Room({name: ends[k] for k, name in enumerate(self.vary)} if found.found else {})
+            answer = _core.room_around(of.for_core(), x, half, boxes=boxes, progress=progress)
+            ends = list(zip(answer.low, answer.high, strict=True))
+            out = Room({name: ends[k] for k, name in enumerate(self.vary)} if answer.found else {})
             last = "the other sides: the proportions are kept" if half else "what could be proved: more may be there"
-            if found.boxes >= boxes:
+            if answer.boxes >= boxes:
                 last = f"the search, after {boxes:,} boxes of poses: more may be there"
 
             def words(k: int, side: int) -> str:
-                beyond = found.beyond[k][side]
+                beyond = answer.beyond[k][side]
                 return self._bound(k, ends[k][side]) or (self._breaks(beyond) if beyond.demand >= 0 else last)
 
             out.ended_by = {name: (words(k, 0), words(k, 1)) for k, name in enumerate(out)}
-            return out, found.demand
+            return out, answer.demand
 
         box, broken = room(self.of, AROUND_BOXES)
         if box:
