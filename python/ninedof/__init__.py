@@ -42,6 +42,9 @@ class _Package(_ModuleType):
         if name not in __all__ or not isinstance(value, _ModuleType):
             super().__setattr__(name, value)
 
+    def __reduce__(self):  # cloudpickle, and so Dask, looks modules up by their type, and this is another one
+        return _import_module, (self.__name__,)
+
 
 _sys.modules[__name__].__class__ = _Package
 

@@ -8,6 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
+from ninedof.proof.machine import certify
 
 OWN = {
     "base_external_radius": 3.0,
@@ -134,7 +135,7 @@ def test_proofs_of_limits_of_the_design_hold_those_of_the_plates():
     study = study_with(TOOL)
     point = study.evaluate(general())
     values = general()
-    result = nd.proof.machine.certify(study, point.geometry, point.configurations, 1.3, time_limit=0.0)
+    result = certify(study, point.geometry, point.configurations, 1.3, time_limit=0.0)
     by_name = {(proof.name, proof.side): proof.value for proof in result.limits}
     joints = [
         [values[f"{t}_{i}_{axis}"] for axis in "xyz"] for t in ("base_external", "base_internal") for i in (1, 2, 3)

@@ -238,6 +238,20 @@ def test_figures_are_an_attribute_that_is_loaded_late(told):
         _ = nd.plott
 
 
+def test_a_function_of_a_script_that_names_the_package_goes_to_another_process():
+    """As Dask sends it: cloudpickle looks modules up by their type."""
+    pytest.importorskip("cloudpickle")
+    code = """
+import cloudpickle, pickle, sys, ninedof as nd
+def index(g, c):
+    return nd.condition_number(g, c)
+assert pickle.loads(cloudpickle.dumps(index)).__globals__["nd"] is nd
+print("the same")
+"""
+    result = run(code)
+    assert result.stdout == "the same\n", result.stderr
+
+
 def test_the_main_job_without_optional_packages(told):
     assert told["main job"] == "optimal"
 
