@@ -87,19 +87,22 @@ void bind_followed(py::module_& m) {
       .def_readonly("tracked", &Followed::tracked, "Poses from the first on that `track` returns.")
       .def_readonly("tracking_error", &Followed::tracking_error, "Of Q, and of p and O over the longest leg.");
   py::class_<LimitBreak>(m, "LimitBreak", "A stretch of time in which a limit is not kept.")
-      .def_readonly("limit", &LimitBreak::limit, "Its name, with the leg and the side.")
-      .def_readonly("begin", &LimitBreak::begin, "Time.")
-      .def_readonly("end", &LimitBreak::end, "Time.")
-      .def_readonly("worst", &LimitBreak::worst, "What is limited.")
+      .def_readonly("limit", &LimitBreak::limit,
+                    "\"l1 low\": the leg is shorter than its limit; \"q2 high\": longer; \"det B\": singular.")
+      .def_readonly("begin", &LimitBreak::begin, "Time, linear between the samples.")
+      .def_readonly("end", &LimitBreak::end, "Time, linear between the samples.")
+      .def_readonly("worst", &LimitBreak::worst,
+                    "The value that is limited; 0 for a determinant that changes its sign.")
       .def_readonly("at", &LimitBreak::at, "The time of the worst.");
   py::class_<DriveFigures>(m, "DriveFigures", "Greatest forces and powers of the legs over a motion, and their work.")
-      .def_readonly("push", &DriveFigures::push, "Shape (9,).")
-      .def_readonly("pull", &DriveFigures::pull, "Shape (9,).")
-      .def_readonly("rms", &DriveFigures::rms, "Of the force over time, shape (9,).")
-      .def_readonly("power", &DriveFigures::power, "Greatest, shape (9,).")
-      .def_readonly("braking", &DriveFigures::braking, "Greatest power back, shape (9,).")
-      .def_readonly("work", &DriveFigures::work, "Shape (9,).")
-      .def_readonly("returned", &DriveFigures::returned, "Work back, shape (9,).");
+      .def_readonly("push", &DriveFigures::push, "Greatest force that pushes, at least 0, shape (9,).")
+      .def_readonly("pull", &DriveFigures::pull, "Greatest force that pulls, at least 0, shape (9,).")
+      .def_readonly("rms", &DriveFigures::rms, "Root of the mean of force^2 over time, shape (9,).")
+      .def_readonly("power", &DriveFigures::power, "Greatest of force times rate, at least 0, shape (9,).")
+      .def_readonly("braking", &DriveFigures::braking, "Greatest of -force times rate, at least 0, shape (9,).")
+      .def_readonly("work", &DriveFigures::work, "Integral of the power where it is positive, shape (9,).")
+      .def_readonly("returned", &DriveFigures::returned,
+                    "Integral of the power back where it is negative, shape (9,).");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ py::tuple words(std::initializer_list<const char*> all) {
 void bind_tables(py::module_& m) {
   using Row = ConstraintInfo;
   py::class_<Row>(m, "ConstraintInfo", "A row of the table of constraints, or of criteria of workspaces.")
-      .def_readonly("name", &Row::name, "Of the limit.")
+      .def_readonly("name", &Row::name, "Name of the limit.")
       .def_property_readonly(
           "kind", [](const Row& row) { return to_string(row.kind); },
           "ratio, length, angle, sign, number, rate or power.")
@@ -56,7 +56,7 @@ void bind_tables(py::module_& m) {
   m.attr("constraint_table") = constraint_table();
   m.attr("criterion_table") = criterion_table();
   py::class_<VariableInfo>(m, "VariableInfo", "A variable of a design family.")
-      .def_readonly("name", &VariableInfo::name, "Of the variable.")
+      .def_readonly("name", &VariableInfo::name, "Name of the variable.")
       .def_property_readonly(
           "kind", [](const VariableInfo& v) { return to_string(v.kind); }, "length, coordinate or angle.")
       .def_readonly("low", &VariableInfo::low, "Default bound, in characteristic lengths or radians.")

@@ -100,10 +100,10 @@ void bind_answers(py::module_& m) {
       .def_readwrite("looked_at", &FoundSet::looked_at, "Boxes of designs.")
       .def_readwrite("boxes", &FoundSet::boxes, "Of poses, with a box of designs each.")
       .def_readwrite("interrupted", &FoundSet::interrupted, "By Ctrl-C.");
-  py::class_<DesignExistence> existence(m, "DesignExistence", "Whether any design of a box is inside.");
-  word_attribute(existence, "state", &DesignExistence::state, std::array{"exists", "none", "undecided"},
-                 "The first two are proved.");
-  existence.def_readonly("design", &DesignExistence::design, "One that exists, in the order of `varied`, then zeros.")
+  constexpr std::array states{"exists", "none", "undecided"};
+  py::class_<DesignExistence>(m, "DesignExistence", "Whether any design of a box is inside.")
+      .def_property_readonly("state", word_of(&DesignExistence::state, states), "The first two are proved.")
+      .def_readonly("design", &DesignExistence::design, "One that exists, in the order of `varied`, then zeros.")
       .def_readonly("looked_at", &DesignExistence::looked_at, "Boxes of designs.")
       .def_readonly("open", &DesignExistence::open, "Boxes of designs that are left.")
       .def_readonly("interrupted", &DesignExistence::interrupted, "By Ctrl-C.")
@@ -118,8 +118,8 @@ void bind_answers(py::module_& m) {
       .def_readonly("at", &DesignRoom::Beyond::at, "At which pose.");
   py::class_<DesignRoom>(m, "DesignRoom", "A box around a design, all of which is inside.")
       .def_readonly("found", &DesignRoom::found, "Not where the design breaks a limit, or nothing could be proved.")
-      .def_readonly("low", &DesignRoom::low, "In the order of `varied`, then zeros.")
-      .def_readonly("high", &DesignRoom::high, "The same.")
+      .def_readonly("low", &DesignRoom::low, "Lower ends of the box, in the order of `varied`, then zeros.")
+      .def_readonly("high", &DesignRoom::high, "Upper ends of the box, in the order of `varied`, then zeros.")
       .def_readonly("demand", &DesignRoom::demand, "Which the design breaks, proved; -1: none is known.")
       .def_readonly("beyond", &DesignRoom::beyond, "Of each variable below and above.")
       .def_readonly("boxes", &DesignRoom::boxes, "Of poses.");

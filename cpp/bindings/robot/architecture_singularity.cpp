@@ -7,12 +7,11 @@
 namespace ninedof::python {
 
 void bind_architecture_singularity(py::module_& m) {
-  py::class_<ArchitectureSingularity> nearest(m, "ArchitectureSingularity", "A design that is singular at every pose.");
-  word_attribute(nearest, "kind", &ArchitectureSingularity::kind,
-                 std::array{"lower_on_line", "upper_on_line", "base_in_point", "platform_in_point", "legs_coincide"},
-                 "Its class.");
-  nearest.def_readonly("leg", &ArchitectureSingularity::leg, "Of legs_coincide, from 0.")
-      .def_readonly("other", &ArchitectureSingularity::other, "The other one.")
+  constexpr std::array kinds{"lower_on_line", "upper_on_line", "base_in_point", "platform_in_point", "legs_coincide"};
+  py::class_<ArchitectureSingularity>(m, "ArchitectureSingularity", "A design that is singular at every pose.")
+      .def_property_readonly("kind", word_of(&ArchitectureSingularity::kind, kinds), "Its class.")
+      .def_readonly("leg", &ArchitectureSingularity::leg, "Of legs_coincide, the first external leg, from 0.")
+      .def_readonly("other", &ArchitectureSingularity::other, "Of legs_coincide, the second external leg, from 0.")
       .def_readonly("distance", &ArchitectureSingularity::distance, "Length by which a joint must move.")
       .def_readonly("relative", &ArchitectureSingularity::relative, "Over the longest side of a triangle of joints.");
   py::class_<SimilarTriangles>(m, "SimilarTriangles", "How far the external triangles are from similar ones.")

@@ -111,9 +111,8 @@ def ways_of(study: Study) -> Ways:
                 raise
             reason = str(error) if study.family in GAPS else ""
     try:
-        _core.any_admissible(
-            range_to_prove(study).for_core(), seconds=0.0
-        )  # raises where a limit has no bounds over boxes of designs
+        # Raises where a limit has no bounds over boxes of designs.
+        _core.any_admissible(range_to_prove(study).for_core(), seconds=0.0)
     except ValueError:
         if home is None:
             raise
