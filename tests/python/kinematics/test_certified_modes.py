@@ -101,6 +101,7 @@ def test_reference_cases(case):
         return
     assert proof.complete
     assert proof.proved == modes.count == case["count"]
+    assert proof.boxes > proof.proved or not proof.proved
     assert repr(modes).startswith(f"<{case['count']} assembly modes: {modes.status}, proved")
     for k in range(modes.count):
         errors = [

@@ -229,6 +229,16 @@ def test_what_a_certificate_proves_is_of_the_worst_pose(monkeypatch):
         assert failed(result, perturbations=0) == (set() if passed else {"bound: certificate"})
 
 
+def test_a_value_below_a_proved_bound_fails(paper):
+    """No design is below a bound, so a bound that is too high must fail."""
+    bound = nd.applicable_bounds(paper)[0]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(
+            check_module, "applicable_bounds", lambda _: [replace(bound, value=paper.condition_number * 1.001)]
+        )
+        assert failed(paper, perturbations=0) == {"bound: leg ratio"}
+
+
 def test_a_check_is_as_true_as_its_findings(paper):
     with pytest.raises(KeyError, match="there are design, "):
         check(paper, perturbations=0)["no such test"]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from design_set_oracle import DesignSetOracle
 from limit_oracle import limits_of, margins, robot_of
-from region_oracle import SPREADS, condition_margins, index_at
+from region_oracle import SPREADS, condition_margins, index_at, random_poses
 from region_poses import drawn
 from robots import NONPLANAR
 from scipy.spatial.transform import Rotation
@@ -245,6 +245,20 @@ def test_every_design_outside_breaks_the_limit_that_is_named_at_the_pose_that_is
             assert not 0.0 < variables["zs"] < variables["zp"]
         else:
             assert every[reason.limit].min() < ROUNDING, (reason, row)
+
+
+def test_designs_outside_by_a_spread_have_legs_of_such_lengths(case):
+    region = case.study.objective.region
+    if region is None:
+        return
+    rng = np.random.default_rng(4)
+    for row, which in zip(*drawn_in(case.outside, 80, rng), strict=True):
+        reason = case.reasons[which]
+        if reason.limit not in SPREADS:
+            continue
+        every, _ = everything(case.study, random_poses(region, 2000, rng, 1.0), variables_of(case, row))
+        # The worst pose is hardly drawn: most designs outside are far enough from the limit.
+        assert every[reason.limit].min() < 0.02, (reason, row)
 
 
 def test_a_limit_of_lengths_at_the_neutral_pose_is_of_that_pose():

@@ -75,6 +75,7 @@ def test_the_set_does_not_depend_on_the_workers_and_contradicts_no_other(name):
     assert told[-1] == (roots, roots, None)
     assert roots == ROOTS or name == "coarser than the roots"
     is_a_partition(found)
+    assert found.boxes > found.designs >= roots + (name == "condition number")  # of all workers
     alone = nd.admissible(study, vary, **options)
     assert found.shares["undecided"] <= 1.2 * alone.shares["undecided"] + 1e-3
     ends = np.array(found.of.ranges)

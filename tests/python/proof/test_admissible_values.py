@@ -1,4 +1,4 @@
-"""Sets of admissible designs at values that are known: the paper's class, lines of its closed form, 50 digits."""
+"""Sets of admissible designs at values that are known: the paper's class, lines of its closed form."""
 
 import math
 

@@ -25,6 +25,12 @@ def test_the_command_prints_and_records(command, tmp_path):
     assert load(tmp_path / "run").limits == (1.5, 2.0)
 
 
+def test_the_command_reports_an_infeasible_study(command):
+    status, out, _ = command("--against leg_ratio --value 0.5 --starts 16")
+    assert status == 3
+    assert "infeasible" in out
+
+
 @pytest.mark.slow(sanitized=True)
 def test_the_command_continues_after_an_interruption(command, tmp_path, monkeypatch):
     """The first time the second limit is cut short: what is solved is printed and kept, and drawn at the end."""

@@ -1,4 +1,4 @@
-"""Finished chunks survive SIGKILL, SIGINT and a full disk; names and links lead nowhere else.
+"""Finished chunks survive SIGKILL, Ctrl-C and a full disk; names and links lead nowhere else.
 
 What every run that is kept in pieces promises is in optimize/test_pieces.py.
 """
