@@ -39,7 +39,8 @@ def example(path: Path, pages: Path) -> str:
             printed = run([str(path), *(["--figure", str(figure)] if "--figure" in code else [])], folder)
         else:
             command = "ninedof " + ("optimize" if "[variables]" in code else "evaluate")
-            printed = run(["-m", *command.split(), str(path), *(QUICK if "optimize" in command else [])], folder)
+            quick = QUICK if "optimize" in command else ()
+            printed = run(["-m", *command.split(), str(path), *quick], folder, 3 if quick else 0)  # 3: no design
             draw(Path(folder, "run") if "optimize" in command else path, figure)
     picture = f"![{name}]({figure.name})\n\n" if figure.is_file() else ""
     code = f"```{language}\n{code}\n```\n\n```bash\n{command} {path.name}\n```\n\nIt prints\n\n"
@@ -49,8 +50,8 @@ def example(path: Path, pages: Path) -> str:
     return f"- [{name}](examples/{path.stem}.md)\n\n" + re.sub("^(?=.)", "  ", seen, flags=re.MULTILINE)
 
 
-def run(arguments: list[str], folder: str) -> str:
-    """Return what Python prints with these arguments, without the places of files."""
+def run(arguments: list[str], folder: str, status: int = 0) -> str:
+    """Return what Python prints with these arguments, without the places of files; it may end with a status."""
     done = subprocess.run(
         [sys.executable, *arguments],
         capture_output=True,
@@ -58,7 +59,7 @@ def run(arguments: list[str], folder: str) -> str:
         cwd=folder,
         env=os.environ | {"COLUMNS": "100", "NO_COLOR": "1", "PYTHONPATH": PACKAGE},
     )
-    if done.returncode not in (0, 3):  # 3: a study without a design
+    if done.returncode not in (0, status):
         raise RuntimeError(f"{' '.join(arguments)} ended with {done.returncode}: {done.stderr.strip()}")
     return re.sub(r"\n.*run folder .*", "", done.stdout.replace(folder, "")).rstrip()
 
