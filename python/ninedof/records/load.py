@@ -120,7 +120,8 @@ def design_and_result(run: object, name: str) -> tuple[Design, Result | None]:
         return run, None
     if isinstance(run, Front):
         points = "RUN" if name == "design" else name
-        raise ValueError(f"{name}: got a front, expected one of its points: {points}#1 to {points}#{len(run)}")
+        which = f": {points}#1 to {points}#{len(run)}" if len(run) else ""
+        raise ValueError(f"{name}: got a front{'' if which else ' without a point'}, expected one of its points{which}")
     if not isinstance(run, Result):
         what = shown(run) if name == "design" else "a run without a design"
         raise ValueError(f"{name}: got {what}, expected a design file, a Design or a run with a design")

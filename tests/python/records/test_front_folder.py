@@ -6,6 +6,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.optimize.pareto import solving
+from ninedof.records.load import design_and_result
 from ninedof.records.record import load_run as load
 
 
@@ -29,6 +30,12 @@ def test_the_command_reports_an_infeasible_study(command):
     status, out, _ = command("--against leg_ratio --value 0.5 --starts 16")
     assert status == 3
     assert "infeasible" in out
+
+
+def test_a_front_interrupted_before_its_first_point_has_none_to_choose():
+    front = nd.Front(nd.Study(), "leg_ratio", (), (), interrupted=True)
+    with pytest.raises(ValueError, match=r"^run: got a front without a point, expected one of its points$"):
+        design_and_result(front, "run")
 
 
 @pytest.mark.slow(sanitized=True)
