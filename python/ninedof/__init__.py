@@ -1,7 +1,6 @@
 """Kinematic design of the nine-degree-of-freedom redundant parallel manipulator of Zanganeh and Angeles.
 
-The public names are those of `__init__.pyi`. Each is loaded when it is first used: figures are in `ninedof.plot`, with
-matplotlib.
+A public name is loaded when it is first used; with figures, which are in `ninedof.plot`, matplotlib is.
 """
 
 from ninedof.support import starting as _starting  # noqa: F401  # first: signals while the rest is loaded
@@ -24,6 +23,7 @@ except ImportError as error:
         "install the package with `pip install .` from its source directory and import it from elsewhere"
     ) from error
 
+# The stub is the list of public names for people, type checkers and this file.
 _MODULES = ("plot", "poses")
 _PLACES = {
     one.name: line.module or ""
