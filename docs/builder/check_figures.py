@@ -1,4 +1,4 @@
-"""Check the figures of the pages: `python docs/builder/check_figures.py [PAGE...]`, two minutes for all.
+"""Check the figures of the pages: `python docs/builder/check_figures.py [PAGE...]`, four minutes for all.
 
 The commands and the Python of a page run as a reader would type them, and every line that the page shows must be
 printed, figure for figure. A figure of five digits or more between the blocks must be printed on some page, or stand in
