@@ -31,7 +31,7 @@ JOINTS = {
     "platform, internal": {"color": style.UPPER, "marker": "D", "ms": 3.2, "mec": "white", "mew": 0.4, "ls": ""},
 }
 MOST_LETTERS = 72  # of a line of the title
-FOUND = {  # marks of a limit with a design
+MARKS = {  # marks of a limit with a design
     "optimal": {"color": style.SERIES[0], "marker": "o"},
     "no better than a tighter limit": {"color": style.SERIES[0], "marker": "o", "mfc": "white"},
     "found, not an optimum": {"color": style.ALARM, "marker": "D"},
@@ -111,10 +111,10 @@ def _objective(axes: Any, rows: Sequence[Row], front: Front) -> None:
     axes.plot(x, y, color=style.SERIES[0], zorder=2)
     used = set()
     for row in solved_rows:
-        kind = list(FOUND)[2 if row["status"] != "optimal" else int(row["dominated"])]
-        mark = FOUND[kind] | {"mfc": "white"} if row["dominated"] else FOUND[kind]
+        kind = list(MARKS)[2 if row["status"] != "optimal" else int(row["dominated"])]
+        mark = MARKS[kind] | {"mfc": "white"} if row["dominated"] else MARKS[kind]
         axes.plot(row["limit"], row["objective"], **mark, ms=5, mew=1.1, zorder=4)
-        used |= {kind} | ({list(FOUND)[1]} if row["dominated"] else set())
+        used |= {kind} | ({list(MARKS)[1]} if row["dominated"] else set())
     axes.set_title(fill(f"{objective}: the least for each {'tolerance' if of_tolerances else 'limit'}", MOST_LETTERS))
     axes.set_ylabel(fill(objective if len(objective) < 70 else objective.split(" over ")[0], 34))
     if len(y):
@@ -124,8 +124,8 @@ def _objective(axes: Any, rows: Sequence[Row], front: Front) -> None:
         axes.set(ylim=(0.0, 1.0), yticks=[])
     bottom = axes.get_ylim()[0]
     axes.tick_params(labelbottom=False)
-    labels = {kind: kind.replace("tighter limit", "larger tolerance") if of_tolerances else kind for kind in FOUND}
-    keys = [style.key(**FOUND[kind], ls="", ms=5, mew=1.1, label=labels[kind]) for kind in FOUND if kind in used]
+    labels = {kind: kind.replace("tighter limit", "larger tolerance") if of_tolerances else kind for kind in MARKS}
+    keys = [style.key(**MARKS[kind], ls="", ms=5, mew=1.1, label=labels[kind]) for kind in MARKS if kind in used]
     for status, (marker, words) in NONE.items():
         without = [row["limit"] for row in rows if row["objective"] is None and row["status"] == status]
         cross = {"color": style.ALARM, "marker": marker, "ls": "", "ms": 8, "mec": "white"}

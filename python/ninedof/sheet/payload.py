@@ -139,8 +139,8 @@ def largest_payload(
     most_pull = leg_limits_argument("pull", force if pull is None else pull)
     count = whole("samples", samples, 1, MOST_SAMPLES)
     gravity, masses = duty.loads.gravity, masses_of(duty)
-    asked = [*rows, np.zeros(6)] if rows.any() else list(rows)
-    question = _core.SheetQuestion(g, c[0], loads=asked, gravity=gravity)
+    wrenches = [*rows, np.zeros(6)] if rows.any() else list(rows)
+    question = _core.SheetQuestion(g, c[0], loads=wrenches, gravity=gravity)
     if masses is not None:
         question.masses = masses_for_core(masses)
     at = duty.tool.seen(vector("centre", centre))
@@ -150,11 +150,11 @@ def largest_payload(
     if look is not None:
         look = look._replace(mean=np.nan, mean_error=np.nan)  # of the condition number, which is not asked for
     numbers = _core.sheet_numbers(question, c)
-    shares = numbers["payload"].reshape(len(c), len(asked), 2, 9)
+    shares = numbers["payload"].reshape(len(c), len(wrenches), 2, 9)
     shares, alone = shares[:, : len(rows)], float(shares[:, -1].max())
     most = float(shares.max())
     if most == np.inf:  # a limit is violated without a payload: where it is violated most
-        own = numbers["force"].reshape(len(c), len(asked), 9)[:, : len(rows)]
+        own = numbers["force"].reshape(len(c), len(wrenches), 9)[:, : len(rows)]
         shares = np.stack([own - push, -own - most_pull], axis=2)
     pose, load, side, leg = map(int, np.unravel_index(int(np.argmax(shares)), shares.shape))
     mass = _mass(most)
