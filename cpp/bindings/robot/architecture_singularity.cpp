@@ -16,12 +16,8 @@ void bind_architecture_singularity(py::module_& m) {
       .def_readonly("relative", &ArchitectureSingularity::relative, "Over the longest side of a triangle of joints.");
   py::class_<SimilarTriangles>(m, "SimilarTriangles", "How far the external triangles are from similar ones.")
       .def_readonly("dissimilarity", &SimilarTriangles::dissimilarity, "0 to 1.")
-      .def_property_readonly(
-          "rotations",
-          [](const SimilarTriangles& t) {
-            return array_from(std::vector<Mat3>(t.rotations.begin(), t.rotations.end()));
-          },
-          "At which they are as parallel as they can be, shape (2, 3, 3).");
+      .def_property_readonly("rotations", copy_of(&SimilarTriangles::rotations),
+                             "At which they are as parallel as they can be, shape (2, 3, 3).");
   m.def("nearest_architecture_singularity", &nearest_architecture_singularity);
   m.def("similar_triangles", &similar_triangles);
   m.def("homothety_residual",

@@ -2,6 +2,8 @@
 /// Lists of the core as arrays, and back.
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 #include "support/arrays.hpp"
 
@@ -36,7 +38,7 @@ inline Array array_from(const std::vector<Vec3>& points) {
 }
 
 /// Rotations as an array (n, 3, 3).
-inline Array array_from(const std::vector<Mat3>& rotations) {
+inline Array array_from(std::span<const Mat3> rotations) {
   Array out(std::vector<py::ssize_t>{std::ssize(rotations), 3, 3});
   double* to = out.mutable_data();
   for (const Mat3& q : rotations) to = write(q, to);

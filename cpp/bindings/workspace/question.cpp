@@ -26,9 +26,8 @@ void bind_domain(py::module_& m) {
   domain.def_readwrite("low", &WorkspaceDomain::low, "Corner of the box of positions.")
       .def_readwrite("high", &WorkspaceDomain::high, "The opposite corner.")
       .def_readwrite("position", &WorkspaceDomain::position, "Of orientations.")
-      .def_property(
-          "rotations", [](const WorkspaceDomain& d) { return array_from(d.rotations); }, &set_rotations,
-          "The one, the centre of the region, or the set.")
+      .def_property("rotations", copy_of(&WorkspaceDomain::rotations), &set_rotations,
+                    "The one, the centre of the region, or the set.")
       .def_readwrite("region", &WorkspaceDomain::region, "Of orientations.");
 }
 
