@@ -12,7 +12,7 @@ from ninedof.cli.app import app
 
 def all_commands() -> dict[str, Any]:
     """Return the commands by name, in the order of `ninedof --help`."""
-    return dict(typer.main.get_command(app()).commands)  # type: ignore[attr-defined]
+    return dict(typer.main.get_group(app()).commands)
 
 
 def pages() -> dict[str, str]:
