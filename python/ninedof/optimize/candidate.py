@@ -22,6 +22,7 @@ from ninedof.support.text import short_repr
 
 ROBOT = ("geometry", "configuration", "configurations")  # those of a candidate
 DENSE = 100_000  # poses of a dense search
+LEFT = 1e-6  # of the objective
 PASSED = 1e-7  # by which a limit or the index may be exceeded between the poses, relative
 
 
@@ -193,6 +194,11 @@ class RegionReport:
     def keeps_limits(self) -> bool:
         """Whether no limit is violated by more than 1e-7 of it, as far as a dense search of the region shows."""
         return self.looked_at >= DENSE and self.margin >= -PASSED
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether limits are kept and next to nothing is left to gain: then the objective is that of the region."""
+        return self.keeps_limits and self.gain <= LEFT
 
     @property
     def words(self) -> str:

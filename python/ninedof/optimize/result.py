@@ -149,8 +149,8 @@ class Result(OfStudy):
     @property
     def words(self) -> str:
         """Name of `objective`: that of the study, or that at a few poses of a region which does not keep it between."""
-        over, stopped = self.region, self.status == Status.STOPPED
-        if over is None or (over.looked_at > 0 and not (stopped and (over.gain > 1e-6 or not over.keeps_limits))):
+        over = self.region
+        if over is None or (over.looked_at > 0 and (self.status != Status.STOPPED or over.is_settled)):
             return self.study.words
         return self.study.objective.worded(self.study.unit, len(self.solved.objective.poses))
 
